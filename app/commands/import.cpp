@@ -68,7 +68,10 @@ struct DayArguments {
 int importCampaign(const DayArguments& arguments) {
   if (!arguments.replace) requireNoCampaign(arguments.out, "expected another folder, or --replace to write over it");
   const interchange::ImportedDay day = interchange::importDay(arguments.day);
+  std::error_code none;
   printWarnings(day.warnings);
+  // What was measured is never written over, wherever DAY.xml stands.
+  for (const auto& file : std::filesystem::directory_iterator(arguments.out, none)) io::requireNotRead(file.path());
   const reports::Json origins = reports::importJson(day);
   campaign::writeCampaign(day.campaign, day.urdf, arguments.out, {{"import.json", origins.dump(1) + '\n'}});
   deliver([&] { return origins; },
@@ -88,14 +91,15 @@ void addCampaign(CLI::App& import, Run& run) {
   command->callback([arguments, &run] { run = [arguments] { return importCampaign(*arguments); }; });
 }
 
-/// A new file in a folder, which is made where absent.
-int writeNew(const std::string& folder, const std::string& name, std::vector<io::FileToWrite> files) {
-  const std::filesystem::path file = std::filesystem::path(folder) / name;
-  std::error_code error;
-  if (std::filesystem::exists(file, error))
-    throw std::runtime_error(file.string() + ": not written: it is there already");
+/// New files in a folder, which is made where absent; the first is to be filled in.
+int writeNew(const std::filesystem::path& folder, const std::vector<io::FileToWrite>& files) {
+  for (const io::FileToWrite& file : files) {
+    std::error_code error;
+    if (std::filesystem::exists(folder / file.name, error))
+      throw std::runtime_error((folder / file.name).string() + ": not written: it is there already");
+  }
   io::writeFolderWhole(folder, files);
-  std::printf("%s: written, to be filled in\n", file.c_str());
+  std::printf("%s: written, to be filled in\n", (folder / files.front().name).c_str());
   return kDone;
 }
 
@@ -111,7 +115,7 @@ void addTemplate(CLI::App& import, Run& run) {
   command->callback([arguments, &run] {
     run = [arguments] {
       const interchange::Maker maker = interchange::makerNamed(arguments->maker, "--maker");
-      return writeNew(arguments->folder, "DAY.xml", {{"DAY.xml", interchange::dayTemplate(maker)}});
+      return writeNew(arguments->folder, {{"DAY.xml", interchange::dayTemplate(maker)}});
     };
   });
 }
@@ -133,9 +137,14 @@ void addInit(CLI::App& app, Run& run) {
     run = [arguments] {
       // A chain that no command could read is said now.
       robot::readUrdf(arguments->urdf, arguments->base, arguments->flange);
-      return writeNew(arguments->folder, "campaign.xml",
-                      {{"robot.urdf", io::readTextFile(arguments->urdf, io::kLargestXml)},
-                       {"campaign.xml", interchange::campaignTemplate(arguments->base, arguments->flange)}});
+      std::vector<io::FileToWrite> files{
+          {"campaign.xml", interchange::campaignTemplate(arguments->base, arguments->flange)}};
+      // A URDF that is there under its name stays.
+      std::error_code none;
+      const std::filesystem::path copy = std::filesystem::path(arguments->folder) / "robot.urdf";
+      if (!std::filesystem::equivalent(arguments->urdf, copy, none))
+        files.emplace_back("robot.urdf", io::readTextFile(arguments->urdf, io::kLargestXml));
+      return writeNew(arguments->folder, files);
     };
   });
 }

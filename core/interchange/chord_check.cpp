@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <set>
 
 #include "core/campaign/joint_reading.h"
 #include "core/robot/kinematics.h"
@@ -21,6 +22,17 @@ struct ReflectorPlaces {
   std::vector<Eigen::Vector3d> points;
 };
 
+/// Postures that differ; load steps repeat one.
+std::size_t posturesOf(const std::vector<const PlacedReading*>& readings) {
+  std::set<std::array<double, 6>> postures;
+  for (const PlacedReading* reading : readings) {
+    std::array<double, 6> figures{};
+    Vector6d::Map(figures.data()) = reading->figures;
+    postures.insert(figures);
+  }
+  return postures.size();
+}
+
 std::vector<ReflectorPlaces> placesOf(const robot::Robot& robot, const campaign::JointConvention& convention,
                                       const std::vector<PlacedReading>& readings) {
   std::map<int, std::vector<const PlacedReading*>> by_target;
@@ -28,7 +40,7 @@ std::vector<ReflectorPlaces> placesOf(const robot::Robot& robot, const campaign:
   constexpr std::size_t kMost = 40, kFewest = 6;
   std::vector<ReflectorPlaces> all;
   for (const auto& [target, own] : by_target) {
-    if (own.size() < kFewest) continue;
+    if (posturesOf(own) < kFewest) continue;
     const std::size_t count = std::min(kMost, own.size());
     ReflectorPlaces places;
     for (std::size_t i = 0; i < count; ++i) {
@@ -163,19 +175,23 @@ std::optional<double> chordMisfit(const robot::Robot& robot, const std::vector<c
   return misfitOf(places, scale);
 }
 
-std::optional<OtherMeaning> bestOtherMeaning(const robot::Robot& robot,
-                                             const std::vector<campaign::JointReading>& convention,
-                                             const std::vector<PlacedReading>& readings) {
-  std::optional<OtherMeaning> best;
+std::vector<OtherMeaning> otherMeanings(const robot::Robot& robot,
+                                        const std::vector<campaign::JointReading>& convention,
+                                        const std::vector<PlacedReading>& readings) {
+  std::vector<OtherMeaning> meanings;
   for (const Trial& trial : trialsOf(convention)) {
-    auto misfit = chordMisfit(robot, trial.convention, readings, trial.scale);
-    if (!misfit) continue;
-    // Of points too long by a factor the misfit would be too.
-    if (best && best->misfit <= *misfit) continue;
-    best = trial.meaning;
-    best->misfit = *misfit;
+    const auto misfit = chordMisfit(robot, trial.convention, readings, trial.scale);
+    if (!misfit) return {};
+    meanings.push_back(trial.meaning);
+    meanings.back().misfit = *misfit;
   }
-  return best;
+  std::stable_sort(meanings.begin(), meanings.end(),
+                   [](const OtherMeaning& a, const OtherMeaning& b) { return a.misfit < b.misfit; });
+  // What is a micrometre off is right, whatever the fit of the reflector leaves.
+  constexpr double kAsWell = 2.0, kRight = 1e-6;
+  const double most = std::max(kAsWell * meanings.front().misfit, kRight);
+  std::erase_if(meanings, [most](const OtherMeaning& one) { return one.misfit > most; });
+  return meanings;
 }
 
 }  // namespace stiffscope::interchange

@@ -23,7 +23,7 @@ struct PlacedReading {
 std::optional<double> chordMisfit(const robot::Robot& robot, const std::vector<campaign::JointReading>& convention,
                                   const std::vector<PlacedReading>& readings, double scale = 1.0);
 
-/// Of what else the figures or the points could mean, the one that fits best.
+/// What else the figures or the points could mean.
 struct OtherMeaning {
   enum class Kind { sign, coupling, offset, unit };
   Kind kind = Kind::sign;
@@ -34,9 +34,11 @@ struct OtherMeaning {
 };
 
 /// Tries each joint's other sign, each joint plus or without the one before it, offsets of a quarter and half a turn,
-/// and other units of length, one at a time.
-std::optional<OtherMeaning> bestOtherMeaning(const robot::Robot& robot,
-                                             const std::vector<campaign::JointReading>& convention,
-                                             const std::vector<PlacedReading>& readings);
+/// and other units of length, one at a time. Returns the one that fits best and those that fit as well (up to twice its
+/// misfit), best first: of a spherical wrist the other sign of joint 5 is half a turn of joint 4. Empty where no
+/// reflector was read in six postures.
+std::vector<OtherMeaning> otherMeanings(const robot::Robot& robot,
+                                        const std::vector<campaign::JointReading>& convention,
+                                        const std::vector<PlacedReading>& readings);
 
 }  // namespace stiffscope::interchange

@@ -85,18 +85,23 @@ char separatorOf(const FileText& text, const std::vector<TextLine>& lines, std::
   if (named == "blank") return kBlanks;
   if (named.size() == 1) return named[0];
   if (!named.empty()) throw io::InputError({"separator"}, named, "expected one character, tab or blank");
-  std::vector<char> fitting;
+  // A torn row among the first must not choose another separator.
+  char best = ',';
+  std::ptrdiff_t most = 0;
   for (const char one : {';', '\t', ',', kBlanks}) {
     if (one == ',' && text.options.decimal_comma) continue;
     const auto count = [one](const TextLine& line) {
       return one == kBlanks ? cellsBetweenBlanks(line.text, 1).size() : cellsBetween(line.text, one).size();
     };
-    const bool fits = std::all_of(lines.begin(), lines.end(), [&](const TextLine& line) {
+    const auto fitting = std::count_if(lines.begin(), lines.end(), [&](const TextLine& line) {
       return columns == 0 ? count(line) > 1 : count(line) >= columns && (one != kBlanks || count(line) == columns);
     });
-    if (fits) fitting.push_back(one);
+    if (fitting > most) {
+      best = one;
+      most = fitting;
+    }
   }
-  return fitting.empty() ? ',' : fitting.front();
+  return best;
 }
 
 }  // namespace
@@ -118,8 +123,11 @@ ColumnTable::ColumnTable(const FileText& text) : text_(text) {
   } else {
     separator_ = separatorOf(text, {first.front()}, 0);
     std::vector<std::string> names;
-    for (const std::string_view cell : cellsOf(first.front().text))
-      names.push_back(isKnownColumn(std::string(cell)) ? std::string(cell) : "-");
+    for (const std::string_view cell : cellsOf(first.front().text)) {
+      const bool known = isKnownColumn(std::string(cell));
+      names.push_back(known ? std::string(cell) : "-");
+      if (!known && !cell.empty()) unread_.emplace_back(cell);
+    }
     setColumns(names, first.front().number);
     from = 1;
   }
@@ -176,6 +184,24 @@ bool ColumnTable::hasNumbers(const std::vector<std::string>& quantities) const {
   return std::all_of(quantities.begin(), quantities.end(), [&](const std::string& one) { return hasNumber(one); });
 }
 
+bool ColumnTable::hasAllOrNone(const std::vector<std::string>& quantities) const {
+  const auto missing =
+      std::find_if(quantities.begin(), quantities.end(), [&](const std::string& one) { return !hasNumber(one); });
+  if (missing == quantities.end()) return true;
+  const bool none =
+      std::none_of(quantities.begin(), quantities.end(), [&](const std::string& one) { return hasNumber(one); });
+  if (!none)
+    throw io::InputError({text_.file, 0, "columns"}, *missing,
+                         fmt::format("expected {} all or none, each with its unit", fmt::join(quantities, ", ")));
+  return false;
+}
+
+std::vector<std::string> ColumnTable::warnings() const {
+  if (unread_.empty()) return {};
+  return {io::inputMessage({text_.file, text_.options.skip + 1, ""}, "",
+                           fmt::format("columns that are not read: {}", fmt::join(unread_, ", ")))};
+}
+
 std::string ColumnTable::text(const Row& row, const std::string& column) const {
   const auto place = places_.find(column);
   return place == places_.end() ? std::string() : std::string(row.cells[place->second]);
@@ -222,9 +248,10 @@ PointFile readPointColumns(const FileText& text) {
   if (!table.hasNumbers({"x", "y", "z"}))
     throw io::InputError({text.file, 0, "columns"}, text.options.columns,
                          "expected x, y and z with their unit, as x_mm y_mm z_mm");
-  const bool sigmas = table.hasNumbers({"ux", "uy", "uz"});
+  const bool sigmas = table.hasAllOrNone({"ux", "uy", "uz"});
   PointFile points;
   points.format = PointFormat::columns;
+  points.warnings = table.warnings();
   for (const ColumnTable::Row& row : table.rows()) {
     PointReading point;
     point.line = row.line;
@@ -232,14 +259,18 @@ PointFile readPointColumns(const FileText& text) {
     point.group = table.text(row, "group");
     point.name = table.has("target") ? table.text(row, "target") : table.text(row, table.has("nest") ? "nest" : "name");
     point.point = {table.number(row, "x"), table.number(row, "y"), table.number(row, "z")};
-    if (sigmas)
-      point.sigma = Eigen::Vector3d(table.number(row, "ux"), table.number(row, "uy"), table.number(row, "uz"));
-    point.time = table.time(row);
-    if (isLostBeam(point.point)) {
-      points.skipped.push_back({row.line, Skip::lost_beam});
-    } else {
-      points.points.push_back(std::move(point));
+    if (sigmas) {
+      const Eigen::Vector3d sigma(table.number(row, "ux"), table.number(row, "uy"), table.number(row, "uz"));
+      if (sigma.minCoeff() < 0.0)
+        throw io::InputError({text.file, row.line, "ux uy uz"}, fmt::format("{:g}", sigma.minCoeff()),
+                             "expected standard uncertainties, not below zero");
+      if (!sigma.isZero(0.0)) point.sigma = sigma;
     }
+    point.time = table.time(row);
+    for (const char* column : {"pose", "step", "repeat", "axis", "index"}) {
+      if (table.has(column)) point.columns[column] = table.text(row, column);
+    }
+    points.points.push_back(std::move(point));
   }
   return points;
 }

@@ -32,6 +32,11 @@ class ColumnTable {
   double number(const Row& row, const std::string& quantity) const;
   bool hasNumber(const std::string& quantity) const { return numbers_.contains(quantity); }
   bool hasNumbers(const std::vector<std::string>& quantities) const;
+  /// Whether the table has them. Throws InputError where it has some of them only.
+  bool hasAllOrNone(const std::vector<std::string>& quantities) const;
+
+  /// What the header line names and is not read.
+  std::vector<std::string> warnings() const;
 
   /// The cell of a column of names; empty where there is no such column.
   std::string text(const Row& row, const std::string& column) const;
@@ -53,12 +58,13 @@ class ColumnTable {
   void addRow(const TextLine& line);
   std::vector<std::string_view> cellsOf(std::string_view line) const;
 
-  const FileText& text_;
+  const FileText text_;
   char separator_ = ',';
   std::size_t columns_ = 0;
   std::map<std::string, std::size_t> places_;    ///< of columns of names, and all by their full name
   std::map<std::string, NumberColumn> numbers_;  ///< by the name without its unit
   std::vector<Row> rows_;
+  std::vector<std::string> unread_;
 };
 
 }  // namespace stiffscope::interchange

@@ -94,14 +94,15 @@ PointsSource readPointsSource(const io::XmlNode& node, JoinBy by, std::vector<st
   if (const auto format = node.attribute("format"))
     source.options.format = static_cast<PointFormat>(named(node, "format", *format, kPointFormatNames));
   source.pose = node.attribute("pose").value_or("");
-  source.step = node.attribute("step").value_or("");
+  source.step = std::to_string(wholeNumber(node, "step"));
+  if (!node.has("step")) source.step.clear();
+  if (node.has("axis") && source.role != Role::circle_sweeps)
+    node.refuse("axis", node.requiredAttribute("axis"), "expected no axis: only in circle_sweeps does one axis turn");
   if (node.has("axis")) {
     const std::size_t axis = wholeNumber(node, "axis");
     if (axis < 1 || axis > 6) node.refuse("axis", node.requiredAttribute("axis"), "expected an axis, 1 to 6");
     source.axis = static_cast<int>(axis) - 1;
   }
-  if (source.role == Role::circle_sweeps && source.axis < 0 && !source.names.has("axis"))
-    node.refuse("axis", "", "expected the axis that turns, or {axis} in the attribute names");
   for (const std::string_view one : cellsBetweenBlanks(node.attribute("only").value_or(""), 1))
     source.only.emplace_back(one);
   constexpr std::array<const char*, 2> kFrames{"tracker", "base_link"};

@@ -68,6 +68,9 @@ struct DayDescription {
   std::vector<LoadsSource> loads;
   std::map<std::string, std::string> target_names;  ///< as files name them, and as the campaign does
   ClockOptions clock;
+
+  /// A file beside DAY.xml, for messages and to be opened.
+  std::string pathOf(const std::string& name) const { return (folder / name).string(); }
 };
 
 /// Reads DAY.xml. Throws InputError, with line, attribute and value, for what it must not say; whether the files are

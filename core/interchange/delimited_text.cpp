@@ -23,19 +23,15 @@ std::string_view unquoted(std::string_view cell) {
 
 }  // namespace
 
-std::vector<TextLine> linesOf(std::string_view text) {
-  std::vector<TextLine> lines;
-  for (std::size_t number = 1; !text.empty(); ++number) {
-    const std::size_t end = text.find_first_of("\r\n");
-    if (end == std::string_view::npos) {
-      lines.push_back({text, number, false});
-      break;
-    }
-    lines.push_back({text.substr(0, end), number, true});
-    const bool both = text[end] == '\r' && end + 1 < text.size() && text[end + 1] == '\n';
-    text.remove_prefix(end + (both ? 2 : 1));
-  }
-  return lines;
+LinesOfText::Iterator& LinesOfText::Iterator::operator++() {
+  at_end_ = rest_.empty();
+  if (at_end_) return *this;
+  const std::size_t end = rest_.find_first_of("\r\n");
+  const bool ended = end != std::string_view::npos;
+  line_ = {rest_.substr(0, end), line_.number + 1, ended};
+  const bool both = ended && rest_[end] == '\r' && end + 1 < rest_.size() && rest_[end + 1] == '\n';
+  rest_.remove_prefix(ended ? end + (both ? 2 : 1) : rest_.size());
+  return *this;
 }
 
 std::string_view trimmed(std::string_view text) {

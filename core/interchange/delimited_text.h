@@ -14,8 +14,34 @@ struct TextLine {
   bool ended = true;       ///< false: the file stops behind it
 };
 
-/// All lines, blank ones too; they end with LF, CRLF or CR.
-std::vector<TextLine> linesOf(std::string_view text);
+/// All lines of a text, blank ones too, one after the other: a file of 100 MB may have fifty million. They end with LF,
+/// CRLF or CR.
+class LinesOfText {
+ public:
+  explicit LinesOfText(std::string_view text) : text_(text) {}
+
+  struct End {};
+  class Iterator {
+   public:
+    explicit Iterator(std::string_view text) : rest_(text) { ++*this; }
+    const TextLine& operator*() const { return line_; }
+    Iterator& operator++();
+    bool operator==(End) const { return at_end_; }
+
+   private:
+    std::string_view rest_;
+    TextLine line_;
+    bool at_end_ = false;
+  };
+
+  Iterator begin() const { return Iterator(text_); }
+  End end() const { return {}; }
+
+ private:
+  std::string_view text_;
+};
+
+inline LinesOfText linesOf(std::string_view text) { return LinesOfText(text); }
 
 /// Without blanks at both ends; tabs and the no-break space are blanks.
 std::string_view trimmed(std::string_view text);

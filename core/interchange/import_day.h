@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/campaign/campaign.h"
+#include "core/interchange/day_files.h"
 #include "core/interchange/state_join.h"
 
 namespace stiffscope::interchange {
@@ -15,15 +16,6 @@ namespace stiffscope::interchange {
 struct RowOrigin {
   std::size_t file = 0;  ///< of ImportedDay::files
   std::size_t line = 0, last_line = 0;
-};
-
-/// A file that was read.
-struct ImportedFile {
-  std::string name;    ///< as DAY.xml has it
-  std::string role;    ///< loading, circle_sweeps, wrist_sweep, nests, log, loads, day, urdf
-  std::string format;  ///< empty: of DAY.xml and the URDF
-  std::string encoding;
-  std::string sha256;
 };
 
 struct SkippedOrigin {
@@ -37,12 +29,14 @@ struct ImportedDay {
   std::filesystem::path urdf;
   std::vector<ImportedFile> files;
   std::map<std::string, std::vector<RowOrigin>> rows;  ///< by table; of states: the log's lines
+  std::vector<RowOrigin> wrenches;  ///< of each row of states, where a file of loads has them; else empty
   std::vector<SkippedOrigin> skipped;
   std::vector<ClockReport> clocks;
   std::vector<std::string> warnings;
   std::map<std::string, double> misfit;  ///< by table, m: chord_check.h
   std::string start;  ///< the tracker's date and time at time_s = 0, ISO 8601; empty where its times have no date
-  std::optional<double> stated_over_declared;  ///< the files' uncertainties over the declared noise, median
+  std::optional<double> stated_sigma;          ///< m, median of the files' standard uncertainties, rms of x, y, z
+  std::optional<double> stated_over_declared;  ///< the same over the noise declared of the tracker, median
 };
 
 /// Reads DAY.xml and every file it names, and joins them. Nothing is written. Throws InputError for anything that

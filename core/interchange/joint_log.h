@@ -22,6 +22,7 @@ inline const char* nameOf(LogFormat format) { return kLogFormatNames[static_cast
 struct JointSample {
   std::string name;                     ///< of a taught target, or the row's pose; empty of a log by time
   std::string step;                     ///< where the table names load steps
+  std::string axis;                     ///< where the table names the axis that turns
   std::optional<double> time_s;         ///< by the robot's clock
   Vector6d figures = Vector6d::Zero();  ///< as the controller states them, rad
   std::optional<Vector6d> wrench;       ///< force (N), moment (Nm), where the table has them

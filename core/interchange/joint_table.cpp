@@ -57,16 +57,15 @@ std::optional<double> timeUnit(const std::string& name, LogFormat format) {
 }
 
 JointHeader jointHeaderOf(const LogText& text, LogFormat format) {
-  const std::vector<TextLine> lines = linesOf(text.text);
-  for (std::size_t i = text.options.table.skip; i < lines.size(); ++i) {
-    if (trimmed(lines[i].text).empty()) continue;
+  for (const TextLine& line : linesOf(text.text)) {
+    if (line.number <= text.options.table.skip || trimmed(line.text).empty()) continue;
     for (const char separator : {';', ',', '\t', ' '}) {
       if (format == LogFormat::fanuc_karel && separator != ';') continue;
       JointHeader header;
-      header.line = lines[i].number;
+      header.line = line.number;
       header.separator = separator;
       std::vector<std::string> cells;
-      for (const std::string_view cell : logCells(lines[i].text, separator)) cells.push_back(lowered(cell));
+      for (const std::string_view cell : logCells(line.text, separator)) cells.push_back(lowered(cell));
       header.cells = cells.size();
       for (std::size_t k = 0; k < cells.size() && !header.time; ++k) {
         const auto unit = timeUnit(cells[k], format);
@@ -133,14 +132,16 @@ RobotLog readJointColumns(const LogText& text) {
   if (!table.hasNumbers({"q1", "q2", "q3", "q4", "q5", "q6"}))
     throw io::InputError({text.file, 0, "columns"}, text.options.table.columns,
                          "expected q1 to q6 with their unit, as q1_deg");
-  const bool wrench = table.hasNumbers({"fx", "fy", "fz", "mx", "my", "mz"});
+  const bool wrench = table.hasAllOrNone({"fx", "fy", "fz", "mx", "my", "mz"});
   RobotLog log;
   log.format = LogFormat::columns;
+  log.warnings = table.warnings();
   for (const ColumnTable::Row& row : table.rows()) {
     JointSample sample;
     sample.line = row.line;
     sample.name = table.text(row, table.has("pose") ? "pose" : table.has("index") ? "index" : "name");
     sample.step = table.text(row, "step");
+    sample.axis = table.text(row, "axis");
     for (int j = 0; j < 6; ++j) sample.figures[j] = table.number(row, fmt::format("q{}", j + 1));
     if (const auto time = table.time(row)) sample.time_s = time->seconds;
     if (table.hasNumber("temperature")) sample.temperature_c = table.number(row, "temperature");

@@ -147,13 +147,13 @@ void placeColumns(LeicaHeader& header) {
 /// The first line, of those a program may write above it, that names x, y and z with units.
 LeicaHeader leicaHeaderOf(const FileText& text) {
   constexpr std::size_t kMostAbove = 30;
-  const std::vector<TextLine> lines = linesOf(text.text);
-  for (std::size_t i = 0; i < std::min(lines.size(), kMostAbove + text.options.skip); ++i) {
+  for (const TextLine& line : linesOf(text.text)) {
+    if (line.number > kMostAbove + text.options.skip) break;
     for (const char separator : {';', '\t', ','}) {
       LeicaHeader header;
-      header.line = lines[i].number;
+      header.line = line.number;
       header.separator = separator;
-      for (const std::string_view cell : cellsBetween(lines[i].text, separator))
+      for (const std::string_view cell : cellsBetween(line.text, separator))
         header.columns.push_back(columnNamed(cell));
       placeColumns(header);
       if (header.whole(header.coordinates)) return header;
@@ -236,12 +236,7 @@ PointFile readLeica(const FileText& text) {
       throw io::InputError({text.file, line.number, ""}, fmt::format("{} cells", cells.size()),
                            fmt::format("expected {} cells, as the header has{}", header.columns.size(), why));
     }
-    const PointReading point = leicaPoint(text, header, cells, line.number);
-    if (isLostBeam(point.point)) {
-      points.skipped.push_back({line.number, Skip::lost_beam});
-    } else {
-      points.points.push_back(point);
-    }
+    points.points.push_back(leicaPoint(text, header, cells, line.number));
   }
   return points;
 }

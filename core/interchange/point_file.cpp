@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <tuple>
 
@@ -90,6 +91,32 @@ void countOccurrences(PointFile& points) {
   for (PointReading& point : points.points) point.occurrence = ++seen[{point.collection, point.group, point.name}];
 }
 
+/// Rows of exactly 0 0 0: there the tracker itself stands. They count as occurrences, so that the next reading of that
+/// name keeps its own. SpatialAnalyzer writes no lost beams; there 0 0 0 is a constructed point, the origin.
+void takeLostBeamsOut(PointFile& points) {
+  if (points.format == PointFormat::sa) return;
+  const auto lost = std::stable_partition(points.points.begin(), points.points.end(),
+                                          [](const PointReading& point) { return !point.point.isZero(0.0); });
+  points.lost.assign(std::make_move_iterator(lost), std::make_move_iterator(points.points.end()));
+  points.points.erase(lost, points.points.end());
+  for (const PointReading& point : points.lost) points.skipped.push_back({point.line, Skip::lost_beam});
+  std::stable_sort(points.skipped.begin(), points.skipped.end(),
+                   [](const SkippedRow& a, const SkippedRow& b) { return a.line < b.line; });
+}
+
+/// What the user says of a file must be of use in its format: another unit would make other numbers.
+void requireOptionsOf(PointFormat format, const FileText& text) {
+  const FileOptions& options = text.options;
+  const bool own_units =
+      format == PointFormat::leica || format == PointFormat::openindy || format == PointFormat::columns;
+  if (!options.unit.empty() && own_units)
+    throw io::InputError({text.file, 0, "unit"}, options.unit,
+                         fmt::format("expected no unit: files of format {} state their own", nameOf(format)));
+  if (!options.separator.empty() && format != PointFormat::columns)
+    throw io::InputError({text.file, 0, "separator"}, options.separator,
+                         fmt::format("expected no separator: that of format {} is known", nameOf(format)));
+}
+
 /// A name that a table could not hold again is no name.
 void requireNames(const std::string& file, const PointFile& points) {
   constexpr std::size_t kLongest = 200;
@@ -120,7 +147,9 @@ void requireNear(const std::string& file, const PointFile& points) {
 PointFile parsePointFile(const std::string& file, std::string_view bytes, const FileOptions& options) {
   const DecodedText decoded = decodeText(file, bytes, options.encoding);
   const FileText text{file, decoded.text, options};
-  PointFile points = readAs(formatOf(text), text);
+  const PointFormat format = formatOf(text);
+  requireOptionsOf(format, text);
+  PointFile points = readAs(format, text);
   points.encoding = decoded.encoding;
   if (points.points.empty() && points.skipped.empty())
     throw io::InputError({file, 0, ""}, "", "expected points; there are none");
@@ -130,6 +159,7 @@ PointFile parsePointFile(const std::string& file, std::string_view bytes, const 
   requireNames(file, points);
   requireNear(file, points);
   countOccurrences(points);
+  takeLostBeamsOut(points);
   return points;
 }
 

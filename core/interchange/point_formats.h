@@ -8,7 +8,7 @@
 #include "core/interchange/point_reading.h"
 
 // The formats of points, one source each. `looksLike...` judges how a text is built; `read...` throws InputError where
-// a row is not as the format has it. Occurrences are counted by the caller.
+// a row is not as the format has it. Occurrences are counted, and lost beams taken out, by the caller.
 
 namespace stiffscope::interchange {
 
@@ -44,8 +44,5 @@ PointFile readSemicolonXyz(const FileText& text);
 /// A table whose columns the user names, or whose header line has such names.
 bool hasColumnHeader(const FileText& text);
 PointFile readPointColumns(const FileText& text);
-
-/// Coordinates of exactly 0 0 0: there the tracker itself stands.
-inline bool isLostBeam(const Eigen::Vector3d& point) { return point.isZero(0.0); }
 
 }  // namespace stiffscope::interchange

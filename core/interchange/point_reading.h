@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,6 +26,7 @@ struct PointReading {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< m, in the file's frame
   std::optional<Eigen::Vector3d> sigma;             ///< standard uncertainty of each coordinate, m
   std::optional<Timestamp> time;
+  std::map<std::string, std::string> columns;  ///< pose, step, repeat, axis, index, where a table has such columns
   std::size_t line = 0;
 };
 
@@ -36,7 +38,7 @@ enum class Skip {
   another_point,     ///< its name is none of the day's
   in_motion,         ///< the joints moved
   outside_log,       ///< before the log's first or behind its last sample
-  no_readings,       ///< a standstill in which nothing was read
+  no_readings,       ///< a standstill, a target or a load for which nothing was read
   joints_not_given,  ///< a target in space, without angles
 };
 
@@ -51,6 +53,7 @@ struct PointFile {
   Encoding encoding = Encoding::utf8;
   std::string frame;  ///< as the file names it; empty where it does not
   std::vector<PointReading> points;
+  std::vector<PointReading> lost;  ///< rows of lost beams, in `skipped` too: their names count as occurrences
   std::vector<SkippedRow> skipped;
   std::vector<std::string> warnings;  ///< what had to be taken for granted, one line each
 };

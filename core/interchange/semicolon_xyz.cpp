@@ -56,11 +56,7 @@ PointFile readSemicolonXyz(const FileText& text) {
       throw io::InputError({text.file, line.number, ""}, std::string(line.text),
                            "expected NAME;x;y;z and nothing behind it");
     point.name = cells[0];
-    if (isLostBeam(point.point)) {
-      points.skipped.push_back({line.number, Skip::lost_beam});
-    } else {
-      points.points.push_back(std::move(point));
-    }
+    points.points.push_back(std::move(point));
   }
   return points;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "core/interchange/length_unit.h"
@@ -33,12 +34,14 @@ struct SaRow {
   bool ended = true;
   std::vector<std::string_view> cells;
   std::optional<Timestamp> time;
+  bool lone_time = false;  ///< a time of day without its date, which is not read
 };
 
 /// What the comments say.
 struct SaHeader {
   std::string frame;
   std::optional<double> unit;
+  std::string unit_word;             ///< a unit's name that stands elsewhere than with the axes
   std::optional<int> uncertainties;  ///< cells a row has of them; nullopt: the axes are not commented
   double coverage = 0.0;             ///< k; 0: not said
   bool any = false;
@@ -148,6 +151,11 @@ void readSaComment(const FileText& text, const TextLine& line, std::string_view 
   if (header.coverage == 0.0) header.coverage = coverageIn(comment);
   const std::vector<std::string> words = wordsOf(comment);
   const bool axes = namesAxes(words);
+  // Short names (in, m) are words of many languages; of the long ones none is.
+  constexpr std::size_t kLongName = 4;
+  for (const std::string& word : words) {
+    if (word.size() >= kLongName && metresIn(word)) header.unit_word = word;
+  }
   if (axes)
     header.uncertainties = uncertaintiesNamed(comment);
   else if (header.uncertainties)
@@ -173,8 +181,9 @@ void readSaComment(const FileText& text, const TextLine& line, std::string_view 
   }
 }
 
-/// Cuts date and time, or a lone time, off the end.
-void cutTime(std::vector<std::string_view>& cells, std::optional<Timestamp>& time) {
+/// Cuts date and time, or a lone time, off the end. A time without its day, if it is not the 00:00:00 of a point that
+/// nobody measured, is said to be there: no clock can use it.
+void cutTime(std::vector<std::string_view>& cells, std::optional<Timestamp>& time, bool& lone) {
   if (cells.empty()) return;
   const std::string_view last = cells.back();
   const bool two = cells.size() > 1 && isTimeOfDay(last) && isDate(cells[cells.size() - 2]);
@@ -182,10 +191,8 @@ void cutTime(std::vector<std::string_view>& cells, std::optional<Timestamp>& tim
     time = parseTimestamp(fmt::format("{} {}", cells[cells.size() - 2], last));
     cells.resize(cells.size() - 2);
   } else if (isTimeOfDay(last)) {
-    if (!isNoTime(last)) time = Timestamp{};  // a time without its day: of no use, and no number either
+    lone = !isNoTime(last);
     cells.pop_back();
-    time.reset();
-    return;
   } else if (last.find(':') != std::string_view::npos) {
     time = parseTimestamp(last);
     const std::size_t blank = last.find(' ');
@@ -195,11 +202,12 @@ void cutTime(std::vector<std::string_view>& cells, std::optional<Timestamp>& tim
   }
 }
 
-std::vector<TextLine> rowLines(const FileText& text) {
+std::vector<TextLine> rowLines(const FileText& text, std::size_t most = std::numeric_limits<std::size_t>::max()) {
   std::vector<TextLine> rows;
   for (const TextLine& line : linesOf(text.text)) {
     const std::string_view content = trimmed(line.text);
     if (line.number <= text.options.skip || content.empty() || content.starts_with(kComment)) continue;
+    if (rows.size() == most) break;
     rows.push_back({content, line.number, line.ended});
   }
   return rows;
@@ -328,6 +336,23 @@ std::size_t namesOf(const FileText& text, const std::vector<SaRow>& rows, const 
   return possible.front();
 }
 
+/// Metres in the unit of the axes. A unit that the comments name elsewhere, or another than the user's, is no unit to
+/// be taken for granted.
+double saUnitOf(const FileText& text, const SaHeader& header, std::vector<std::string>& warnings) {
+  const std::string& stated = text.options.unit;
+  if (!header.unit) {
+    if (stated.empty() && !header.unit_word.empty())
+      throw io::InputError({text.file, 0, "unit"}, header.unit_word,
+                           "expected the unit in the comment of the axes, as X, Y, Z (mm); this one stands elsewhere: "
+                           "state the unit (option unit)");
+    return unitOrMillimetres(text.file, stated, warnings);
+  }
+  if (!stated.empty() && metresIn(stated) != header.unit)
+    throw io::InputError({text.file, 0, "unit"}, stated,
+                         "expected no unit, or that of the file's comments, which state another");
+  return *header.unit;
+}
+
 /// A last number that lacks digits was cut off with the file.
 void requireWhole(const FileText& text, const std::vector<SaRow>& rows, const std::vector<TextLine>& lines) {
   if (rows.size() < 2 || lines.back().ended || rows.back().time) return;
@@ -341,10 +366,10 @@ void requireWhole(const FileText& text, const std::vector<SaRow>& rows, const st
 std::vector<SaRow> saRowsOf(const std::vector<TextLine>& lines, const SaSeparator& separator) {
   std::vector<SaRow> rows;
   for (const TextLine& line : lines) {
-    SaRow row{line.number, line.ended, saCellsOf(line.text, separator), std::nullopt};
+    SaRow row{line.number, line.ended, saCellsOf(line.text, separator), std::nullopt, false};
     // A separator behind the last cell ends nothing.
     if (separator.comma && !row.cells.empty() && row.cells.back().empty()) row.cells.pop_back();
-    cutTime(row.cells, row.time);
+    cutTime(row.cells, row.time, row.lone_time);
     rows.push_back(std::move(row));
   }
   return rows;
@@ -370,15 +395,13 @@ PointReading saPointOf(const SaRow& row, std::size_t names, double unit, double 
 }  // namespace
 
 SaLikeness looksLikeSpatialAnalyzer(const FileText& text) {
-  const std::vector<TextLine> lines = rowLines(text);
-  if (lines.empty()) return SaLikeness::none;
-  const std::string_view start = trimmed(text.text.substr(0, text.text.find_first_of("\r\n")));
-  if (start.starts_with(kComment)) return SaLikeness::certain;
   // By the first rows: what is wrong further down is wrong in this format.
   constexpr std::size_t kLook = 20;
-  std::vector<TextLine> first(lines.begin(),
-                              lines.begin() + static_cast<std::ptrdiff_t>(std::min(kLook, lines.size())));
-  if (first.size() == lines.size() && first.size() > 1 && !first.back().ended) first.pop_back();
+  std::vector<TextLine> first = rowLines(text, kLook);
+  if (first.empty()) return SaLikeness::none;
+  const std::string_view start = trimmed(text.text.substr(0, text.text.find_first_of("\r\n")));
+  if (start.starts_with(kComment)) return SaLikeness::certain;
+  if (first.size() > 1 && !first.back().ended) first.pop_back();
   const std::vector<SaRow> rows = saRowsOf(first, separatorOf(text, first));
   const std::vector<std::size_t> possible = possibleNames(rows, text.decimalSign()).counts;
   if (possible.empty() || first.front().text.find(';') != std::string_view::npos) return SaLikeness::none;
@@ -399,7 +422,7 @@ PointFile readSpatialAnalyzer(const FileText& text) {
   const std::vector<SaRow> rows = saRowsOf(lines, separatorOf(text, lines));
   const std::size_t names = namesOf(text, rows, header);
   requireWhole(text, rows, lines);
-  const double unit = header.unit ? *header.unit : unitOrMillimetres(text.file, text.options.unit, points.warnings);
+  const double unit = saUnitOf(text, header, points.warnings);
   const std::size_t most =
       std::max_element(rows.begin(), rows.end(),
                        [](const SaRow& a, const SaRow& b) { return a.cells.size() < b.cells.size(); })
@@ -411,6 +434,10 @@ PointFile readSpatialAnalyzer(const FileText& text) {
   if (most >= 3 && header.coverage == 0.0)
     points.warnings.push_back(
         io::inputMessage({text.file, 0, ""}, "", "the uncertainties' coverage is not stated: taken as one sigma"));
+  const auto lone = std::find_if(rows.begin(), rows.end(), [](const SaRow& row) { return row.lone_time; });
+  if (lone != rows.end())
+    points.warnings.push_back(
+        io::inputMessage({text.file, lone->line, ""}, "", "a time without its date is not read: its day is not known"));
   if (!lines.back().ended)
     points.warnings.push_back(io::inputMessage({text.file, lines.back().number, ""}, "",
                                                "the last line has no line end; its last cell may have been cut short"));

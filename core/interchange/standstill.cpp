@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 #include <deque>
-#include <map>
+#include <limits>
 
 namespace stiffscope::interchange {
 
@@ -77,7 +77,7 @@ void trimMotion(const std::vector<JointSample>& samples, std::size_t& first, std
   last = to;
 }
 
-/// Times that are all but equal, and how many.
+/// Readings of one time, and how many.
 struct TimeGroup {
   double seconds = 0.0;
   std::size_t count = 0;
@@ -87,18 +87,25 @@ std::vector<TimeGroup> groupsOf(const std::vector<ReadingTime>& readings) {
   std::vector<double> times;
   for (const ReadingTime& reading : readings) times.push_back(reading.seconds);
   std::sort(times.begin(), times.end());
-  constexpr double kMostGroups = 4000.0;
-  const double together = (times.back() - times.front()) / kMostGroups;
-  const bool many = times.size() > static_cast<std::size_t>(kMostGroups);
   std::vector<TimeGroup> groups;
   for (const double time : times) {
-    if (!groups.empty() && time - groups.back().seconds <= (many ? together : 0.0)) {
+    if (!groups.empty() && time == groups.back().seconds) {
       ++groups.back().count;
     } else {
       groups.push_back({time, 1});
     }
   }
   return groups;
+}
+
+/// Of very many groups some, evenly: enough to see which offsets there are.
+std::vector<TimeGroup> someOf(const std::vector<TimeGroup>& groups, std::size_t standstills) {
+  constexpr std::size_t kMostPairs = 2'000'000, kFewest = 200;
+  const std::size_t most = std::max(kFewest, kMostPairs / standstills);
+  if (groups.size() <= most) return groups;
+  std::vector<TimeGroup> some;
+  for (std::size_t i = 0; i < most; ++i) some.push_back(groups[i * groups.size() / most]);
+  return some;
 }
 
 /// Where the number of readings in standstills changes, as the offset grows.
@@ -112,16 +119,31 @@ struct OffsetRange {
   std::size_t inside = 0;
 };
 
-/// Ranges of offsets with one count of readings each, in ascending order.
+/// Standstills wider by the last digit of the readings' times at both ends, but never into each other: a reading is in
+/// one of them.
+std::vector<Standstill> widened(std::vector<Standstill> standstills, double resolution) {
+  const std::vector<Standstill> own = standstills;
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    standstills[i].from_s -= resolution;
+    standstills[i].to_s += resolution;
+    if (i > 0) standstills[i].from_s = std::max(standstills[i].from_s, 0.5 * (own[i - 1].to_s + own[i].from_s));
+    if (i + 1 < own.size())
+      standstills[i].to_s = std::min(standstills[i].to_s, 0.5 * (own[i].to_s + own[i + 1].from_s));
+  }
+  return standstills;
+}
+
+/// Ranges of offsets within `window` with one count of readings each, in ascending order. Standstills are widened.
 std::vector<OffsetRange> countedOffsets(const std::vector<TimeGroup>& groups,
-                                        const std::vector<Standstill>& standstills, double resolution) {
+                                        const std::vector<Standstill>& standstills, const OffsetRange& window) {
   std::vector<CountChange> changes;
-  changes.reserve(2 * groups.size() * standstills.size());
   for (const TimeGroup& group : groups) {
-    for (const Standstill& still : standstills) {
+    auto still = std::lower_bound(standstills.begin(), standstills.end(), group.seconds + window.from,
+                                  [](const Standstill& one, double time) { return one.to_s < time; });
+    for (; still != standstills.end() && still->from_s <= group.seconds + window.to; ++still) {
       const auto count = static_cast<std::ptrdiff_t>(group.count);
-      changes.push_back({still.from_s - resolution - group.seconds, count});
-      changes.push_back({still.to_s + resolution - group.seconds, -count});
+      changes.push_back({std::max(still->from_s - group.seconds, window.from), count});
+      changes.push_back({std::min(still->to_s - group.seconds, window.to), -count});
     }
   }
   std::sort(changes.begin(), changes.end(), [](const CountChange& a, const CountChange& b) {
@@ -137,6 +159,18 @@ std::vector<OffsetRange> countedOffsets(const std::vector<TimeGroup>& groups,
   return ranges;
 }
 
+/// The place of the range with the most readings, of several the widest; ranges.size() where all are taken.
+std::size_t bestRange(const std::vector<OffsetRange>& ranges, const std::vector<bool>& taken) {
+  std::size_t best = ranges.size();
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    const bool better = best == ranges.size() || ranges[i].inside > ranges[best].inside ||
+                        (ranges[i].inside == ranges[best].inside &&
+                         ranges[i].to - ranges[i].from > ranges[best].to - ranges[best].from);
+    if (!taken[i] && better) best = i;
+  }
+  return best;
+}
+
 /// Around the range with the most readings, all that lose next to none of them.
 OffsetRange plateauAt(const std::vector<OffsetRange>& ranges, std::size_t best, std::size_t& first, std::size_t& last) {
   constexpr double kServesEqually = 0.995;
@@ -147,6 +181,14 @@ OffsetRange plateauAt(const std::vector<OffsetRange>& ranges, std::size_t best, 
   while (first > 0 && ranges[first - 1].to == ranges[first].from && equal(first - 1)) --first;
   while (last + 1 < ranges.size() && ranges[last].to == ranges[last + 1].from && equal(last + 1)) ++last;
   return {ranges[first].from, ranges[last].to, ranges[best].inside};
+}
+
+/// All readings bound an offset that some of them showed.
+OffsetRange boundedByAll(const OffsetRange& shown, const std::vector<TimeGroup>& groups,
+                         const std::vector<Standstill>& standstills) {
+  const std::vector<OffsetRange> ranges = countedOffsets(groups, standstills, shown);
+  std::size_t first = bestRange(ranges, std::vector<bool>(ranges.size())), last = first;
+  return plateauAt(ranges, first, first, last);
 }
 
 }  // namespace
@@ -192,23 +234,20 @@ std::vector<ClockOffset> possibleOffsets(const std::vector<ReadingTime>& reading
   if (readings.empty() || standstills.empty()) return offsets;
   double resolution = 0.0;
   for (const ReadingTime& reading : readings) resolution = std::max(resolution, reading.resolution);
-  const std::vector<OffsetRange> ranges = countedOffsets(groupsOf(readings), standstills, resolution);
+  const std::vector<Standstill> wide = widened(standstills, resolution);
+  const std::vector<TimeGroup> groups = groupsOf(readings), some = someOf(groups, standstills.size());
+  constexpr double kEver = std::numeric_limits<double>::infinity();
+  const std::vector<OffsetRange> ranges = countedOffsets(some, wide, {-kEver, kEver, 0});
   std::vector<bool> taken(ranges.size());
   constexpr std::size_t kMostOffsets = 20;
   std::size_t most = 0;
   while (offsets.size() < kMostOffsets) {
-    std::size_t best = ranges.size();
-    for (std::size_t i = 0; i < ranges.size(); ++i) {
-      // Of several with the same count the widest.
-      const bool better = best == ranges.size() || ranges[i].inside > ranges[best].inside ||
-                          (ranges[i].inside == ranges[best].inside &&
-                           ranges[i].to - ranges[i].from > ranges[best].to - ranges[best].from);
-      if (!taken[i] && better) best = i;
-    }
+    const std::size_t best = bestRange(ranges, taken);
     if (best == ranges.size() || static_cast<double>(ranges[best].inside) < share * static_cast<double>(most)) break;
     std::size_t first = best, last = best;
-    const OffsetRange plateau = plateauAt(ranges, best, first, last);
+    OffsetRange plateau = plateauAt(ranges, best, first, last);
     most = std::max(most, plateau.inside);
+    if (some.size() < groups.size()) plateau = boundedByAll(plateau, groups, wide);
     offsets.push_back({0.5 * (plateau.from + plateau.to), 0.5 * (plateau.to - plateau.from), plateau.inside});
     // Its slopes are no offsets of their own.
     const auto fallsFrom = [&](std::size_t one, std::size_t next) { return ranges[next].inside <= ranges[one].inside; };
@@ -218,6 +257,8 @@ std::vector<ClockOffset> possibleOffsets(const std::vector<ReadingTime>& reading
     for (std::size_t i = last; i + 1 < ranges.size() && ranges[i].to == ranges[i + 1].from && fallsFrom(i, i + 1); ++i)
       taken[i + 1] = true;
   }
+  std::stable_sort(offsets.begin(), offsets.end(),
+                   [](const ClockOffset& a, const ClockOffset& b) { return a.inside > b.inside; });
   return offsets;
 }
 

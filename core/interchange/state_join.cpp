@@ -1,12 +1,13 @@
 #include "core/interchange/state_join.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <map>
 #include <tuple>
 
+#include "core/interchange/day_files.h"
 #include "core/io/input_error.h"
-#include "core/io/numbers.h"
 #include "core/io/units.h"
 
 namespace stiffscope::interchange {
@@ -42,14 +43,6 @@ std::vector<JoinedState> statesInOrder(const std::vector<DayReading>& readings) 
   return states;
 }
 
-int stepNamed(const JoinTask& task, const std::string& step, std::size_t line) {
-  if (step.empty()) return 0;
-  const std::optional<int> number = io::parseInteger(step);
-  if (!number || *number < 0)
-    throw io::InputError({task.file, line, "step"}, step, "expected a whole number, 0 or more");
-  return *number;
-}
-
 /// The samples by what their names say; a log without steps has those of a pose for all its steps.
 std::map<StateKey, std::size_t> samplesByName(const JoinTask& task) {
   std::map<StateKey, std::size_t> samples;
@@ -63,14 +56,15 @@ std::map<StateKey, std::size_t> samplesByName(const JoinTask& task) {
       return found == fields->end() ? std::string() : found->second;
     };
     const std::string step = field("step").empty() ? sample.step : field("step");
-    const std::string axis = field("axis");
+    const std::string axis = field("axis").empty() ? sample.axis : field("axis");
     const std::string pose = names.has("index") ? field("index") : field("pose");
-    const StateKey key{axis.empty() ? -1 : stepNamed(task, axis, sample.line) - 1, pose,
-                       stepNamed(task, step, sample.line)};
+    const StateKey key{axis.empty() ? -1 : wholeStep(task.file, sample.line, axis) - 1, pose,
+                       wholeStep(task.file, sample.line, step)};
     const auto [first, added] = samples.emplace(key, i);
-    if (!added)
+    // A table with a row for each reflector states the joints again.
+    if (!added && sample.figures != task.log.samples[first->second].figures)
       throw io::InputError({task.file, sample.line, "pose"}, sample.name,
-                           fmt::format("expected one row of {}; line {} has it first", shownKey(key),
+                           fmt::format("expected the same joints in all rows of {}; line {} has others", shownKey(key),
                                        task.log.samples[first->second].line));
   }
   return samples;
@@ -91,7 +85,8 @@ void setJoints(JoinedState& state, const RobotLog& log, std::size_t first, std::
 
 StateJoin joinByName(const JoinTask& task, const std::vector<DayReading>& readings) {
   const std::map<StateKey, std::size_t> samples = samplesByName(task);
-  StateJoin join{statesInOrder(readings), {}, std::nullopt};
+  StateJoin join{statesInOrder(readings), {}, {}, std::nullopt};
+  for (const auto& [key, sample] : samples) join.stretches.emplace_back(sample, sample);
   for (JoinedState& state : join.states) {
     // By axis, pose and step, as far as the log tells them.
     auto found = samples.end();
@@ -101,8 +96,8 @@ StateJoin joinByName(const JoinTask& task, const std::vector<DayReading>& readin
     }
     if (found == samples.end()) {
       const DayReading& reading = readings[state.readings.front()];
-      throw io::InputError({task.day.points[reading.source].file, reading.point->line, "pose"}, state.pose,
-                           fmt::format("expected a pose that {} has joints for", task.file));
+      throw io::InputError({task.day.pathOf(task.day.points[reading.source].file), reading.point->line, "pose"},
+                           state.pose, fmt::format("expected a pose that {} has joints for", task.file));
     }
     setJoints(state, task.log, found->second, found->second);
   }
@@ -110,7 +105,7 @@ StateJoin joinByName(const JoinTask& task, const std::vector<DayReading>& readin
 }
 
 StateJoin joinByOrder(const JoinTask& task, const std::vector<DayReading>& readings) {
-  StateJoin join{statesInOrder(readings), {}, std::nullopt};
+  StateJoin join{statesInOrder(readings), {}, {}, std::nullopt};
   const std::size_t samples = task.log.samples.size(), wanted = join.states.size();
   if (samples == wanted) {
     for (std::size_t i = 0; i < wanted; ++i) setJoints(join.states[i], task.log, i, i);
@@ -131,14 +126,8 @@ StateJoin joinByOrder(const JoinTask& task, const std::vector<DayReading>& readi
 
 std::vector<PlacedReading> placedReadings(const std::vector<JoinedState>& states,
                                           const std::vector<DayReading>& readings) {
-  std::map<std::pair<int, std::string>, int> lowest;
-  for (const JoinedState& state : states) {
-    const auto [place, added] = lowest.emplace(std::pair(state.axis, state.pose), state.step);
-    if (!added) place->second = std::min(place->second, state.step);
-  }
   std::vector<PlacedReading> placed;
   for (const JoinedState& state : states) {
-    if (lowest.at({state.axis, state.pose}) != state.step) continue;
     std::vector<int> seen;
     for (const std::size_t i : state.readings) {
       const DayReading& reading = readings[i];
@@ -150,29 +139,41 @@ std::vector<PlacedReading> placedReadings(const std::vector<JoinedState>& states
   return placed;
 }
 
+namespace {
+
+/// What would have to be written in DAY.xml.
+std::string shownMeaning(const OtherMeaning& meaning) {
+  using Kind = OtherMeaning::Kind;
+  const int joint = meaning.joint + 1;
+  switch (meaning.kind) {
+    case Kind::unit:
+      return fmt::format("points times {:g}", meaning.value);
+    case Kind::sign:
+      return fmt::format("joint_reading joint=\"{}\" sign=\"{:g}\"", joint, meaning.value);
+    case Kind::offset:
+      return fmt::format("joint_reading joint=\"{}\" offset_deg=\"{:g}\"", joint, meaning.value / io::kDegree);
+    case Kind::coupling:
+      break;
+  }
+  return meaning.plus < 0 ? fmt::format("joint_reading joint=\"{}\" without plus", joint)
+                          : fmt::format("joint_reading joint=\"{}\" plus=\"{}\"", joint, meaning.plus + 1);
+}
+
+}  // namespace
+
 void requireMeaning(const JoinTask& task, const std::vector<PlacedReading>& placed, double misfit) {
   // Arms differ from their nominal geometry, and bend, by a few millimetres; a wrong sign makes decimetres.
   constexpr double kMisfit = 0.01, kClearly = 4.0;
   if (misfit < kMisfit) return;
-  const auto other = bestOtherMeaning(task.robot, task.day.xml.campaign.joint_readings, placed);
-  if (!other || other->misfit * kClearly > misfit) return;
-  using Kind = OtherMeaning::Kind;
-  std::string meaning;
-  if (other->kind == Kind::unit) meaning = fmt::format("points times {:g}", other->value);
-  if (other->kind == Kind::sign)
-    meaning = fmt::format("joint_reading joint=\"{}\" sign=\"{:g}\"", other->joint + 1, other->value);
-  if (other->kind == Kind::offset)
-    meaning =
-        fmt::format("joint_reading joint=\"{}\" offset_deg=\"{:g}\"", other->joint + 1, other->value / io::kDegree);
-  if (other->kind == Kind::coupling)
-    meaning = other->plus < 0
-                  ? fmt::format("joint_reading joint=\"{}\" without plus", other->joint + 1)
-                  : fmt::format("joint_reading joint=\"{}\" plus=\"{}\"", other->joint + 1, other->plus + 1);
+  const auto others = otherMeanings(task.robot, task.day.xml.campaign.joint_readings, placed);
+  if (others.empty() || others.front().misfit * kClearly > misfit) return;
+  std::vector<std::string> shown;
+  for (const OtherMeaning& other : others) shown.push_back(shownMeaning(other));
   throw io::InputError(
       {task.day.file, task.source.line, "log"}, task.source.file,
       fmt::format("expected joints that move the reflectors as they were read; distances between their places are "
                   "off by {:.1f} mm, with {} by {:.1f} mm",
-                  misfit * 1e3, meaning, other->misfit * 1e3));
+                  misfit * 1e3, fmt::join(shown, " or "), others.front().misfit * 1e3));
 }
 
 namespace {
@@ -262,7 +263,8 @@ void requireOnePlaceAPose(const JoinTask& task, const std::vector<DayReading>& r
     const auto [first, added] = seen.emplace(StateKey{state.axis, state.pose, state.step}, &state);
     if (added) continue;
     const DayReading& reading = readings[state.readings.front()];
-    throw io::InputError({task.day.points[reading.source].file, reading.point->line, "pose"}, state.pose,
+    throw io::InputError({task.day.pathOf(task.day.points[reading.source].file), reading.point->line, "pose"},
+                         state.pose,
                          fmt::format("expected the readings of a pose in one standstill; line {} is of another",
                                      readings[first->second->readings.front()].point->line));
   }
@@ -272,7 +274,7 @@ std::vector<ReadingTime> timesOf(const JoinTask& task, const std::vector<DayRead
   std::vector<ReadingTime> times;
   for (const DayReading& reading : readings) {
     if (!reading.point->time)
-      throw io::InputError({task.day.points[reading.source].file, reading.point->line, "time"}, "",
+      throw io::InputError({task.day.pathOf(task.day.points[reading.source].file), reading.point->line, "time"}, "",
                            "expected a time; without one the clock cannot say where the joints were");
     times.push_back({reading.point->time->seconds, reading.point->time->resolution});
   }
@@ -312,7 +314,10 @@ ClockOffset chosenOffset(const JoinTask& task, const std::vector<DayReading>& re
     return offsets.front();
   }
   if (fits.size() < 2)
-    refuse(fmt::format("{} and {} serve alike: state it (offset_s)", shownOffset(offsets[0]), shownOffset(offsets[1])));
+    refuse(fmt::format(
+        "{} puts {} of {} readings into standstills, {} {}, and too few postures are there to tell by "
+        "distances: state it (offset_s)",
+        shownOffset(offsets[0]), offsets[0].inside, readings.size(), shownOffset(offsets[1]), offsets[1].inside));
   constexpr double kClearly = 2.0;
   if (fits[1].first < kClearly * fits[0].first) {
     const ClockJoin join = joinedAt(task, readings, standstills, offsets.front().offset_s);
@@ -331,6 +336,26 @@ std::size_t insideBy(const std::vector<ReadingTime>& times, const std::vector<St
   return static_cast<std::size_t>(std::count_if(times.begin(), times.end(), [&](const ReadingTime& time) {
     return standstillAt(standstills, time.seconds + offset, time.resolution) != kNowhere;
   }));
+}
+
+/// Offsets without those by which clearly more readings were taken in motion than by the first. Nobody reads a moving
+/// reflector often; readings before or behind the log contradict nothing.
+std::vector<ClockOffset> notInMotion(const JoinTask& task, const std::vector<ReadingTime>& times,
+                                     const std::vector<Standstill>& standstills, std::vector<ClockOffset> offsets) {
+  if (offsets.empty()) return offsets;
+  constexpr double kShare = 0.02;
+  constexpr std::size_t kFew = 3;
+  const double begin = *task.log.samples.front().time_s, end = *task.log.samples.back().time_s;
+  const auto inMotion = [&](const ClockOffset& offset) {
+    return static_cast<std::size_t>(std::count_if(times.begin(), times.end(), [&](const ReadingTime& time) {
+      const double at = time.seconds + offset.offset_s;
+      return at >= begin && at <= end && standstillAt(standstills, at, time.resolution) == kNowhere;
+    }));
+  };
+  const std::size_t allowed =
+      inMotion(offsets.front()) + std::max(kFew, static_cast<std::size_t>(kShare * static_cast<double>(times.size())));
+  std::erase_if(offsets, [&](const ClockOffset& offset) { return inMotion(offset) > allowed; });
+  return offsets;
 }
 
 /// An offset that was stated must put nearly as many readings into standstills as the best does.
@@ -355,7 +380,8 @@ StateJoin joinByClock(const JoinTask& task, const std::vector<DayReading>& readi
   const std::vector<ReadingTime> times = timesOf(task, readings);
   const std::vector<Standstill> standstills = standstillsOf(task.log.samples, task.day.clock.standstill);
   constexpr double kShare = 0.8;
-  const std::vector<ClockOffset> offsets = possibleOffsets(times, standstills, kShare);
+  const std::vector<ClockOffset> offsets =
+      notInMotion(task, times, standstills, possibleOffsets(times, standstills, kShare));
   ClockReport report;
   report.log = task.source.file;
   report.readings = readings.size();
@@ -372,7 +398,8 @@ StateJoin joinByClock(const JoinTask& task, const std::vector<DayReading>& readi
   }
   report.inside = insideBy(times, standstills, report.offset_s);
   ClockJoin join = joinedAt(task, readings, standstills, report.offset_s);
-  StateJoin joined{std::move(join.states), {}, report};
+  StateJoin joined{std::move(join.states), {}, {}, report};
+  for (const Standstill& still : standstills) joined.stretches.emplace_back(still.first, still.last);
   narrowToReadings(task, readings, report.offset_s, joined.states);
   requireOnePlaceAPose(task, readings, joined.states);
   const double begin = *task.log.samples.front().time_s, end = *task.log.samples.back().time_s;

@@ -44,7 +44,8 @@ struct ClockReport {
 
 struct StateJoin {
   std::vector<JoinedState> states;
-  std::vector<std::pair<std::size_t, Skip>> left_out;  ///< readings, and why
+  std::vector<std::pair<std::size_t, Skip>> left_out;          ///< readings, and why
+  std::vector<std::pair<std::size_t, std::size_t>> stretches;  ///< first and last sample of all that could be joined
   std::optional<ClockReport> clock;
 };
 
@@ -58,7 +59,7 @@ struct JoinTask {
 };
 
 /// The joints of every pose that readings name, by the names of the log's rows or targets. Throws InputError for a pose
-/// without joints, and for two rows of one pose.
+/// without joints, and for two rows of one pose with different joints.
 StateJoin joinByName(const JoinTask& task, const std::vector<DayReading>& readings);
 
 /// Poses in the order in which they were first read, and the log's targets, or the standstills of a log by time, in
@@ -66,11 +67,13 @@ StateJoin joinByName(const JoinTask& task, const std::vector<DayReading>& readin
 StateJoin joinByOrder(const JoinTask& task, const std::vector<DayReading>& readings);
 
 /// Readings by the standstill that they fall into, with the offset of the clocks that puts most of them into one. Where
-/// several offsets put nearly as many there, distances between the reflectors' places decide (chord_check.h). Throws
+/// several offsets put nearly as many there, and leave hardly more in motion, distances between the reflectors' places
+/// decide (chord_check.h). Throws
 /// InputError where a time is missing, no offset serves, several do alike, or the one stated does not.
 StateJoin joinByClock(const JoinTask& task, const std::vector<DayReading>& readings);
 
-/// One reading of each reflector and state, for the check of distances: of the lowest step of each pose.
+/// One reading of each reflector and state, for the check of distances. Loads move reflectors by millimetres; readings
+/// of another pose are off by decimetres, and often it is those of the last step.
 std::vector<PlacedReading> placedReadings(const std::vector<JoinedState>& states,
                                           const std::vector<DayReading>& readings);
 

@@ -1,8 +1,9 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
-#include <optional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -31,7 +32,14 @@ class ProgramText {
     skipBlanks();
     return at_ >= text_.size();
   }
-  std::size_t line() const { return io::lineOf(text_, at_); }
+  /// Counted on from where it was asked last: a program of 100 MB has a million targets.
+  std::size_t line() const {
+    line_ += io::lineOf(text_.substr(counted_, at_ - counted_), std::string_view::npos) - 1;
+    counted_ = at_;
+    return line_;
+  }
+  /// Goes on behind a place that was found by a search, never backwards.
+  void goTo(std::size_t place) { at_ = std::max(at_, place); }
   std::size_t place() const { return at_; }
 
   /// A word, a number with its sign and unit left out, or one other character.
@@ -79,9 +87,10 @@ class ProgramText {
   const std::string& file_;
   std::string_view text_;
   std::size_t at_;
+  mutable std::size_t counted_ = 0, line_ = 1;
 };
 
-/// The same text in small letters, for searches; places stay.
+/// Place of a word of its own in a text in small letters, from `from` on; npos where there is none.
 std::size_t findWord(const std::string& small, std::string_view word, std::size_t from) {
   while (true) {
     const std::size_t at = small.find(word, from);
@@ -107,14 +116,12 @@ std::string withoutComments(std::string_view text, char mark) {
 }
 
 void requireUniqueNames(const LogText& text, const RobotLog& log) {
-  std::vector<std::string> names;
-  for (const JointSample& sample : log.samples) names.push_back(lowered(sample.name));
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const auto first = std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]);
-    if (first == names.begin() + static_cast<std::ptrdiff_t>(i)) continue;
-    throw io::InputError({text.file, log.samples[i].line, ""}, log.samples[i].name,
-                         fmt::format("expected a target that does not repeat; line {} has it first",
-                                     log.samples[static_cast<std::size_t>(first - names.begin())].line));
+  std::map<std::string, std::size_t> lines;
+  for (const JointSample& sample : log.samples) {
+    const auto [first, added] = lines.emplace(lowered(sample.name), sample.line);
+    if (!added)
+      throw io::InputError({text.file, sample.line, ""}, sample.name,
+                           fmt::format("expected a target that does not repeat; line {} has it first", first->second));
   }
 }
 
@@ -182,8 +189,10 @@ RobotLog readKukaData(const LogText& text) {
   const std::string code = withoutComments(text.text, ';'), small = lowered(code);
   RobotLog log;
   log.format = LogFormat::kuka_krl;
-  for (std::size_t at = findWord(small, "decl", 0); at != std::string::npos; at = findWord(small, "decl", at + 1)) {
-    ProgramText program(text.file, code, at);
+  ProgramText program(text.file, code);
+  for (std::size_t at = findWord(small, "decl", 0); at != std::string::npos;
+       at = findWord(small, "decl", program.place())) {
+    program.goTo(at);
     program.next();
     std::string type = lowered(program.next());
     if (type == "global" || type == "const") type = lowered(program.next());
@@ -225,12 +234,16 @@ RobotLog readRapid(const LogText& text) {
   const std::string code = withoutComments(text.text, '!'), small = lowered(code);
   RobotLog log;
   log.format = LogFormat::rapid;
+  ProgramText spaces(text.file, code);
   for (std::size_t at = findWord(small, "robtarget", 0); at != std::string::npos;
-       at = findWord(small, "robtarget", at + 1))
-    log.skipped.push_back({io::lineOf(code, at), Skip::joints_not_given});
+       at = findWord(small, "robtarget", at + 1)) {
+    spaces.goTo(at);
+    log.skipped.push_back({spaces.line(), Skip::joints_not_given});
+  }
+  ProgramText program(text.file, code);
   for (std::size_t at = findWord(small, "jointtarget", 0); at != std::string::npos;
-       at = findWord(small, "jointtarget", at + 1)) {
-    ProgramText program(text.file, code, at);
+       at = findWord(small, "jointtarget", program.place())) {
+    program.goTo(at);
     program.next();
     JointSample sample;
     sample.line = program.line();

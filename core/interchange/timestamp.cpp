@@ -34,9 +34,12 @@ std::optional<double> daysOf(int year, int month, int day) {
   // Two digits of a year are of this century or, above 79, of the last: no tracker is older.
   constexpr int kFirstYear = 80;
   if (year < 100) year += year >= kFirstYear ? 1900 : 2000;
+  // The calendar's types are narrow: what does not fit would come back as another date.
+  constexpr int kLastYear = 9999, kLastMonth = 12, kLastDay = 31;
+  if (year > kLastYear || month < 1 || month > kLastMonth || day < 1 || day > kLastDay) return std::nullopt;
   const std::chrono::year_month_day date{std::chrono::year(year), std::chrono::month(static_cast<unsigned>(month)),
                                          std::chrono::day(static_cast<unsigned>(day))};
-  if (month < 1 || day < 1 || !date.ok()) return std::nullopt;
+  if (!date.ok()) return std::nullopt;
   return static_cast<double>(std::chrono::sys_days(date).time_since_epoch().count());
 }
 

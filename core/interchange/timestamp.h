@@ -7,7 +7,7 @@
 namespace stiffscope::interchange {
 
 /// When something was read, by the clock of the program that wrote it down. Clocks know no zone here: of two of them
-/// only the difference matters, and that is found (clock_offset.h).
+/// only the difference matters, and that is found (standstill.h).
 struct Timestamp {
   double seconds = 0.0;     ///< since 1970-01-01 00:00 of that clock; of a clock without a date since its start
   bool dated = false;       ///< of a calendar

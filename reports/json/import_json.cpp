@@ -7,7 +7,7 @@ namespace stiffscope::reports {
 
 namespace {
 
-constexpr double kMillimetres = 1e3;
+constexpr double kMillimetres = 1e3, kMicrometres = 1e6;
 
 Json statedNumber(const std::optional<double>& value, double factor = 1.0) {
   return value ? number(*value * factor) : Json(nullptr);
@@ -32,6 +32,16 @@ Json clockJson(const interchange::ClockReport& clock) {
           {"misfit_mm", statedNumber(clock.misfit, kMillimetres)}};
 }
 
+Json originsJson(const std::vector<interchange::RowOrigin>& rows) {
+  Json list = Json::array();
+  for (const interchange::RowOrigin& row : rows) {
+    Json origin{{"file", row.file}, {"line", row.line}};
+    if (row.last_line != row.line) origin["last_line"] = row.last_line;
+    list.push_back(std::move(origin));
+  }
+  return list;
+}
+
 }  // namespace
 
 Json importJson(const interchange::ImportedDay& day) {
@@ -43,17 +53,11 @@ Json importJson(const interchange::ImportedDay& day) {
   for (const auto& file : day.files) json["files"].push_back(fileJson(file));
   for (const auto& clock : day.clocks) json["clocks"].push_back(clockJson(clock));
   for (const auto& [table, misfit] : day.misfit) json["misfit_mm"][table] = number(kMillimetres * misfit);
+  json["stated_sigma_um"] = statedNumber(day.stated_sigma, kMicrometres);
   json["stated_over_declared"] = statedNumber(day.stated_over_declared);
   json["rows"] = Json::object();
-  for (const auto& [table, rows] : day.rows) {
-    Json list = Json::array();
-    for (const interchange::RowOrigin& row : rows) {
-      Json origin{{"file", row.file}, {"line", row.line}};
-      if (row.last_line != row.line) origin["last_line"] = row.last_line;
-      list.push_back(std::move(origin));
-    }
-    json["rows"][table] = std::move(list);
-  }
+  for (const auto& [table, rows] : day.rows) json["rows"][table] = originsJson(rows);
+  if (!day.wrenches.empty()) json["wrenches"] = originsJson(day.wrenches);
   json["skipped"] = Json::array();
   for (const interchange::SkippedOrigin& skipped : day.skipped)
     json["skipped"].push_back(

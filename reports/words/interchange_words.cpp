@@ -18,7 +18,7 @@ std::string skipWords(interchange::Skip reason) {
     case Skip::outside_log:
       return "outside the time of the joints' log";
     case Skip::no_readings:
-      return "nothing was read in this standstill";
+      return "nothing was read there";
     case Skip::joints_not_given:
       return "a target in space, without joint angles";
   }

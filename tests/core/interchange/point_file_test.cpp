@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/io/input_error.h"
+#include "tests/core/interchange/refusal.h"
 
 // Small files in the grammar of each format; none is a part of a published one.
 
@@ -25,17 +25,10 @@ PointFile read(const std::string& text, const FileOptions& options = {}) {
 }
 
 std::string refusal(const std::string& text, const FileOptions& options = {}) {
-  try {
-    read(text, options);
-  } catch (const io::InputError& error) {
-    return error.what();
-  }
-  return {};
+  return interchange_test::refusalOf([&] { read(text, options); });
 }
 
-void expectSays(const std::string& said, const std::vector<std::string>& parts) {
-  for (const std::string& part : parts) EXPECT_NE(said.find(part), std::string::npos) << part << " in: " << said;
-}
+using interchange_test::expectSays;
 
 void expectNear(const Eigen::Vector3d& found, double x, double y, double z) {
   EXPECT_LT((found - Eigen::Vector3d(x, y, z)).norm(), kExact) << found.transpose();
@@ -290,6 +283,51 @@ TEST(Columns, NamedByTheFile) {
   expectNear(*file.points[0].sigma, 10e-6, 20e-6, 30e-6);
   EXPECT_FALSE(file.points[0].time->dated);
   EXPECT_DOUBLE_EQ(file.points[0].time->seconds, 4.25);
+}
+
+TEST(SpatialAnalyzer, AUnitThatStandsElsewhereOrIsContradictedIsRefused) {
+  const std::string text = "// Units: Inches\n// 'A::B'\nP1,  1.000000,  2.000000,  3.000000\n";
+  expectSays(refusal(text), {"inches", "option unit"});
+  FileOptions inch;
+  inch.unit = "in";
+  expectNear(read(text, inch).points[0].point, 0.0254, 0.0508, 0.0762);
+  expectSays(refusal(kSa, inch), {"unit", "'in'", "state another"});
+  expectSays(refusal(kLeica, inch), {"unit", "leica"});
+  FileOptions semicolon;
+  semicolon.separator = ";";
+  expectSays(refusal(kSa, semicolon), {"separator", "sa"});
+}
+
+TEST(SpatialAnalyzer, ATimeWithoutItsDateIsSaid) {
+  const PointFile file = read("// X, Y, Z (mm)\nP1,  1.000000,  2.000000,  3.000000,  10:11:12\n");
+  EXPECT_FALSE(file.points[0].time);
+  ASSERT_EQ(file.warnings.size(), 1u);
+  expectSays(file.warnings[0], {":2", "without its date"});
+}
+
+TEST(SpatialAnalyzer, TheOriginIsAPoint) {
+  EXPECT_EQ(read("// X, Y, Z (mm)\nG,  O,  0.000000,  0.000000,  0.000000\n").points.size(), 1u);
+}
+
+TEST(Columns, ALostBeamKeepsItsOccurrence) {
+  FileOptions options;
+  options.columns = "target x_mm y_mm z_mm";
+  const PointFile file = read("P1,1,2,3\nP1,0,0,0\nP1,4,5,6\n", options);
+  ASSERT_EQ(file.points.size(), 2u);
+  EXPECT_EQ(file.points[1].occurrence, 3);
+  ASSERT_EQ(file.lost.size(), 1u);
+  EXPECT_EQ(file.lost[0].occurrence, 2);
+}
+
+TEST(Columns, PartOfTheUncertaintiesAndNegativeOnesAreRefused) {
+  expectSays(refusal("target,x_m,y_m,z_m,ux_um\nP10,1,2,3,10\n"), {"columns", "uy", "all or none"});
+  expectSays(refusal("target,x_m,y_m,z_m,ux_um,uy_um,uz_um\nP10,1,2,3,10,-1,10\n"), {":2", "not below zero"});
+}
+
+TEST(Columns, WhatTheHeaderNamesAndNobodyReadsIsSaid) {
+  const PointFile file = read("target,x_m,y_m,z_m,u_x_um\nP10,1,2,3,10\n");
+  ASSERT_EQ(file.warnings.size(), 1u);
+  expectSays(file.warnings[0], {":1", "not read", "u_x_um"});
 }
 
 TEST(Recognition, RefusesTheWrongAndTheAmbiguous) {

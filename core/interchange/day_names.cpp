@@ -1,0 +1,101 @@
+#include "core/interchange/day_names.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include "core/io/input_error.h"
+#include "core/io/numbers.h"
+
+namespace stiffscope::interchange {
+
+namespace {
+
+bool isAmong(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+}  // namespace
+
+std::string DayNames::mapped(const std::string& name) const {
+  const auto found = day_.target_names.find(name);
+  return found == day_.target_names.end() ? name : found->second;
+}
+
+int DayNames::targetNamed(const std::string& name) const {
+  const auto& targets = day_.xml.campaign.targets;
+  const auto found =
+      std::find_if(targets.begin(), targets.end(), [&](const campaign::Target& one) { return one.id == name; });
+  return found == targets.end() ? -1 : static_cast<int>(found - targets.begin());
+}
+
+std::optional<DayReading> DayNames::readingOf(std::size_t source_index, const PointReading& point) const {
+  const PointsSource& source = day_.points[source_index];
+  const auto fields = source.names.fieldsIn(point);
+  if (!fields) return std::nullopt;
+  const auto field = [&](const char* name) {
+    if (const auto found = fields->find(name); found != fields->end()) return found->second;
+    const auto column = point.columns.find(name);
+    return column == point.columns.end() ? std::string() : column->second;
+  };
+  const std::string name = source.target.empty() ? mapped(field("target")) : source.target;
+  if (!source.only.empty() && !isAmong(source.only, name)) return std::nullopt;
+  DayReading reading;
+  reading.source = source_index;
+  reading.point = &point;
+  reading.target = targetNamed(name);
+  if (reading.target < 0) return std::nullopt;
+  reading.pose = !source.pose.empty() ? source.pose : !field("index").empty() ? field("index") : field("pose");
+  if (reading.pose.empty() && source.by != JoinBy::clock) reading.pose = std::to_string(point.occurrence);
+  const std::string step = source.step.empty() ? field("step") : source.step;
+  reading.step = source.role == Role::loading ? wholeStep(day_.pathOf(source.file), point.line, step) : 0;
+  reading.repeat = field("repeat");
+  if (source.role != Role::circle_sweeps) return reading;
+  reading.axis = source.axis;
+  if (source.axis >= 0) return reading;
+  const std::optional<int> axis = io::parseInteger(field("axis"));
+  if (!axis || *axis < 1 || *axis > 6)
+    throw io::InputError({day_.pathOf(source.file), point.line, "axis"}, field("axis"),
+                         "expected an axis, 1 to 6, by the attribute axis, {axis} in names, or a column axis");
+  reading.axis = *axis - 1;
+  return reading;
+}
+
+std::string DayNames::nestOf(const PointsSource& source, const PointReading& point) const {
+  const auto fields = source.names.fieldsIn(point);
+  if (!fields) return {};
+  const std::string name = mapped(fields->contains("nest")     ? fields->at("nest")
+                                  : fields->contains("target") ? fields->at("target")
+                                                               : point.name);
+  const bool kept = source.only.empty() ? targetNamed(name) < 0 : isAmong(source.only, name);
+  return kept ? name : std::string();
+}
+
+void DayNames::requireEqualOccurrences(std::size_t source_index, const PointFile& points) const {
+  const PointsSource& source = day_.points[source_index];
+  const bool posed = !source.pose.empty() || source.names.has("pose") || source.names.has("index") ||
+                     (!points.points.empty() && (points.points.front().columns.contains("pose") ||
+                                                 points.points.front().columns.contains("index")));
+  if (posed || source.by == JoinBy::clock || source.role == Role::nests) return;
+  using Name = std::tuple<std::string, std::string, std::string>;
+  std::map<Name, const PointReading*> last;
+  const auto count = [&](const PointReading& point) {
+    if (!readingOf(source_index, point)) return;
+    const PointReading*& most = last[Name{point.collection, point.group, point.name}];
+    if (most == nullptr || point.occurrence > most->occurrence) most = &point;
+  };
+  for (const PointReading& point : points.points) count(point);
+  for (const PointReading& point : points.lost) count(point);
+  const auto [least, most] = std::minmax_element(last.begin(), last.end(), [](const auto& a, const auto& b) {
+    return a.second->occurrence < b.second->occurrence;
+  });
+  if (last.empty() || least->second->occurrence == most->second->occurrence) return;
+  throw io::InputError(
+      {day_.pathOf(source.file), least->second->line, "name"}, least->second->name,
+      fmt::format("expected names that repeat once a pose; this one stands {} times, {} {} times: say the pose in "
+                  "the names, or join by the clock",
+                  least->second->occurrence, most->second->name, most->second->occurrence));
+}
+
+}  // namespace stiffscope::interchange

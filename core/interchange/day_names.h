@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/interchange/day_files.h"
+#include "core/interchange/state_join.h"
+
+namespace stiffscope::interchange {
+
+/// What the names of points say by DAY.xml: reflector, pose, step, repeat, axis, or nest.
+class DayNames {
+ public:
+  /// `day` has to live as long.
+  explicit DayNames(const DayDescription& day) : day_(day) {}
+
+  /// A point of the file of that place in DayDescription::points as a reading of a reflector; nullopt where its name is
+  /// none of the role's. Throws InputError for a step or an axis that is none.
+  std::optional<DayReading> readingOf(std::size_t source, const PointReading& point) const;
+
+  /// The name of the nest that a point is of; empty where it is of none. Without `only` all names are nests that are no
+  /// reflectors.
+  std::string nestOf(const PointsSource& source, const PointReading& point) const;
+
+  /// Where names have no pose, their occurrence is the pose: throws InputError where the reflectors of a file were not
+  /// read equally often, so that an occurrence of one is another pose than that of another. Lost beams count.
+  void requireEqualOccurrences(std::size_t source, const PointFile& points) const;
+
+ private:
+  std::string mapped(const std::string& name) const;
+  int targetNamed(const std::string& name) const;
+
+  const DayDescription& day_;
+};
+
+}  // namespace stiffscope::interchange
