@@ -28,7 +28,7 @@ std::string elasticModelWords(elastic_model::RemarkId id, const RemarkValues& va
     case effect_in_load_point:
       return effect() + ": load_point stands where the load acts as corrected";
     case no_masses:
-      return "the links have no weight: the URDF states no masses";
+      return "arm and tool have no weight: the URDF states no masses of the links";
     case no_inertia:
       return fmt::format(
           "the URDF states no inertia that a rigid body has for {}: {:g} kg m^2 about every axis stand in, without "
