@@ -1,6 +1,7 @@
 #include "core/elastic_model/mjcf.h"
 
 #include <tinyxml2.h>
+#include <algorithm>
 #include <cmath>
 
 #include "core/elastic_model/written.h"
@@ -32,17 +33,28 @@ void addInertial(XMLElement& node, const ChainBody& body) {
                                             .c_str());
 }
 
-void addMjcfJoint(XMLElement& node, const ChainBody& body, const ChainJoint& joint) {
+/// Of the drives' position control, N m/rad: its own give is the least part of any joint's.
+double driveGain(const ElasticChain& chain) {
+  double stiffest = 1e6;
+  for (const ChainBody& body : chain.bodies) {
+    for (const ChainJoint& joint : body.joints) {
+      if (joint.kind == ChainJoint::Kind::turn_spring) stiffest = std::max(stiffest, joint.stiffness);
+    }
+  }
+  return kDriveGain * stiffest;
+}
+
+void addMjcfJoint(XMLElement& node, const ChainBody& body, const ChainJoint& joint, double gain) {
   XMLElement* element = node.InsertNewChildElement("joint");
   const bool drive = joint.kind == ChainJoint::Kind::drive, shift = joint.kind == ChainJoint::Kind::shift_spring;
   element->SetAttribute("name", joint.name.c_str());
   element->SetAttribute("type", shift ? "slide" : "hinge");
   if (!shift) element->SetAttribute("pos", written(Eigen::Vector3d(joint.point - body.origin)).c_str());
   element->SetAttribute("axis", written(joint.direction).c_str());
+  element->SetAttribute("damping", written(kDampingTime * (drive ? gain : joint.stiffness)).c_str());
   if (!drive) {
     element->SetAttribute("stiffness", written(joint.stiffness).c_str());
     element->SetAttribute("springref", "0");
-    element->SetAttribute("damping", written(kDampingTime * joint.stiffness).c_str());
   } else if (std::isfinite(joint.lower) && std::isfinite(joint.upper)) {
     element->SetAttribute("limited", "true");
     element->SetAttribute("range", fmt::format("{} {}", joint.lower, joint.upper).c_str());
@@ -61,18 +73,15 @@ void addMjcfSites(XMLElement& node, const ElasticChain& chain, int body) {
   }
 }
 
-/// Drives are held by constraints, not by actuators: those would give under load, too.
-void addHolds(XMLElement& root, const ElasticChain& chain) {
-  XMLElement* equality = root.InsertNewChildElement("equality");
+void addDrives(XMLElement& root, const ElasticChain& chain, double gain) {
+  XMLElement* actuators = root.InsertNewChildElement("actuator");
   for (const ChainBody& body : chain.bodies) {
     for (const ChainJoint& joint : body.joints) {
       if (joint.kind != ChainJoint::Kind::drive) continue;
-      XMLElement* hold = equality->InsertNewChildElement("joint");
-      hold->SetAttribute("name", ("hold_" + joint.name).c_str());
-      hold->SetAttribute("joint1", joint.name.c_str());
-      hold->SetAttribute("polycoef", "0 0 0 0 0");
-      hold->SetAttribute("solref", fmt::format("{} 1", 4.0 * kTimeStep).c_str());
-      hold->SetAttribute("solimp", "0.9999 0.9999 0.001");
+      XMLElement* drive = actuators->InsertNewChildElement("position");
+      drive->SetAttribute("name", ("drive_" + joint.name).c_str());
+      drive->SetAttribute("joint", joint.name.c_str());
+      drive->SetAttribute("kp", written(gain).c_str());
     }
   }
 }
@@ -80,6 +89,7 @@ void addHolds(XMLElement& root, const ElasticChain& chain) {
 }  // namespace
 
 std::string mjcf(const ElasticChain& chain, const std::vector<std::string>& comments) {
+  const double gain = driveGain(chain);
   tinyxml2::XMLDocument document;
   XMLElement* root = document.NewElement("mujoco");
   document.InsertEndChild(root);
@@ -98,12 +108,12 @@ std::string mjcf(const ElasticChain& chain, const std::vector<std::string>& comm
     element->SetAttribute("name", body.name.c_str());
     element->SetAttribute("pos", written(Eigen::Vector3d(body.origin - inside)).c_str());
     addInertial(*element, body);
-    for (const ChainJoint& joint : body.joints) addMjcfJoint(*element, body, joint);
+    for (const ChainJoint& joint : body.joints) addMjcfJoint(*element, body, joint, gain);
     addMjcfSites(*element, chain, static_cast<int>(b));
     inside = body.origin;
     parent = element;
   }
-  addHolds(*root, chain);
+  addDrives(*root, chain, gain);
   tinyxml2::XMLPrinter printer;
   document.Print(&printer);
   return printer.CStr();
