@@ -19,7 +19,7 @@
 #include "core/io/write_file.h"
 #include "core/robot/body_inertia.h"
 #include "reports/json/campaign_json.h"
-#include "reports/json/elastic_model_json.h"
+#include "reports/json/export_json.h"
 #include "reports/json/json.h"
 #include "reports/text/text.h"
 #include "reports/words/preparation_words.h"
@@ -30,7 +30,7 @@ namespace stiffscope::app {
 namespace {
 
 struct UrdfArguments {
-  std::string campaign, out;
+  std::string campaign, out, json;
   bool raw = false;
 };
 
@@ -49,11 +49,14 @@ std::optional<robot::Robot> sweptArm(const campaign::Campaign& campaign) {
 }
 
 int exportUrdf(const UrdfArguments& arguments) {
-  const preparation::PreparedCampaign prepared = openPrepared(arguments.campaign, arguments.raw);
+  requireTwoFiles(arguments.out, arguments.json);
+  const preparation::PreparedCampaign prepared =
+      openPrepared(arguments.campaign, arguments.raw, hashesFor(arguments.json));
   const campaign::Campaign& campaign = prepared.campaign;
   const calibration::Calibration calibration = calibration::calibrate(campaign, {});
+  const bool by_postures = calibration.reason.empty();
   std::optional<robot::Robot> arm;
-  if (calibration.reason.empty()) {
+  if (by_postures) {
     arm = calibration.geometry().fit.arm(campaign.robot);
   } else {
     arm = sweptArm(campaign);
@@ -64,8 +67,16 @@ int exportUrdf(const UrdfArguments& arguments) {
     return kNotUsable;
   }
   writeCalibratedUrdf(campaign, *arm, arguments.out);
-  printText(arguments.out + ": written, with the geometry of " +
-            (calibration.reason.empty() ? "the unloaded postures\n" : "the sweeps\n"));
+  deliver(
+      [&] {
+        return reports::withPreparation(reports::urdfExportJson(campaign, arguments.out, by_postures),
+                                        prepared.preparation);
+      },
+      [&] {
+        return reports::urdfExportText(campaign, arguments.out, by_postures) +
+               reports::preparationText(prepared.preparation);
+      },
+      arguments.json);
   return kDone;
 }
 
@@ -75,6 +86,7 @@ void addUrdf(CLI::App& parent, Run& run) {
   command->add_option("CAMPAIGN", arguments->campaign, "campaign folder or its campaign.xml")->required();
   command->add_option("--out", arguments->out, "file to write")->required();
   addRawOption(*command, arguments->raw);
+  command->add_option("--json", arguments->json, "write what was exported to this file, - for standard output");
   command->callback([arguments, &run] { run = [arguments] { return exportUrdf(*arguments); }; });
 }
 
@@ -89,6 +101,7 @@ struct ElasticArguments {
 
 int exportElastic(const ElasticArguments& arguments) {
   const MethodAndStep choice = methodAndStep(arguments.method, arguments.step);
+  requireTwoFiles(arguments.out, arguments.json);
   const preparation::PreparedCampaign prepared =
       openPrepared(arguments.campaign, arguments.raw, hashesFor(arguments.json));
   Identified found = identifiedBy(prepared, arguments.campaign, arguments.model, choice);

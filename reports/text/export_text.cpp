@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "reports/json/elastic_model_json.h"
+#include "reports/json/export_json.h"
 #include "reports/words/names.h"
 #include "reports/words/numbers.h"
 #include "reports/words/remark_words.h"
@@ -35,6 +35,11 @@ std::string exportText(const campaign::Campaign& campaign, const ExportedModel& 
   }
   for (const Remark& remark : exported.model.remarks) text += wrapped(capitalised(words(remark)) + '.', 2) + '\n';
   return text + fmt::format("{}: written ({})\n", exported.file, exported.format);
+}
+
+std::string urdfExportText(const campaign::Campaign& campaign, const std::string& file, bool by_postures) {
+  return fmt::format("{}: calibrated URDF, axes and flange where the {} have them\n{}: written (urdf)\n", campaign.name,
+                     by_postures ? "unloaded postures" : "sweeps", file);
 }
 
 }  // namespace stiffscope::reports

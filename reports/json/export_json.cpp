@@ -1,4 +1,4 @@
-#include "reports/json/elastic_model_json.h"
+#include "reports/json/export_json.h"
 
 #include "reports/json/campaign_json.h"
 #include "reports/words/names.h"
@@ -46,6 +46,13 @@ Json exportJson(const campaign::Campaign& campaign, const ExportedModel& exporte
           {"joints", joints},
           {"sites", sites},
           {"remarks", words(exported.model.remarks)}};
+}
+
+Json urdfExportJson(const campaign::Campaign& campaign, const std::string& file, bool by_postures) {
+  return {{"campaign", campaignJson(campaign)},
+          {"format", "urdf"},
+          {"file", file},
+          {"geometry", by_postures ? "unloaded_postures" : "sweeps"}};
 }
 
 }  // namespace stiffscope::reports
