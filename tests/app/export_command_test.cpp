@@ -29,7 +29,7 @@ TEST(ExportCommand, MjcfHasTheSpringsThatIdentifyFinds) {
   const fs::path file = scratch.path() / "arm.xml";
   const auto json = exported("mjcf" + kActive + "--springs-only --method pp", scratch, file);
   const Ran identify = runProgram("identify" + kActive + "--springs-only --method pp --json -", scratch.path());
-  const auto stiffness = nlohmann::json::parse(identify.out)["methods"]["pp"]["joints"];
+  const auto stiffness = nlohmann::json::parse(identify.out)["methods"]["pp"]["stiffness_nm_per_rad"];
   EXPECT_EQ(json["format"], "mjcf");
   EXPECT_EQ(json["method"], "pp");
   std::map<std::string, double> springs;
@@ -42,7 +42,7 @@ TEST(ExportCommand, MjcfHasTheSpringsThatIdentifyFinds) {
   EXPECT_EQ(drives, 6);
   ASSERT_EQ(springs.size(), 5u);  // k1 is not identifiable
   for (int joint = 2; joint <= 6; ++joint) {
-    const double k = stiffness[static_cast<std::size_t>(joint - 1)]["k_nm_per_rad"];
+    const double k = stiffness[static_cast<std::size_t>(joint - 1)];
     EXPECT_NEAR(springs.at("joint_" + std::to_string(joint) + "_spring"), k, 1e-9 * k);
   }
   ASSERT_EQ(json["remarks"].size(), 1u);

@@ -57,11 +57,11 @@ class MujocoArm {
     constexpr double kSettled = 1e-14;  // rad and m
     mjModel* const m = model_.get();
     mjData* const d = data_.get();
-    Eigen::VectorXd applied(m->nv);
+    Eigen::VectorXd& applied = applied_;
     for (int step = 0; step < kMostSteps; ++step) {
       mj_fwdPosition(m, d);
       mj_fwdVelocity(m, d);
-      applied.setZero();
+      applied.setZero(m->nv);
       if (!at.empty()) {
         const int place = site(at);
         mj_applyFT(m, d, load.force.data(), load.moment.data(), d->site_xpos + 3 * place, m->site_bodyid[place],
@@ -81,6 +81,20 @@ class MujocoArm {
       }
     }
     return false;
+  }
+
+  // Of a joint, settled.
+  double position(const std::string& name) const { return data_->qpos[model_->jnt_qposadr[joint(name)]]; }
+  Eigen::Vector3d axis(const std::string& name) const {
+    return Eigen::Map<const Eigen::Vector3d>(data_->xaxis + 3 * joint(name));
+  }
+  Eigen::Vector3d anchor(const std::string& name) const {
+    return Eigen::Map<const Eigen::Vector3d>(data_->xanchor + 3 * joint(name));
+  }
+  /// What weight and load do on it, N m.
+  double torque(const std::string& name) const {
+    const int dof = model_->jnt_dofadr[joint(name)];
+    return applied_[dof] - data_->qfrc_bias[dof];
   }
 
   Eigen::Vector3d place(const std::string& name) const {
@@ -104,6 +118,7 @@ class MujocoArm {
 
   std::unique_ptr<mjModel, Free> model_;
   std::unique_ptr<mjData, Free> data_;
+  Eigen::VectorXd applied_;
 };
 
 }  // namespace stiffscope
