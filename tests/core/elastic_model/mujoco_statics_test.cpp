@@ -73,11 +73,14 @@ MujocoLoad loadOf(const MujocoArm& arm, const Vector6d& reading) {
   return {cell * reading.head<3>(), cell * reading.tail<3>()};
 }
 
+/// Of P_TCP and the reflectors, in this order.
+using Moves = std::vector<Eigen::Vector3d>;
+
 /// What is to be taken off a place, world axes.
 using Neglected = Eigen::Vector3d (*)(const MujocoArm& arm, const Predicted& predicted, const Eigen::Vector3d& point);
 
-/// Moves of P_TCP and the reflectors by the load in MuJoCo, R0 axes, one row a posture.
-std::vector<std::vector<Eigen::Vector3d> > movesInMujoco(const Predicted& predicted, Neglected neglected = nullptr) {
+/// Moves by the load in MuJoCo, R0 axes, one row a posture.
+std::vector<Moves> movesInMujoco(const Predicted& predicted, Neglected neglected = nullptr) {
   MujocoArm arm(predicted.mjcf());
   const Eigen::Matrix3d r0_from_world = predicted.method.geometry.r0_from_base_link.linear();
   std::vector<std::string> points{"tcp"};
@@ -86,11 +89,11 @@ std::vector<std::vector<Eigen::Vector3d> > movesInMujoco(const Predicted& predic
     const Eigen::Vector3d there = arm.place(name);
     return neglected ? Eigen::Vector3d(there - neglected(arm, predicted, there)) : there;
   };
-  std::vector<std::vector<Eigen::Vector3d> > rows;
+  std::vector<Moves> rows;
   for (const compensation::PostureToCompensate& posture : predicted.asked()) {
     arm.stand(predicted.campaign.robot.joint_names, posture.q);
     EXPECT_TRUE(arm.settle());
-    std::vector<Eigen::Vector3d> moves;
+    Moves moves;
     for (const std::string& point : points) moves.push_back(-place(point));
     EXPECT_TRUE(arm.settle("load_point", loadOf(arm, posture.wrench_in_cell)));
     for (std::size_t p = 0; p < points.size(); ++p) moves[p] = r0_from_world * (moves[p] + place(points[p]));
@@ -101,11 +104,11 @@ std::vector<std::vector<Eigen::Vector3d> > movesInMujoco(const Predicted& predic
 }
 
 /// Largest |move - predicted move| of these points, over the predicted move of that point; one a posture.
-std::vector<double> differences(const Predicted& predicted, const std::vector<std::vector<Eigen::Vector3d> >& moves) {
+std::vector<double> differences(const Predicted& predicted, const std::vector<Moves>& moves) {
   std::vector<double> rows;
   for (const compensation::CompensatedPosture& one : predicted.postures()) {
     EXPECT_TRUE(one.predicted);
-    const std::vector<Eigen::Vector3d>& own = moves[rows.size()];
+    const Moves& own = moves[rows.size()];
     double worst = 0.0;
     for (std::size_t p = 0; p < own.size(); ++p) {
       const Eigen::Vector3d& theirs = p == 0 ? one.tcp.deflection : one.targets[p - 1].deflection;

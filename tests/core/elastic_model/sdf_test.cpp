@@ -23,11 +23,12 @@ Eigen::Vector3d eigen(const ignition::math::Vector3d& v) { return {v.X(), v.Y(),
 /// The chain with all four effects that springs are.
 elastic_model::ElasticModel fullModel(const KnownArm& arm) {
   using enum effects::Effect;
-  std::vector<std::vector<effects::EffectModel> > models;
+  using Models = std::vector<effects::EffectModel>;
+  std::vector<Models> models;
   for (const effects::Effect effect : {bearing_tilt, link_compliance, base_compliance, tool_compliance})
     models.push_back(effects::modelsOf(effects::recordOf(effect)));
   elastic_model::ElasticSource source{arm.campaign, arm.geometry, arm.estimate};
-  for (const auto& of_effect : models) {
+  for (const Models& of_effect : models) {
     const auto count = static_cast<Eigen::Index>(of_effect[0].parameters());
     source.effects.push_back({&of_effect[0], Eigen::VectorXd::LinSpaced(count, 1e-8, 5e-8)});
   }
