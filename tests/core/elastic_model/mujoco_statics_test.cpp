@@ -4,6 +4,9 @@
 TEST(MujocoStatics, IsNotBuilt) { GTEST_SKIP() << "MuJoCo is not here"; }
 #else
 
+#include <fmt/format.h>
+#include <algorithm>
+
 #include "core/campaign/read_campaign.h"
 #include "core/compensation/compensate.h"
 #include "core/elastic_model/elastic_model.h"
