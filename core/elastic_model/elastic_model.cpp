@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <optional>
 #include <set>
 
 #include "core/effects/all.h"
@@ -25,11 +26,15 @@ struct SizesOf {
   double at(Eigen::Index place) const { return effect ? effect->parameters[place] : 0.0; }
 };
 
-/// What bears a rigid body's inertia: principal moments above 0, none more than the other two together.
-bool isOfABody(const Eigen::Matrix3d& inertia) {
+/// The inertia as simulators take it, principal moments above 0 and none more than the other two together, that bound
+/// kept clear of rounding; empty where no rigid body has it.
+std::optional<Eigen::Matrix3d> inertiaOfABody(const Eigen::Matrix3d& inertia) {
   constexpr double kLeast = 1e-12, kRounding = 1e-9;
   const Eigen::Vector3d moments = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia).eigenvalues();
-  return moments[0] > kLeast && moments[2] <= (moments[0] + moments[1]) * (1.0 + kRounding);
+  const double both = moments[0] + moments[1];
+  if (!(moments[0] > kLeast) || moments[2] > both * (1.0 + kRounding)) return std::nullopt;
+  if (moments[2] < both * (1.0 - kRounding)) return inertia;
+  return inertia + 2.0 * kRounding * moments[2] * Eigen::Matrix3d::Identity();  // a thin plate
 }
 
 class ChainBuilder {
@@ -217,9 +222,9 @@ class ChainBuilder {
       if (!weight.links_known || weight.bodies[body].mass_kg <= 0.0) continue;
       ChainBody& own = model_.chain.bodies[static_cast<std::size_t>(body_of_link_[body])];
       own.mass = massOf(body);
-      if (isOfABody(own.mass.inertia)) continue;
-      own.mass.inertia = kStandInInertia * Eigen::Matrix3d::Identity();
-      stand_in.push_back(own.name);
+      const std::optional<Eigen::Matrix3d> physical = inertiaOfABody(own.mass.inertia);
+      own.mass.inertia = physical.value_or(kStandInInertia * Eigen::Matrix3d::Identity());
+      if (!physical) stand_in.push_back(own.name);
     }
     if (!stand_in.empty()) model_.remarks.emplace_back(RemarkId::no_inertia, stand_in);
   }

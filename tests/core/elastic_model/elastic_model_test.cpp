@@ -228,6 +228,21 @@ TEST(ElasticModel, AnInertiaThatNoBodyHasIsReplacedAndNamed) {
   }
 }
 
+// A thin plate is a body; that simulators compute its moments again shall not make it none.
+TEST(ElasticModel, AThinPlateKeepsItsInertia) {
+  const Arm arm;
+  elastic_model::ElasticSource source{arm.campaign, arm.geometry, arm.estimate};
+  for (Eigen::Matrix3d& inertia : source.inertias) inertia = Eigen::Vector3d(1.0, 1.5, 2.5).asDiagonal();
+  const elastic_model::ElasticModel model = elastic_model::elasticModel(source);
+  EXPECT_TRUE(model.remarks.empty());
+  for (const ChainBody& body : model.chain.bodies) {
+    if (body.mass.mass_kg <= 0.0) continue;
+    const Eigen::Vector3d moments = body.mass.inertia.diagonal();
+    EXPECT_NEAR(moments[2], 2.5, 1e-7) << body.name;
+    EXPECT_GT(moments[0] + moments[1], moments[2] * (1.0 + 1e-10)) << body.name;
+  }
+}
+
 // SDFormat keeps links, joints and frames in one list; URDF has a list each.
 TEST(ElasticModel, NamesAreUnique) {
   Arm arm;
