@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/elastic_model/written.h"
-#include "core/robot/kinematics.h"
 
 namespace stiffscope::elastic_model {
 
@@ -16,18 +15,17 @@ void addText(XMLElement& parent, const char* name, const std::string& text) {
   parent.InsertNewChildElement(name)->SetText(text.c_str());
 }
 
-std::string poseAt(const Eigen::Vector3d& place, const Eigen::Matrix3d& rotation = Eigen::Matrix3d::Identity()) {
-  return written(place) + ' ' + written(robot::rpyFromRotation(rotation));
-}
+/// Of a frame that stands parallel to the one it is written in.
+std::string parallelAt(const Eigen::Vector3d& place) { return written(place) + " 0 0 0"; }
 
 void addLink(XMLElement& model, const std::string& name, const Eigen::Vector3d& origin, const ChainMass& mass) {
   XMLElement* link = model.InsertNewChildElement("link");
   link->SetAttribute("name", name.c_str());
-  addText(*link, "pose", poseAt(origin));
+  addText(*link, "pose", parallelAt(origin));
   const bool stand_in = mass.mass_kg <= 0.0;
   if (stand_in) addText(*link, "gravity", "false");
   XMLElement* inertial = link->InsertNewChildElement("inertial");
-  if (!stand_in) addText(*inertial, "pose", poseAt(mass.centre - origin));
+  if (!stand_in) addText(*inertial, "pose", parallelAt(mass.centre - origin));
   addText(*inertial, "mass", written(stand_in ? kStandInMass : mass.mass_kg));
   const Eigen::Matrix3d about =
       stand_in ? Eigen::Matrix3d(kStandInInertia * Eigen::Matrix3d::Identity()) : mass.inertia;
@@ -47,7 +45,7 @@ void addSdfJoint(XMLElement& model, const ChainJoint& joint, const std::string& 
   const bool drive = joint.kind == ChainJoint::Kind::drive, shift = joint.kind == ChainJoint::Kind::shift_spring;
   element->SetAttribute("name", joint.name.c_str());
   element->SetAttribute("type", shift ? "prismatic" : "revolute");
-  if (!shift) addText(*element, "pose", poseAt(joint.point - origin));
+  if (!shift) addText(*element, "pose", parallelAt(joint.point - origin));
   addText(*element, "parent", parent);
   addText(*element, "child", child);
   XMLElement* axis = element->InsertNewChildElement("axis");
@@ -80,7 +78,12 @@ void addFrames(XMLElement& model, const ElasticChain& chain) {
     frame->SetAttribute("name", site.name.c_str());
     frame->SetAttribute("attached_to",
                         (on_base ? chain.base : chain.bodies[static_cast<std::size_t>(site.body)].name).c_str());
-    addText(*frame, "pose", poseAt(site.base_from_site.translation() - origin, site.base_from_site.linear()));
+    // As a quaternion: flanges often stand where roll and yaw of the other form are one.
+    const Eigen::Quaterniond turn(site.base_from_site.linear());
+    addText(*frame, "pose",
+            fmt::format("{} {} {} {} {}", written(Eigen::Vector3d(site.base_from_site.translation() - origin)),
+                        turn.x() + 0.0, turn.y() + 0.0, turn.z() + 0.0, turn.w() + 0.0));
+    frame->FirstChildElement("pose")->SetAttribute("rotation_format", "quat_xyzw");
   }
 }
 
