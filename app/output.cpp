@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -147,6 +148,13 @@ campaign::Campaign openCampaign(const std::string& folder_or_xml, campaign::Hash
 
 void printWarnings(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) std::fprintf(stderr, "stiffscope: warning: %s\n", warning.c_str());
+}
+
+void requireTwoFiles(const std::string& out, const std::string& json_file) {
+  if (out.empty() || json_file.empty() || json_file == "-") return;
+  namespace fs = std::filesystem;
+  if (fs::weakly_canonical(out) == fs::weakly_canonical(json_file))
+    throw std::runtime_error(json_file + ": expected another file for --json than for --out");
 }
 
 void deliver(const std::function<reports::JsonDocument()>& json, const std::function<std::string()>& text,

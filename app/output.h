@@ -36,6 +36,9 @@ void printBytes(std::string_view text);
 void deliver(const std::function<reports::JsonDocument()>& json, const std::function<std::string()>& text,
              const std::string& json_file);
 
+/// Throws std::runtime_error where --out and --json name one file: of two results in it one would be lost.
+void requireTwoFiles(const std::string& out, const std::string& json_file);
+
 /// Hands what dump(1) gives, and a line end, to `sink`, in parts; long lists of it are made and written on all cores, a
 /// few thousand rows at a time, so that neither a hundred megabytes of values nor their text stands in memory.
 void writeJson(const reports::JsonDocument& document, const io::ByteSink& sink);

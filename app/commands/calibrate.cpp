@@ -6,11 +6,10 @@
 #include "app/options.h"
 #include "app/output.h"
 #include "app/prepared.h"
+#include "app/urdf.h"
 #include "core/calibration/calibrate.h"
-#include "core/calibration/calibrated_urdf.h"
 #include "core/campaign/campaign.h"
 #include "core/io/input_error.h"
-#include "core/io/read_file.h"
 #include "core/io/write_file.h"
 #include "reports/json/campaign_json.h"
 #include "reports/json/json.h"
@@ -34,20 +33,6 @@ void checkFolds(const calibration::CalibrationOptions& options) {
     throw io::InputError({"--folds"}, std::to_string(options.folds), "expected 2 to 100");
   if (options.fold_size < 1 || options.fold_size > kMostSize)
     throw io::InputError({"--fold-size"}, std::to_string(options.fold_size), "expected 1 to 1000000 postures");
-}
-
-/// Reading a campaign records campaign.xml, then the URDF, then the tables.
-std::filesystem::path urdfOf(const campaign::Campaign& campaign) {
-  return campaign.folder / campaign.inputs.at(1).name;
-}
-
-void writeUrdf(const campaign::Campaign& campaign, const calibration::Calibration& calibration,
-               const std::string& file) {
-  const std::filesystem::path urdf = urdfOf(campaign);
-  const std::string bytes = io::readTextFile(urdf, io::kLargestXml);
-  io::requireNotRead(file);
-  io::writeFileWhole(file, calibration::calibratedUrdf(bytes, urdf.string(), campaign.base_link, campaign.flange_link,
-                                                       campaign.robot, calibration.geometry().fit.arm(campaign.robot)));
 }
 
 int calibrateCampaign(CalibrateArguments& arguments) {
@@ -78,7 +63,8 @@ int calibrateCampaign(CalibrateArguments& arguments) {
     io::requireNotRead(arguments.csv);
     io::writeFileWhole(arguments.csv, reports::calibrationCsv(calibration));
   }
-  if (!arguments.urdf.empty()) writeUrdf(campaign, calibration, arguments.urdf);
+  if (!arguments.urdf.empty())
+    writeCalibratedUrdf(campaign, calibration.geometry().fit.arm(campaign.robot), arguments.urdf);
   return kDone;
 }
 

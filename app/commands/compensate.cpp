@@ -2,17 +2,15 @@
 #include <memory>
 
 #include "app/command_line.h"
+#include "app/identified.h"
 #include "app/model.h"
-#include "app/options.h"
 #include "app/output.h"
 #include "app/prepared.h"
 #include "core/compensation/compensate.h"
 #include "core/extended_model/effect_deflection.h"
 #include "core/extended_model/extended_model.h"
 #include "core/identification/identification.h"
-#include "core/identification/identify.h"
 #include "core/identification/known_stiffness.h"
-#include "core/io/input_error.h"
 #include "reports/json/campaign_json.h"
 #include "reports/json/identification_json.h"
 #include "reports/json/json.h"
@@ -34,27 +32,15 @@ struct CompensateArguments {
 };
 
 int compensateCampaign(const CompensateArguments& arguments) {
-  std::vector<identification::Method> methods;
-  if (!arguments.method.empty()) methods = methodsNamed(arguments.method);
-  if (methods.size() > 1) throw io::InputError({"--method"}, arguments.method, "expected one of cp, pp or dpp");
-  identification::IdentifyOptions options;
-  options.step = loadStepNamed(arguments.step);
+  const MethodAndStep choice = methodAndStep(arguments.method, arguments.step);
   const preparation::PreparedCampaign prepared = openPrepared(arguments.campaign, arguments.raw);
-  requireLoad(prepared.campaign);
-  std::optional<extended_model::ExtendedModel> improved = modelOf(prepared, arguments.model, options);
-  const campaign::Campaign& campaign = improved ? improved->campaign : prepared.campaign;
-  std::optional<identification::Identification> springs;
-  if (!improved) springs = identification::identify(campaign, options);
-  identification::Identification& result = improved ? improved->with : *springs;
-  if (methods.empty()) methods = {identification::bestMethod(result)};
-  const std::optional<identification::ShownFirst> first =
-      arguments.method.empty() ? result.shown_first : identification::shownFirstOf(result, methods);
-  identification::MethodResult& method = result.methods[static_cast<std::size_t>(methods.front())];
-  if (!method.available) {
-    throw io::InputError(
-        {arguments.campaign}, "",
-        std::string(reports::namesOf(methods.front()).full) + " is unavailable here: " + reports::words(method.reason));
-  }
+  Identified found = identifiedBy(prepared, arguments.campaign, arguments.model, choice);
+  const std::optional<extended_model::ExtendedModel>& improved = found.improved;
+  const campaign::Campaign& campaign = found.campaign(prepared);
+  const identification::Identification& result = found.result();
+  identification::MethodResult& method = found.of_method();
+  const std::vector<identification::Method> methods{found.method};
+  const std::optional<identification::ShownFirst>& first = found.shown_first;
   std::vector<std::string> warnings;
   const std::vector<compensation::PostureToCompensate> asked =
       arguments.postures.empty() ? compensation::campaignPostures(campaign, result.step)
@@ -62,7 +48,8 @@ int compensateCampaign(const CompensateArguments& arguments) {
   printWarnings(warnings);
   // Every model that a prediction may come from takes what is known of joints that the day cannot see.
   std::vector<identification::StiffnessEstimate*> estimates{&method.estimate};
-  if (improved) estimates.push_back(&improved->without.methods[static_cast<std::size_t>(methods.front())].estimate);
+  if (found.improved)
+    estimates.push_back(&found.improved->without.methods[static_cast<std::size_t>(methods.front())].estimate);
   std::vector<identification::StiffnessEstimate> of_the_day;
   std::vector<campaign::KnownStiffness> known;
   for (identification::StiffnessEstimate* estimate : estimates) {

@@ -111,14 +111,6 @@ planning::EffectDoubt doubtOf(const std::optional<extended_model::ExtendedModel>
   return doubt;
 }
 
-/// Of two results in one file one would be lost.
-void requireTwoFiles(const PlanArguments& arguments) {
-  if (arguments.out.empty() || arguments.json.empty() || arguments.json == "-") return;
-  namespace fs = std::filesystem;
-  if (fs::weakly_canonical(arguments.out) != fs::weakly_canonical(arguments.json)) return;
-  throw std::runtime_error(arguments.json + ": expected another file for --json than for --out");
-}
-
 /// Writes what `--out` asks for.
 void writeOut(const PlanArguments& arguments, const std::function<std::string(bool xml)>& content) {
   if (arguments.out.empty()) return;
@@ -144,7 +136,7 @@ int planUnloadedDay(const PlanArguments& arguments, const Given& given, const pl
 }
 
 int planDay(const PlanArguments& arguments, const Given& given) {
-  requireTwoFiles(arguments);
+  requireTwoFiles(arguments.out, arguments.json);
   planning::PlanOptions options = optionsOf(arguments, given);
   if (arguments.unloaded) return planUnloadedDay(arguments, given, options);
   const preparation::PreparedCampaign prepared = preparation::prepareCampaign(openCampaign(arguments.campaign));

@@ -31,7 +31,7 @@ std::vector<CalibratedModel> drawnModels(const calibration::Calibration& calibra
   return models;
 }
 
-render::Colour colourOf(CalibratedModel model) {
+render::Colour modelColour(CalibratedModel model) {
   if (model == CalibratedModel::nominal) return render::colours::kAxis;
   return render::colours::kSeries[model == CalibratedModel::geometry ? 0 : 1];
 }
@@ -45,7 +45,7 @@ render::PointSeries curveOf(const std::vector<ReadingError>& errors, CalibratedM
   const std::vector<double> lengths = calibration::errorLengths(errors, model);
   render::PointSeries curve;
   curve.name = reports::modelWords(model);
-  curve.colour = colourOf(model);
+  curve.colour = modelColour(model);
   curve.mark = render::PointMark::none;
   curve.joined = true;
   curve.points.push_back({0.0, 0.0});
@@ -261,7 +261,7 @@ render::PointPanel dayPanel(const calibration::Calibration& calibration, const s
     }
     render::PointSeries series;
     series.name = reports::modelWords(model);
-    series.colour = colourOf(model);
+    series.colour = modelColour(model);
     for (const std::size_t i : preparation::evenlySpreadIndices(points.size(), kMostOverDay))
       series.points.push_back(points[i]);
     const double last = points.empty() ? 1.0 : points.back().x, first = points.empty() ? 0.0 : points.front().x;

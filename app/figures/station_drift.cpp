@@ -14,7 +14,7 @@ namespace stiffscope::app {
 
 namespace {
 
-constexpr double kHour = 3600.0;
+constexpr double kSecondsPerHour = 3600.0;
 constexpr double kMicroradian = 1e-6;
 
 double largestMotion(const preparation::StationMotion& station) {
@@ -36,8 +36,9 @@ render::PointPanel motionPanel(const preparation::StationMotion& station, int fi
     series.joined = true;
     for (const preparation::StationEpoch& epoch : station.epochs) {
       // Side by side, so that no whisker hides another.
-      const double span_h = (station.epochs.back().time_s - station.epochs.front().time_s) / kHour;
-      series.points.push_back({epoch.time_s / kHour + 0.006 * span_h * (k - 1), epoch.motion[first + k] / unit});
+      const double span_h = (station.epochs.back().time_s - station.epochs.front().time_s) / kSecondsPerHour;
+      series.points.push_back(
+          {epoch.time_s / kSecondsPerHour + 0.006 * span_h * (k - 1), epoch.motion[first + k] / unit});
       series.errors.push_back(2.0 * std::sqrt(epoch.covariance(first + k, first + k)) / unit);
     }
     panel.series.push_back(std::move(series));
@@ -56,7 +57,7 @@ render::PointPanel nestPanel(const campaign::Campaign& campaign, double unit) {
     for (const campaign::NestReading& reading : campaign.nests->rows) {
       if (reading.nest != static_cast<int>(nest)) continue;
       if (!first) first = reading.point;
-      series.points.push_back({reading.time_s / kHour, (reading.point - *first).norm() / unit});
+      series.points.push_back({reading.time_s / kSecondsPerHour, (reading.point - *first).norm() / unit});
     }
     panel.series.push_back(std::move(series));
   }

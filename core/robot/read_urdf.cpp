@@ -13,6 +13,7 @@
 #include "core/io/input_error.h"
 #include "core/io/read_file.h"
 #include "core/io/xml.h"
+#include "core/robot/body_inertia.h"
 #include "core/robot/kinematics.h"
 
 namespace stiffscope::robot {
@@ -308,6 +309,40 @@ Robot parseUrdf(std::string_view bytes, const std::string& file, const std::stri
   placeAttachedLinks(model, robot);
   for (const LinkFrame& frame : robot.links) addMass(model, frame, robot);
   return robot;
+}
+
+namespace {
+
+Eigen::Matrix3d urdfInertia(const io::XmlNode& inertial) {
+  const auto node = inertial.child("inertia");
+  if (!node) return Eigen::Matrix3d::Zero();
+  const auto entry = [&](const char* name) { return node->has(name) ? node->number(name) : 0.0; };
+  Eigen::Matrix3d inertia;
+  inertia << entry("ixx"), entry("ixy"), entry("ixz"),  //
+      entry("ixy"), entry("iyy"), entry("iyz"),         //
+      entry("ixz"), entry("iyz"), entry("izz");
+  return inertia;
+}
+
+}  // namespace
+
+std::array<Eigen::Matrix3d, 7> bodyInertias(std::string_view bytes, const std::string& file,
+                                            const std::string& base_link, const std::string& flange_link) {
+  const UrdfModel model(file, bytes);
+  const Robot robot = parseUrdf(bytes, file, base_link, flange_link);
+  std::array<Eigen::Matrix3d, 7> inertias;
+  inertias.fill(Eigen::Matrix3d::Zero());
+  for (const LinkFrame& frame : robot.links) {
+    const auto inertial = model.link(frame.name).child("inertial");
+    if (!inertial) continue;
+    const double mass_kg = inertial->requiredChild("mass").number("value");
+    if (mass_kg == 0.0) continue;
+    const Eigen::Isometry3d place = frame.base_from_link_at_zero * urdfOrigin(*inertial);
+    const auto body = static_cast<std::size_t>(frame.body);
+    inertias[body] += place.linear() * urdfInertia(*inertial) * place.linear().transpose() +
+                      pointMassInertia(mass_kg, place.translation() - robot.bodies[body].com_in_base_at_zero);
+  }
+  return inertias;
 }
 
 Robot readUrdf(const std::filesystem::path& file, const std::string& base_link, const std::string& flange_link) {

@@ -28,6 +28,7 @@ const std::unordered_map<std::type_index, FamilyWords>& families() {
       of<compensation::RemarkId, &compensationWords>(),
       of<diagnosis::RemarkId, &diagnosisWords>(),
       of<effects::RemarkId, &effectsWords>(),
+      of<elastic_model::RemarkId, &elasticModelWords>(),
       of<extended_model::RemarkId, &extendedModelWords>(),
       of<frames::RemarkId, &framesWords>(),
       of<identification::RemarkId, &identificationWords>(),

@@ -9,6 +9,7 @@
 #include "core/compensation/remarks.h"
 #include "core/diagnosis/remarks.h"
 #include "core/effects/remarks.h"
+#include "core/elastic_model/remarks.h"
 #include "core/extended_model/remarks.h"
 #include "core/frames/remarks.h"
 #include "core/identification/remarks.h"
@@ -30,6 +31,7 @@ std::string comparisonWords(comparison::RemarkId id, const RemarkValues& values)
 std::string compensationWords(compensation::RemarkId id, const RemarkValues& values);
 std::string diagnosisWords(diagnosis::RemarkId id, const RemarkValues& values);
 std::string effectsWords(effects::RemarkId id, const RemarkValues& values);
+std::string elasticModelWords(elastic_model::RemarkId id, const RemarkValues& values);
 std::string extendedModelWords(extended_model::RemarkId id, const RemarkValues& values);
 std::string framesWords(frames::RemarkId id, const RemarkValues& values);
 std::string identificationWords(identification::RemarkId id, const RemarkValues& values);

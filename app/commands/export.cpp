@@ -1,0 +1,165 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+
+#include "app/command_line.h"
+#include "app/identified.h"
+#include "app/output.h"
+#include "app/prepared.h"
+#include "app/urdf.h"
+#include "core/calibration/calibrate.h"
+#include "core/effects/all.h"
+#include "core/elastic_model/elastic_model.h"
+#include "core/elastic_model/mjcf.h"
+#include "core/elastic_model/sdf.h"
+#include "core/extended_model/effect_fit.h"
+#include "core/identification/identify.h"
+#include "core/identification/known_stiffness.h"
+#include "core/io/read_file.h"
+#include "core/io/write_file.h"
+#include "core/robot/body_inertia.h"
+#include "reports/json/campaign_json.h"
+#include "reports/json/export_json.h"
+#include "reports/json/json.h"
+#include "reports/text/text.h"
+#include "reports/words/preparation_words.h"
+#include "reports/words/remark_words.h"
+
+namespace stiffscope::app {
+
+namespace {
+
+struct UrdfArguments {
+  std::string campaign, out, json;
+  bool raw = false;
+};
+
+/// Where the sweeps have the arm, in base_link; empty where they do not place it.
+std::optional<robot::Robot> sweptArm(const campaign::Campaign& campaign) {
+  const frames::ArmInR0 swept = identification::solvedFrames(campaign).arm;
+  if (!swept.points_placed) return std::nullopt;
+  const Eigen::Isometry3d base_from_r0 = swept.r0_from_base_link.inverse();
+  robot::Robot arm = campaign.robot;
+  for (std::size_t j = 0; j < 6; ++j) {
+    const metrology::Line& axis = swept.arm.axes_in_base_at_zero[j];
+    arm.axes_in_base_at_zero[j] = {base_from_r0 * axis.point, base_from_r0.linear() * axis.direction};
+  }
+  arm.base_from_flange_at_zero = base_from_r0 * swept.arm.base_from_flange_at_zero;
+  return arm;
+}
+
+int exportUrdf(const UrdfArguments& arguments) {
+  requireTwoFiles(arguments.out, arguments.json);
+  const preparation::PreparedCampaign prepared =
+      openPrepared(arguments.campaign, arguments.raw, hashesFor(arguments.json));
+  const campaign::Campaign& campaign = prepared.campaign;
+  const calibration::Calibration calibration = calibration::calibrate(campaign, {});
+  const bool by_postures = calibration.reason.empty();
+  std::optional<robot::Robot> arm;
+  if (by_postures) {
+    arm = calibration.geometry().fit.arm(campaign.robot);
+  } else {
+    arm = sweptArm(campaign);
+  }
+  if (!arm) {
+    std::fprintf(stderr, "stiffscope: %s: neither sweeps of axes 1 and 2 nor unloaded postures give a geometry: %s\n",
+                 arguments.campaign.c_str(), reports::words(calibration.reason).c_str());
+    return kNotUsable;
+  }
+  writeCalibratedUrdf(campaign, *arm, arguments.out);
+  deliver(
+      [&] {
+        return reports::withPreparation(reports::urdfExportJson(campaign, arguments.out, by_postures),
+                                        prepared.preparation);
+      },
+      [&] {
+        return reports::urdfExportText(campaign, arguments.out, by_postures) +
+               reports::preparationText(prepared.preparation);
+      },
+      arguments.json);
+  return kDone;
+}
+
+void addUrdf(CLI::App& parent, Run& run) {
+  const auto arguments = std::make_shared<UrdfArguments>();
+  CLI::App* command = parent.add_subcommand("urdf", "The campaign's URDF with calibrated joint origins");
+  command->add_option("CAMPAIGN", arguments->campaign, "campaign folder or its campaign.xml")->required();
+  command->add_option("--out", arguments->out, "file to write")->required();
+  addRawOption(*command, arguments->raw);
+  command->add_option("--json", arguments->json, "write what was exported to this file, - for standard output");
+  command->callback([arguments, &run] { run = [arguments] { return exportUrdf(*arguments); }; });
+}
+
+using Writer = std::string (*)(const elastic_model::ElasticChain& chain, const std::vector<std::string>& comments);
+
+struct ElasticArguments {
+  std::string campaign, out, json, method, step, format;
+  Writer write = nullptr;
+  bool raw = false;
+  ModelChoice model;
+};
+
+int exportElastic(const ElasticArguments& arguments) {
+  const MethodAndStep choice = methodAndStep(arguments.method, arguments.step);
+  requireTwoFiles(arguments.out, arguments.json);
+  const preparation::PreparedCampaign prepared =
+      openPrepared(arguments.campaign, arguments.raw, hashesFor(arguments.json));
+  Identified found = identifiedBy(prepared, arguments.campaign, arguments.model, choice);
+  const campaign::Campaign& campaign = found.campaign(prepared);
+  const identification::MethodResult& method = found.of_method();
+  identification::StiffnessEstimate estimate = method.estimate;
+  identification::completeByKnown(campaign.known_stiffness, estimate);
+  elastic_model::ElasticSource source{campaign, method.geometry, estimate, found.result().frames.tcp_in_flange};
+  source.inertias =
+      robot::bodyInertias(urdfBytes(campaign), urdfOf(campaign).string(), campaign.base_link, campaign.flange_link);
+  if (found.improved) {
+    const extended_model::EffectFit& effects = found.improved->effects;
+    source.effects = extended_model::machineEffects(effects, effects.parameters());
+    for (const extended_model::AddedEffect& one : effects.added) source.added.push_back(one.effect);
+  }
+  const elastic_model::ElasticModel model = elastic_model::elasticModel(source);
+  const reports::ExportedModel exported{arguments.format, arguments.out, found.method, arguments.model.springs_only,
+                                        model};
+  io::requireNotRead(arguments.out);
+  io::writeFileWhole(arguments.out, arguments.write(model.chain, reports::exportComments(campaign, exported)));
+  deliver(
+      [&] {
+        reports::Json json = reports::exportJson(campaign, exported);
+        if (found.improved) json = reports::withEffects(std::move(json), *found.improved, {found.method});
+        return reports::withPreparation(std::move(json), prepared.preparation);
+      },
+      [&] {
+        return reports::exportText(campaign, exported) +
+               (found.improved ? reports::addedEffectsText(found.improved->effects) : "") +
+               reports::preparationText(prepared.preparation);
+      },
+      arguments.json);
+  return kDone;
+}
+
+void addElastic(CLI::App& parent, Run& run, const std::string& format, const std::string& program, Writer write) {
+  const auto arguments = std::make_shared<ElasticArguments>();
+  arguments->format = format;
+  arguments->write = write;
+  CLI::App* command = parent.add_subcommand(format, "The arm as bodies, drives and springs in series, for " + program);
+  command->add_option("CAMPAIGN", arguments->campaign, "campaign folder or its campaign.xml")->required();
+  command->add_option("--out", arguments->out, "file to write")->required();
+  command->add_option("--method", arguments->method, "cp, pp or dpp; without it the one that identify shows first");
+  command->add_option("--step", arguments->step, "load step to identify from");
+  addModelOptions(*command, arguments->model);
+  addRawOption(*command, arguments->raw);
+  command->add_option("--json", arguments->json, "write what was exported to this file, - for standard output");
+  command->callback([arguments, &run] { run = [arguments] { return exportElastic(*arguments); }; });
+}
+
+}  // namespace
+
+void addExport(CLI::App& app, Run& run) {
+  CLI::App* command = app.add_subcommand("export", "The machine for other programs: URDF, MuJoCo, SDFormat");
+  command->require_subcommand(1);
+  addUrdf(*command, run);
+  addElastic(*command, run, "mjcf", "MuJoCo", &elastic_model::mjcf);
+  addElastic(*command, run, "sdf", "Gazebo and what else reads SDFormat", &elastic_model::sdf);
+}
+
+}  // namespace stiffscope::app
