@@ -4,8 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "core/campaign/campaign.h"
+#include "core/mistakes/arm_cure.h"
 #include "core/mistakes/arm_mistakes.h"
-#include "core/mistakes/arm_search.h"
 #include "core/mistakes/remarks.h"
 
 namespace stiffscope::mistakes {
