@@ -16,7 +16,7 @@ constexpr double kRows = 540.0;
 /// A fit of nothing to `postures` postures, the column of the effect of this square before and after the projection.
 struct OneColumn {
   campaign::Campaign campaign;
-  diagnosis::SystemInput input{campaign, {}};
+  diagnosis::SystemInput input{.campaign = campaign, .noise = {}, .models = {}};
   diagnosis::GapFit fit;
   std::vector<bool> allowed{true};
 
