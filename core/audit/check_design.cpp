@@ -29,17 +29,17 @@ bool everLoaded(const campaign::Campaign& campaign) {
 /// A day without a load has nothing to test here; one that was loaded, and of which no load is of use, fails.
 preparation::AuditCheck withoutCases(const AuditInput& input) {
   const campaign::Campaign& campaign = input.campaign;
-  if (!everLoaded(campaign)) return preparation::notTestable("posture_set", Remark(RemarkId::no_loads));
+  if (!everLoaded(campaign)) return preparation::notTestable("posture_set", Remark(MissingId::no_loads));
   const Remark lacking = identification::whatLoadsLack(campaign);
   if (lacking.empty() && input.step && !input.frames.arm.points_placed) {
-    return preparation::notTestable("posture_set", Remark(RemarkId::loading_not_in_r0));
+    return preparation::notTestable("posture_set", Remark(MissingId::loading_not_in_r0));
   }
   preparation::AuditCheck check;
   check.id = "posture_set";
   check.verdict = preparation::AuditVerdict::fail;
   check.message = !lacking.empty() ? lacking
-                  : !input.step    ? Remark(RemarkId::no_step_with_force)
-                                   : Remark(RemarkId::no_posture_to_identify_from);
+                  : !input.step    ? Remark(MissingId::no_step_with_force)
+                                   : Remark(MissingId::no_posture_to_identify_from);
   return check;
 }
 
@@ -56,7 +56,7 @@ Findings checkPostureSet(const AuditInput& input) {
   preparation::AuditCheck check;
   check.id = "posture_set";
   check.limit = kCondition;
-  check.limit_source = Remark(RemarkId::condition_practice);
+  check.limit_source = Remark(LimitId::condition_practice);
   std::vector<std::size_t> seen;
   std::vector<Remark> missing;
   bool expected_missing = false;

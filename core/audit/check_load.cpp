@@ -41,14 +41,14 @@ preparation::AuditCheck tareCheck(const AuditInput& input) {
     const double chi2 = state.wrench_in_cell.cwiseQuotient(sigma).squaredNorm();
     if (worst_state == nullptr || chi2 > worst) worst = chi2, worst_state = &state;
   }
-  if (worst_state == nullptr) return preparation::notTestable("tare", Remark(RemarkId::no_unloaded_states));
+  if (worst_state == nullptr) return preparation::notTestable("tare", Remark(MissingId::no_unloaded_states));
   const Vector6d mean = sum / count;
   const double of_mean = count * mean.cwiseQuotient(sigma).squaredNorm();
   preparation::AuditCheck check;
   check.id = "tare";
   check.value = std::sqrt(of_mean / 6.0);
   check.limit = std::sqrt(numerics::chiSquareLimit(0.5 * preparation::kLevel, 6.0) / 6.0);
-  check.limit_source = preparation::byChance(Remark(RemarkId::chi_square_of_tare));
+  check.limit_source = preparation::byChance(Remark(LimitId::chi_square_of_tare));
   const auto says = [&mean](std::vector<Remark> more) {
     return Remark(RemarkId::unloaded_reading, std::vector<double>(mean.begin(), mean.end()), std::move(more));
   };
@@ -66,10 +66,10 @@ preparation::AuditCheck tareCheck(const AuditInput& input) {
 
 preparation::AuditCheck gravityCheck(const AuditInput& input) {
   const identification::LoadedArm& arm = input.arm;
-  if (arm.cases.empty()) return preparation::notTestable("gravity_direction", Remark(RemarkId::no_compared_postures));
+  if (arm.cases.empty()) return preparation::notTestable("gravity_direction", Remark(MissingId::no_compared_postures));
   const identification::Identifiability judged = identification::evaluateIdentifiability(
       arm.geometry, arm.cases, *input.campaign.load_cell, identification::reflectorEquations(arm));
-  if (!judged.load_hangs) return preparation::notTestable("gravity_direction", Remark(RemarkId::load_does_not_hang));
+  if (!judged.load_hangs) return preparation::notTestable("gravity_direction", Remark(MissingId::load_does_not_hang));
   const Eigen::Vector3d down = arm.geometry.weight.gravity_in_base.normalized();
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   double least_force = INFINITY, farthest = -1.0;
@@ -88,7 +88,7 @@ preparation::AuditCheck gravityCheck(const AuditInput& input) {
   check.limit =
       std::hypot(identification::TrustLimits().direction, input.campaign.load_cell->force_sigma / least_force) *
       std::sqrt(numerics::chiSquareLimit(preparation::kLevel, 2.0));
-  check.limit_source = Remark(RemarkId::load_cell_axes);
+  check.limit_source = Remark(LimitId::load_cell_axes);
   const std::string& pose = campaign::poseName(input.campaign, worst->pose);
   const auto says = [&](std::vector<Remark> more) {
     return Remark(RemarkId::force_off_gravity, *check.value, std::atan2(mean.cross(down).norm(), mean.dot(down)),
@@ -109,7 +109,7 @@ preparation::AuditCheck leverCheck(const AuditInput& input) {
   check.id = "moment_lever";
   check.value = std::sqrt(fit.chi2 / fit.dof);
   check.limit = std::sqrt(numerics::chiSquareLimit(0.5 * preparation::kLevel, fit.dof) / fit.dof);
-  check.limit_source = preparation::byChance(Remark(RemarkId::chi_square_and_states, fit.dof));
+  check.limit_source = preparation::byChance(Remark(LimitId::chi_square_and_states, fit.dof));
   const auto says = [&fit](std::vector<Remark> more) {
     return Remark(RemarkId::moments_of_force, std::vector<double>(fit.lever.begin(), fit.lever.end()), fit.rms,
                   std::move(more));
@@ -140,13 +140,13 @@ Findings checkLoadCell(const AuditInput& input) {
   if (!campaign.load_cell || !campaign.states) {
     Findings missing;
     for (const char* id : {"tare", "gravity_direction", "moment_lever"}) {
-      missing.push_back(preparation::notTestable(id, Remark(RemarkId::no_load_cell_readings)));
+      missing.push_back(preparation::notTestable(id, Remark(MissingId::no_load_cell_readings)));
     }
     return missing;
   }
   const bool stated = campaign.load_cell->force_sigma > 0.0 && campaign.load_cell->moment_sigma > 0.0;
   const auto notStated = [](const char* id) {
-    return preparation::notTestable(id, Remark(RemarkId::load_cell_noise_not_stated));
+    return preparation::notTestable(id, Remark(MissingId::load_cell_noise_not_stated));
   };
   return {stated ? tareCheck(input) : notStated("tare"), gravityCheck(input),
           stated ? leverCheck(input) : notStated("moment_lever")};
@@ -154,14 +154,14 @@ Findings checkLoadCell(const AuditInput& input) {
 
 Findings checkLoadSize(const AuditInput& input) {
   const auto apparent = identification::apparentStiffness(input.arm.cases);
-  if (!apparent) return {preparation::notTestable("load_size", Remark(RemarkId::no_displacement_under_force))};
+  if (!apparent) return {preparation::notTestable("load_size", Remark(MissingId::no_displacement_under_force))};
   const double value = apparent->value();
   const Remark found = identification::implausibleLoad(*apparent);
   preparation::AuditCheck check;
   check.id = "load_size";
   check.value = value;
   check.limit = value > identification::kStiffArm ? identification::kStiffArm : identification::kSoftArm;
-  check.limit_source = Remark(RemarkId::arms_stiffness, identification::kSoftArm, identification::kStiffArm);
+  check.limit_source = Remark(LimitId::arms_stiffness, identification::kSoftArm, identification::kStiffArm);
   check.message = found.empty() ? Remark(RemarkId::load_moves, apparent->force, apparent->displacement) : found;
   if (found.empty()) return {check};
   check.impossible = (value < identification::kSofterThanAnyArm || value > identification::kStifferThanAnyArm) &&
@@ -271,14 +271,14 @@ LoadPointFit fitLoadPoint(const campaign::Campaign& campaign) {
     any_moment |= !state.wrench_in_cell.tail<3>().isZero(0.0);
   }
   constexpr std::size_t kLeast = 4;
-  if (states.size() < kLeast) fit.reason = Remark(RemarkId::few_loaded_states);
-  if (!any_moment) fit.reason = Remark(RemarkId::no_moments);
+  if (states.size() < kLeast) fit.reason = Remark(MissingId::few_loaded_states);
+  if (!any_moment) fit.reason = Remark(MissingId::no_moments);
   if (!fit.reason.empty()) return fit;
   const identification::LoadPointFit load_point = loadPointOf(states);
   constexpr double kOneLine = 1e-4;  // squared sine of the forces' spread in the tool
   const Eigen::Vector3d seen = symmetricEigenvalues(load_point.normal());
   if (seen[0] < kOneLine * seen[2]) {
-    fit.reason = Remark(RemarkId::forces_on_one_line);
+    fit.reason = Remark(MissingId::forces_on_one_line);
     return fit;
   }
   fit.lever = load_point.point();

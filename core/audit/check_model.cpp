@@ -9,12 +9,12 @@ namespace stiffscope::audit {
 namespace {
 
 preparation::AuditCheck armCheck(const mistakes::ModelAgreement& model) {
-  if (!model.arm_miss) return preparation::notTestable("arm_model", Remark(RemarkId::no_readings_of_arm));
+  if (!model.arm_miss) return preparation::notTestable("arm_model", Remark(MissingId::no_readings_of_arm));
   preparation::AuditCheck check;
   check.id = "arm_model";
   check.value = *model.arm_miss;
   check.limit = identification::kMissedGeometry;
-  check.limit_source = Remark(RemarkId::machines_off_drawing);
+  check.limit_source = Remark(LimitId::machines_off_drawing);
   check.message = Remark(RemarkId::readings_agree, *model.arm_miss);
   if (!model.arm_contradicted) return check;
   check.verdict = preparation::AuditVerdict::fail;
@@ -25,13 +25,13 @@ preparation::AuditCheck armCheck(const mistakes::ModelAgreement& model) {
 }
 
 preparation::AuditCheck loadCheck(const mistakes::ModelAgreement& model) {
-  if (!model.loads_left) return preparation::notTestable("load_model", Remark(RemarkId::few_loads_of_model));
+  if (!model.loads_left) return preparation::notTestable("load_model", Remark(MissingId::few_loads_of_model));
   constexpr double kSimulated = 0.15;  // largest share of 116 simulated machines with every effect
   preparation::AuditCheck check;
   check.id = "load_model";
   check.value = *model.loads_left;
   check.limit = mistakes::kContradicts;
-  check.limit_source = Remark(RemarkId::machines_leave, kSimulated);
+  check.limit_source = Remark(LimitId::machines_leave, kSimulated);
   check.message = Remark(RemarkId::springs_agree, *model.loads_left);
   if (!model.loads_contradicted) return check;
   check.verdict = preparation::AuditVerdict::fail;

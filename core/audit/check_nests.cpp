@@ -26,7 +26,7 @@ preparation::AuditCheck driftCheck(const AuditInput& input) {
   check.limit = sigmas > 0.0
                     ? *check.value * std::sqrt(station.moved_limit) / sigmas
                     : std::sqrt(station.moved_limit * worst->covariance.bottomRightCorner<3, 3>().trace() / 3.0);
-  check.limit_source = preparation::byChance(Remark(RemarkId::chi_square_of_displacement));
+  check.limit_source = preparation::byChance(Remark(LimitId::chi_square_of_displacement));
   const auto says = [&](std::vector<Remark> more) {
     return Remark(RemarkId::station_moved, *check.value, worst->motion.head<3>().norm(), worst->time_s,
                   std::move(more));
@@ -54,13 +54,13 @@ preparation::AuditCheck driftCheck(const AuditInput& input) {
 preparation::AuditCheck nestCheck(const AuditInput& input) {
   const preparation::StationMotion& station = input.station;
   if (station.deformation_dof <= 0) {
-    return preparation::notTestable("nest_moved", Remark(RemarkId::few_nests_or_rounds));
+    return preparation::notTestable("nest_moved", Remark(MissingId::few_nests_or_rounds));
   }
   preparation::AuditCheck check;
   check.id = "nest_moved";
   check.value = std::sqrt(station.deformation_chi2 / station.deformation_dof);
   check.limit = std::sqrt(station.deformation_limit / station.deformation_dof);
-  check.limit_source = preparation::byChance(Remark(RemarkId::chi_square, station.deformation_dof));
+  check.limit_source = preparation::byChance(Remark(LimitId::chi_square, station.deformation_dof));
   const auto says = [&check](std::vector<Remark> more) {
     return Remark(RemarkId::nests_left, *check.value, std::move(more));
   };

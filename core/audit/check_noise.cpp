@@ -94,7 +94,7 @@ void judgeBySize(const NoiseSum& quick, const NoiseSources& day, DeclaredNoise& 
 void judgeByDay(const NoiseSources& day, DeclaredNoise& judged) {
   const double ratio = day.smallest().ratio();
   if (ratio > kWrongNoise && !day.severalKinds()) {
-    judged.reason = Remark(RemarkId::one_kind_scatters);
+    judged.reason = Remark(MissingId::one_kind_scatters);
     return;
   }
   if (awayFromOne(ratio) > kWrongNoise) {
@@ -161,7 +161,7 @@ DeclaredNoise judgeTracker(const AuditInput& input) {
   } else if (day.any()) {
     judgeByDay(day, judged);
   } else {
-    judged.reason = Remark(RemarkId::too_few_to_judge_tracker, kEnoughToJudge);
+    judged.reason = Remark(MissingId::too_few_to_judge_tracker, kEnoughToJudge);
   }
   if (judged.reason.empty()) compareWithFound(day.any() ? day.smallest() : across, judged);
   return judged;
@@ -190,11 +190,11 @@ DeclaredNoise judgeLoadCell(const AuditInput& input) {
   DeclaredNoise judged;
   judged.where = Remark(RemarkId::at_load_cell);
   if (!campaign.load_cell || !campaign.states) {
-    judged.reason = Remark(RemarkId::no_load_cell_readings);
+    judged.reason = Remark(MissingId::no_load_cell_readings);
     return judged;
   }
   if (campaign.load_cell->force_sigma <= 0.0 || campaign.load_cell->moment_sigma <= 0.0) {
-    judged.reason = Remark(RemarkId::load_cell_noise_not_stated);
+    judged.reason = Remark(MissingId::load_cell_noise_not_stated);
     return judged;
   }
   const LoadPointFit lever = fitLoadPoint(campaign);
@@ -204,7 +204,7 @@ DeclaredNoise judgeLoadCell(const AuditInput& input) {
   if (lever.done) day.add({lever.chi2, lever.dof}, 0, Remark(RemarkId::lever_shows), judged.evidence);
   // Unloaded readings alone may hold a weight that turns with the postures; moments may have been computed, not read.
   if (!at_once.any() || !day.any()) {
-    judged.reason = Remark(RemarkId::too_few_to_judge_load_cell);
+    judged.reason = Remark(MissingId::too_few_to_judge_load_cell);
     return judged;
   }
   judgeBySize(unloaded, day, judged);
@@ -223,7 +223,7 @@ preparation::AuditCheck noiseCheck(const DeclaredNoise& judged) {
   check.where = judged.where;
   check.value = judged.deviation;
   check.limit = kWrongNoise;
-  check.limit_source = Remark(RemarkId::factor_of_two, kEnoughToJudge);
+  check.limit_source = Remark(LimitId::factor_of_two, kEnoughToJudge);
   if (judged.too_large) check.verdict = preparation::AuditVerdict::warn;
   if (judged.too_small) check.verdict = preparation::AuditVerdict::fail;
   const RemarkId found = judged.too_small   ? RemarkId::noise_too_small

@@ -101,7 +101,7 @@ Remark placeOf(const Remark& gap) {
 Findings checkCompleteness(const AuditInput& input) {
   const campaign::Campaign& campaign = input.campaign;
   if (!campaign.states || (!campaign.loading && !campaign.displacements)) {
-    return {preparation::notTestable("completeness", Remark(RemarkId::no_load_states))};
+    return {preparation::notTestable("completeness", Remark(MissingId::no_load_states))};
   }
   const Inventory inventory(campaign);
   std::vector<Remark> missing = inventory.missing();
@@ -109,7 +109,7 @@ Findings checkCompleteness(const AuditInput& input) {
   check.id = "completeness";
   check.value = static_cast<double>(missing.size());
   check.limit = 0.0;
-  check.limit_source = Remark(RemarkId::what_most_have);
+  check.limit_source = Remark(LimitId::what_most_have);
   check.message = Remark(RemarkId::all_there, inventory.size());
   if (missing.empty()) return {check};
   check.verdict = preparation::AuditVerdict::warn;
@@ -184,7 +184,7 @@ std::vector<Remark> statesApart(const campaign::Campaign& campaign) {
 Findings checkTimeOrder(const AuditInput& input) {
   const campaign::Campaign& campaign = input.campaign;
   if (!campaign.states && !campaign.loading)
-    return {preparation::notTestable("time_order", Remark(RemarkId::no_states_nor_loading))};
+    return {preparation::notTestable("time_order", Remark(MissingId::no_states_nor_loading))};
   std::vector<Remark> found;
   if (campaign.loading) found = outOfOrder(campaign, *campaign.loading);
   if (campaign.states) {
@@ -196,7 +196,7 @@ Findings checkTimeOrder(const AuditInput& input) {
   check.id = "time_order";
   check.value = static_cast<double>(found.size());
   check.limit = 0.0;
-  check.limit_source = Remark(RemarkId::order_of_format);
+  check.limit_source = Remark(LimitId::order_of_format);
   check.message = Remark(RemarkId::steps_follow);
   if (found.empty()) return {check};
   check.verdict = preparation::AuditVerdict::fail;

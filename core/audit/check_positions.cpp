@@ -157,13 +157,13 @@ NoiseSum scatterOfReturns(const AuditInput& input) {
 Findings checkReturnToZero(const AuditInput& input) {
   const campaign::Campaign& campaign = input.campaign;
   if ((!campaign.loading && !campaign.displacements) || !campaign.states) {
-    return {preparation::notTestable("return_to_zero", Remark(RemarkId::no_readings_of_states))};
+    return {preparation::notTestable("return_to_zero", Remark(MissingId::no_readings_of_states))};
   }
   if (!input.noise) {
     return {preparation::notTestable("return_to_zero", Remark(preparation::RemarkId::tracker_noise_not_declared))};
   }
   const std::vector<Return> returns = returnsOf(input);
-  if (returns.empty()) return {preparation::notTestable("return_to_zero", Remark(RemarkId::no_unloading))};
+  if (returns.empty()) return {preparation::notTestable("return_to_zero", Remark(MissingId::no_unloading))};
   preparation::AuditCheck check;
   check.id = "return_to_zero";
   double chi2 = 0.0;
@@ -180,7 +180,7 @@ Findings checkReturnToZero(const AuditInput& input) {
   }
   check.value = std::sqrt(chi2 / dof);
   check.limit = std::sqrt(numerics::chiSquareLimit(preparation::kLevel, dof) / dof);
-  check.limit_source = preparation::byChance(Remark(RemarkId::chi_square_and_postures, dof));
+  check.limit_source = preparation::byChance(Remark(LimitId::chi_square_and_postures, dof));
   const auto says = [&](std::vector<Remark> more) {
     return Remark(RemarkId::comes_back, *check.value, worst->largest, campaign::poseName(campaign, worst->pose),
                   worst->step, std::move(more));
@@ -226,7 +226,7 @@ double readingNoise(const AuditInput& input) {
 Findings checkServo(const AuditInput& input) {
   const campaign::Campaign& campaign = input.campaign;
   if (input.arm.cases.empty()) {
-    return {preparation::notTestable("servo_change", Remark(RemarkId::no_compared_postures_in_geometry))};
+    return {preparation::notTestable("servo_change", Remark(MissingId::no_compared_postures_in_geometry))};
   }
   if (!input.noise) {
     return {preparation::notTestable("servo_change", Remark(preparation::RemarkId::tracker_noise_not_declared))};
@@ -235,7 +235,7 @@ Findings checkServo(const AuditInput& input) {
   preparation::AuditCheck check;
   check.id = "servo_change";
   check.value = 0.0;
-  check.limit_source = Remark(RemarkId::turn_at_lever, lever);
+  check.limit_source = Remark(LimitId::turn_at_lever, lever);
   std::vector<const campaign::State*> unloaded(campaign.pose_ids.size(), nullptr);
   for (const campaign::State& state : campaign.states->rows) {
     if (state.step == 0) unloaded[static_cast<std::size_t>(state.pose)] = &state;
@@ -272,7 +272,7 @@ preparation::AuditCheck frameCheck(const AbsoluteFit& fit) {
   check.value = std::max(displacement.norm(), at_base);
   check.limit =
       std::max(identification::TrustLimits().position, ratio > 0.0 ? *check.value * std::sqrt(by_chance / ratio) : 0.0);
-  check.limit_source = Remark(RemarkId::places_or_chance, preparation::byChance(Remark(RemarkId::chi_square_of_shift)));
+  check.limit_source = Remark(LimitId::places_or_chance, preparation::byChance(Remark(LimitId::chi_square_of_shift)));
   // A shift that leaves most of the misfit goes along with another fault (geometry, sag) and is not its
   // cause.
   const double explained = fit.shift_chi2 / (fit.shift_chi2 + fit.chi2);
@@ -295,7 +295,7 @@ preparation::AuditCheck positionsCheck(const AbsoluteFit& fit) {
   check.value = fit.rms_after;
   check.limit = std::max(kShareOfTolerance * identification::TrustLimits().position, by_chance);
   check.limit_source =
-      Remark(RemarkId::third_of_places_or_chance, preparation::byChance(Remark(RemarkId::chi_square, fit.dof)));
+      Remark(LimitId::third_of_places_or_chance, preparation::byChance(Remark(LimitId::chi_square, fit.dof)));
   const auto says = [&fit](std::vector<Remark> more) {
     return Remark(RemarkId::positions_miss, fit.positions, fit.rms_before, fit.rms_after, std::sqrt(fit.chi2 / fit.dof),
                   std::move(more));
@@ -326,7 +326,7 @@ preparation::AuditCheck readBackCheck(const AuditInput& input) {
   check.id = "joint_read_back";
   check.limit = fit.score_limit;
   check.value = 0.0;
-  check.limit_source = preparation::byChance(Remark(RemarkId::student_between_postures));
+  check.limit_source = preparation::byChance(Remark(LimitId::student_between_postures));
   std::vector<Remark> found;
   double worst = 0.0;
   for (const PostureReadBack& posture : fit.postures) {
@@ -355,7 +355,7 @@ preparation::AuditCheck readBackCheck(const AuditInput& input) {
 Findings checkUnloadedPositions(const AuditInput& input) {
   const AbsoluteFit& fit = input.absolute;
   Findings findings;
-  const Remark no_sag(RemarkId::sag_not_known);
+  const Remark no_sag(MissingId::sag_not_known);
   for (const char* id : {"frame_moved", "unloaded_positions"}) {
     if (!fit.done || !fit.sag_known) findings.push_back(preparation::notTestable(id, fit.done ? no_sag : fit.reason));
   }
@@ -365,7 +365,7 @@ Findings checkUnloadedPositions(const AuditInput& input) {
     findings.push_back(preparation::notTestable("joint_read_back", fit.reason));
   } else if (fit.postures.size() < kToCompare) {
     findings.push_back(
-        preparation::notTestable("joint_read_back", Remark(RemarkId::few_postures_to_compare, kToCompare)));
+        preparation::notTestable("joint_read_back", Remark(MissingId::few_postures_to_compare, kToCompare)));
   } else {
     findings.push_back(readBackCheck(input));
   }

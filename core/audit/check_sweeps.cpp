@@ -68,7 +68,7 @@ class Causes {
 preparation::AuditCheck residualCheck(const AuditInput& input, const std::array<std::vector<SweptCircle>, 6>& axes) {
   preparation::AuditCheck check;
   check.id = "circle_residual";
-  check.limit_source = preparation::byChance(Remark(RemarkId::chi_square_of_axes));
+  check.limit_source = preparation::byChance(Remark(LimitId::chi_square_of_axes));
   check.value = 0.0;
   std::vector<Remark> beyond;
   Causes causes;
@@ -100,9 +100,9 @@ preparation::AuditCheck residualCheck(const AuditInput& input, const std::array<
 }  // namespace
 
 Findings checkCircleResidual(const AuditInput& input) {
-  if (!input.campaign.circle_sweeps) return {preparation::notTestable("circle_residual", Remark(RemarkId::no_sweeps))};
+  if (!input.campaign.circle_sweeps) return {preparation::notTestable("circle_residual", Remark(MissingId::no_sweeps))};
   if (!input.noise) {
-    return {preparation::notTestable("circle_residual", Remark(RemarkId::tracker_not_declared))};
+    return {preparation::notTestable("circle_residual", Remark(MissingId::tracker_not_declared))};
   }
   return {residualCheck(input, sweptCircles(input))};
 }
@@ -136,7 +136,7 @@ preparation::AuditCheck arcCheck(const frames::MeasuredAxis& axis, std::size_t n
   check.limit = kWarnArc;
   check.where = Remark(RemarkId::at_axis, number + 1);
   check.limit_source =
-      Remark(RemarkId::arc_practice, kWarnArc, kFailArc, tolerance, identification::TrustLimits().position);
+      Remark(LimitId::arc_practice, kWarnArc, kFailArc, tolerance, identification::TrustLimits().position);
   const auto says = [&](std::vector<Remark> more) {
     return Remark(RemarkId::arc_known, number + 1, arc, uncertainty.direction, uncertainty.place, at_reach, reach,
                   std::move(more));
@@ -161,7 +161,7 @@ preparation::AuditCheck countCheck(const std::array<std::vector<SweptCircle>, 6>
   preparation::AuditCheck check;
   check.id = "circle_count";
   check.limit = kLeastCircleReadings;
-  check.limit_source = Remark(RemarkId::circle_redundancy);
+  check.limit_source = Remark(LimitId::circle_redundancy);
   std::size_t least = SIZE_MAX;
   for (std::size_t axis = 0; axis < 6; ++axis) {
     for (const SweptCircle& circle : axes[axis]) {
@@ -182,7 +182,7 @@ Findings checkCircleSweeps(const AuditInput& input) {
   if (!input.campaign.circle_sweeps) {
     Findings missing;
     for (const char* id : {"circle_arc", "circle_count"})
-      missing.push_back(preparation::notTestable(id, Remark(RemarkId::no_sweeps)));
+      missing.push_back(preparation::notTestable(id, Remark(MissingId::no_sweeps)));
     return missing;
   }
   const auto axes = sweptCircles(input);
@@ -194,7 +194,7 @@ Findings checkCircleSweeps(const AuditInput& input) {
       findings.push_back(arcCheck(measured, axis, reach, static_cast<int>(axes[axis].front().lines.size())));
     } else {
       findings.push_back(
-          preparation::notTestable("circle_arc", Remark(RemarkId::axis_not_measured, axis + 1, measured.reason)));
+          preparation::notTestable("circle_arc", Remark(MissingId::axis_not_measured, axis + 1, measured.reason)));
       findings.back().where = Remark(RemarkId::at_axis, axis + 1);
     }
   }
@@ -213,13 +213,13 @@ Findings checkLinkLengths(const AuditInput& input) {
     const double off = std::abs(links[i].distance - links[i].nominal_distance);
     if (off > farthest) farthest = off, at = i;
   }
-  if (farthest < 0.0) return {preparation::notTestable("link_lengths", Remark(RemarkId::no_neighbouring_axes))};
+  if (farthest < 0.0) return {preparation::notTestable("link_lengths", Remark(MissingId::no_neighbouring_axes))};
   const frames::LinkGeometry& link = links[at];
   check.value = farthest;
   // A short arc may leave a distance open by more than machines differ.
   constexpr double kByChance = 5.0;
   check.limit = std::max(identification::kMissedGeometry, kByChance * *link.distance_sd);
-  check.limit_source = Remark(RemarkId::built_to_drawing);
+  check.limit_source = Remark(LimitId::built_to_drawing);
   check.where = Remark(RemarkId::at_axes, at + 1, at + 2);
   check.impossible = *check.value > *check.limit;
   if (check.impossible) check.verdict = preparation::AuditVerdict::fail;
@@ -257,13 +257,13 @@ preparation::AuditCheck impossible(preparation::AuditCheck check) {
 }  // namespace
 
 Findings checkSweepAngles(const AuditInput& input) {
-  if (!input.campaign.circle_sweeps) return {preparation::notTestable("sweep_angles", Remark(RemarkId::no_sweeps))};
+  if (!input.campaign.circle_sweeps) return {preparation::notTestable("sweep_angles", Remark(MissingId::no_sweeps))};
   constexpr double kLimit = 2.0;
   constexpr double kWhole = 300.0 * io::kDegree;  // beyond, the arc's end runs into its beginning
   preparation::AuditCheck check;
   check.id = "sweep_angles";
   check.limit = kLimit;
-  check.limit_source = Remark(RemarkId::turns_as_reported);
+  check.limit_source = Remark(LimitId::turns_as_reported);
   for (int axis = 0; axis < 6; ++axis) {
     const frames::MeasuredAxis& measured = input.frames.axes[static_cast<std::size_t>(axis)];
     if (!measured.measured || measured.fit.circles.empty()) continue;
@@ -284,7 +284,7 @@ Findings checkSweepAngles(const AuditInput& input) {
     check.where = Remark(RemarkId::at_axis, axis + 1);
     check.message = Remark(RemarkId::angle_and_turn, axis + 1, reported, arc, ratio > kLimit);
   }
-  if (!check.value) return {preparation::notTestable("sweep_angles", Remark(RemarkId::no_sweep_below_whole_turn))};
+  if (!check.value) return {preparation::notTestable("sweep_angles", Remark(MissingId::no_sweep_below_whole_turn))};
   if (*check.value <= kLimit) return {check};
   return {impossible(check)};
 }

@@ -71,11 +71,11 @@ preparation::AuditCheck agreementCheck(const AuditInput& input, const std::array
       }
     }
   }
-  if (pairs == 0) return preparation::notTestable("axis_agreement", Remark(RemarkId::no_two_reflectors_off_axis));
+  if (pairs == 0) return preparation::notTestable("axis_agreement", Remark(MissingId::no_two_reflectors_off_axis));
   const double limit = numerics::chiSquareLimit(preparation::kLevel / pairs, 4.0);
   check.value = std::sqrt(worst / 4.0);
   check.limit = std::sqrt(limit / 4.0);
-  check.limit_source = preparation::byChance(Remark(RemarkId::chi_square_of_pairs, pairs));
+  check.limit_source = preparation::byChance(Remark(LimitId::chi_square_of_pairs, pairs));
   if (worst > limit) check.verdict = preparation::AuditVerdict::warn;
   check.message = Remark(worst > limit ? RemarkId::reflectors_disagree : RemarkId::reflectors_agree, *check.value);
   return check;
@@ -85,7 +85,7 @@ preparation::AuditCheck onAxisCheck(const AuditInput& input, const std::array<st
   preparation::AuditCheck check;
   check.id = "reflector_on_axis";
   check.limit = kReflectorRadius;
-  check.limit_source = Remark(RemarkId::reflector_radius);
+  check.limit_source = Remark(LimitId::reflector_radius);
   double least = INFINITY;
   std::vector<Remark> names, near;
   for (std::size_t axis = 0; axis < 6; ++axis) {
@@ -114,8 +114,8 @@ preparation::AuditCheck onAxisCheck(const AuditInput& input, const std::array<st
 
 Findings checkSweptReflectors(const AuditInput& input) {
   if (!input.campaign.circle_sweeps) {
-    return {preparation::notTestable("axis_agreement", Remark(RemarkId::no_sweeps)),
-            preparation::notTestable("reflector_on_axis", Remark(RemarkId::no_sweeps))};
+    return {preparation::notTestable("axis_agreement", Remark(MissingId::no_sweeps)),
+            preparation::notTestable("reflector_on_axis", Remark(MissingId::no_sweeps))};
   }
   const auto axes = sweptCircles(input);
   return {agreementCheck(input, axes), onAxisCheck(input, axes)};

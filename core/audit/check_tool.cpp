@@ -23,7 +23,7 @@ preparation::AuditCheck scatterCheck(const std::string& id, bool along, double c
   check.id = id;
   check.value = std::sqrt(chi2 / dof);
   check.limit = std::sqrt(numerics::chiSquareLimit(preparation::kLevel, dof) / dof);
-  check.limit_source = preparation::byChance(Remark(RemarkId::chi_square, dof));
+  check.limit_source = preparation::byChance(Remark(LimitId::chi_square, dof));
   if (*check.value > *check.limit) {
     check.verdict = *check.value * *check.value > preparation::kFailVarianceRatio ? preparation::AuditVerdict::fail
                                                                                   : preparation::AuditVerdict::warn;
@@ -120,7 +120,7 @@ class Inquiry {
     check_.id = "rigid_tool";
     check_.value = std::abs(worst->change / worst->sd);
     check_.limit = tool_.limit;
-    check_.limit_source = preparation::byChance(Remark(RemarkId::normal_deviates, tool_.distances.size()));
+    check_.limit_source = preparation::byChance(Remark(LimitId::normal_deviates, tool_.distances.size()));
     const std::string state = campaign::nameOf(campaign_, input_.states[worst->state]);
     const auto says = [&] {
       return Remark(RemarkId::distance_changes, campaign::targetName(campaign_, worst->first),
@@ -226,7 +226,7 @@ Findings checkRigidTool(const AuditInput& input) {
   }
   ToolDistances tool = toolDistances(input.states, static_cast<int>(input.campaign.targets.size()), *input.noise);
   if (tool.distances.empty()) {
-    return {preparation::notTestable("rigid_tool", Remark(RemarkId::no_two_reflectors_in_states))};
+    return {preparation::notTestable("rigid_tool", Remark(MissingId::no_two_reflectors_in_states))};
   }
   return {Inquiry(input, std::move(tool)).run()};
 }

@@ -126,10 +126,10 @@ preparation::AuditCheck sphereCheck(const AuditInput& input) {
   const WristResiduals left = wristResiduals(input);
   preparation::AuditCheck check;
   check.id = "wrist_sphere";
-  if (left.dof <= 0) return preparation::notTestable(check.id, Remark(RemarkId::few_wrist_readings));
+  if (left.dof <= 0) return preparation::notTestable(check.id, Remark(MissingId::few_wrist_readings));
   check.value = std::sqrt(left.chi2 / left.dof);
   check.limit = std::sqrt(numerics::chiSquareLimit(preparation::kLevel, left.dof) / left.dof);
-  check.limit_source = preparation::byChance(Remark(RemarkId::chi_square_held_axes, left.dof));
+  check.limit_source = preparation::byChance(Remark(LimitId::chi_square_held_axes, left.dof));
   const auto says = [&](std::vector<Remark> more) {
     return Remark(RemarkId::wrist_residuals, input.frames.wrist.spheres.rms, left.rms, *check.value, std::move(more));
   };
@@ -164,7 +164,7 @@ preparation::AuditCheck missCheck(const AuditInput& input) {
       leak ? *check.value * identification::kWristLeakBorne / *leak : identification::TrustLimits().position;
   check.limit = std::max(bearable, numerics::normalLimit(preparation::kLevel / 2.0) * sd);
   check.where = first ? Remark(RemarkId::at_axes, 4, 5) : Remark(RemarkId::at_axes, 5, 6);
-  check.limit_source = Remark(leak ? RemarkId::leak_that_decoupling_bears : RemarkId::places_or_sweeps);
+  check.limit_source = Remark(leak ? LimitId::leak_that_decoupling_bears : LimitId::places_or_sweeps);
   std::vector<Remark> more;
   if (leak) more.push_back(Remark(RemarkId::wrist_leak, *leak));
   if (*check.value > *check.limit) {
@@ -180,7 +180,7 @@ preparation::AuditCheck missCheck(const AuditInput& input) {
 }  // namespace
 
 Findings checkWrist(const AuditInput& input) {
-  const Remark not_swept(RemarkId::wrist_axes_not_swept);
+  const Remark not_swept(MissingId::wrist_axes_not_swept);
   const frames::WristCentre& wrist = input.frames.wrist;
   const auto& axes = input.frames.axes;
   const bool swept = axes[3].measured && axes[4].measured && axes[5].measured;
@@ -190,7 +190,7 @@ Findings checkWrist(const AuditInput& input) {
   } else if (!swept) {
     findings.push_back(preparation::notTestable("wrist_sphere", not_swept));
   } else if (!input.noise) {
-    findings.push_back(preparation::notTestable("wrist_sphere", Remark(RemarkId::tracker_not_declared)));
+    findings.push_back(preparation::notTestable("wrist_sphere", Remark(MissingId::tracker_not_declared)));
   } else {
     findings.push_back(sphereCheck(input));
   }

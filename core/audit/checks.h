@@ -8,7 +8,7 @@
 #include "metrology/axis_fit.h"
 
 // The checks. Each takes the input and gives one or more findings; none changes anything. Lost beams,
-// duplicates and outlying repeats are found beforehand (core/preparation/screening.h), because the others work
+// duplicates and outlying repeats are found beforehand (core/preparation/prepare.h), because the others work
 // without them.
 
 namespace stiffscope::audit {

@@ -190,7 +190,7 @@ AbsoluteFit fitAbsolutePositions(const campaign::Campaign& campaign, const frame
   fit.sag_known = frames.weight.links_known && !geometry.compliance.isZero();
   constexpr std::size_t kLeastPostures = 4;  // more than shift and reflectors take, with some to check by
   if (rows.poses.size() < kLeastPostures) {
-    fit.reason = Remark(RemarkId::few_unloaded_postures, rows.poses.size(), kLeastPostures);
+    fit.reason = Remark(MissingId::few_unloaded_postures, rows.poses.size(), kLeastPostures);
     return fit;
   }
   fit.score_limit = scoreLimit(rows.poses.size());

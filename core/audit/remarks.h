@@ -34,71 +34,6 @@ enum class RemarkId {
   unknown_worth_unloaded,
   too_few_to_calibrate,  ///< coordinates read, parameters of the geometry
 
-  // Where a limit comes from.
-  chi_square,               ///< degrees of freedom
-  chi_square_and_states,    ///< degrees of freedom
-  chi_square_and_postures,  ///< degrees of freedom
-  chi_square_held_axes,     ///< degrees of freedom
-  chi_square_of_axes,
-  chi_square_of_pairs,  ///< pairs of reflectors
-  chi_square_of_tare,
-  chi_square_of_displacement,
-  chi_square_of_shift,
-  factor_of_two,    ///< degrees of freedom that are needed
-  normal_deviates,  ///< how many
-  student_between_postures,
-  places_or_chance,           ///< by_chance
-  third_of_places_or_chance,  ///< by_chance
-  order_of_format,
-  what_most_have,
-  arc_practice,  ///< arcs below which it warns and fails, rad; tolerance at the arm's reach, trusted place, m
-  circle_redundancy,
-  turns_as_reported,
-  reflector_radius,
-  built_to_drawing,
-  leak_that_decoupling_bears,
-  places_or_sweeps,
-  turn_at_lever,  ///< longest lever, m
-  load_cell_axes,
-  arms_stiffness,  ///< softest and stiffest arm, N/m
-  condition_practice,
-
-  // What is missing.
-  no_sweeps,
-  tracker_not_declared,
-  no_loads,
-  loading_not_in_r0,
-  no_step_with_force,
-  no_posture_to_identify_from,
-  load_cell_noise_not_stated,
-  no_unloaded_states,
-  no_compared_postures,
-  load_does_not_hang,
-  no_load_cell_readings,
-  no_displacement_under_force,
-  few_loaded_states,
-  one_kind_scatters,
-  too_few_to_judge_tracker,  ///< degrees of freedom that are needed
-  too_few_to_judge_load_cell,
-  no_moments,
-  forces_on_one_line,
-  few_nests_or_rounds,
-  no_load_states,
-  no_states_nor_loading,
-  no_readings_of_states,
-  no_unloading,
-  no_compared_postures_in_geometry,
-  sag_not_known,
-  few_unloaded_postures,    ///< how many, how many are needed
-  few_postures_to_compare,  ///< how many are needed
-  axis_not_measured,        ///< axis, why (remark)
-  no_neighbouring_axes,
-  no_sweep_below_whole_turn,
-  no_two_reflectors_off_axis,
-  no_two_reflectors_in_states,
-  few_wrist_readings,
-  wrist_axes_not_swept,
-
   // time_order, completeness.
   steps_follow,
   steps_out_of_order,  ///< remarks step_too_early, state_during
@@ -209,14 +144,83 @@ enum class RemarkId {
   effects_not_testable,    ///< ids of effects
 
   // arm_model, load_model.
-  no_readings_of_arm,
-  few_loads_of_model,
-  machines_off_drawing,
-  machines_leave,       ///< share that every simulated effect leaves at most
   readings_agree,       ///< median distance m
   readings_contradict,  ///< median distance m, how many mistakes would mend it
   springs_agree,        ///< share left
   springs_contradict,   ///< share left, how many mistakes would mend it
+};
+
+/// Where the limit of a check comes from.
+enum class LimitId {
+  chi_square,               ///< degrees of freedom
+  chi_square_and_states,    ///< degrees of freedom
+  chi_square_and_postures,  ///< degrees of freedom
+  chi_square_held_axes,     ///< degrees of freedom
+  chi_square_of_axes,
+  chi_square_of_pairs,  ///< pairs of reflectors
+  chi_square_of_tare,
+  chi_square_of_displacement,
+  chi_square_of_shift,
+  factor_of_two,    ///< degrees of freedom that are needed
+  normal_deviates,  ///< how many
+  student_between_postures,
+  places_or_chance,           ///< by_chance
+  third_of_places_or_chance,  ///< by_chance
+  order_of_format,
+  what_most_have,
+  arc_practice,  ///< arcs below which it warns and fails, rad; tolerance at the arm's reach, trusted place, m
+  circle_redundancy,
+  turns_as_reported,
+  reflector_radius,
+  built_to_drawing,
+  leak_that_decoupling_bears,
+  places_or_sweeps,
+  turn_at_lever,  ///< longest lever, m
+  load_cell_axes,
+  arms_stiffness,  ///< softest and stiffest arm, N/m
+  condition_practice,
+  machines_off_drawing,
+  machines_leave,  ///< share that every simulated effect leaves at most
+};
+
+/// What a check that does not run, or a result that is not there, would need.
+enum class MissingId {
+  no_sweeps,
+  tracker_not_declared,
+  no_loads,
+  loading_not_in_r0,
+  no_step_with_force,
+  no_posture_to_identify_from,
+  load_cell_noise_not_stated,
+  no_unloaded_states,
+  no_compared_postures,
+  load_does_not_hang,
+  no_load_cell_readings,
+  no_displacement_under_force,
+  few_loaded_states,
+  one_kind_scatters,
+  too_few_to_judge_tracker,  ///< degrees of freedom that are needed
+  too_few_to_judge_load_cell,
+  no_moments,
+  forces_on_one_line,
+  few_nests_or_rounds,
+  no_load_states,
+  no_states_nor_loading,
+  no_readings_of_states,
+  no_unloading,
+  no_compared_postures_in_geometry,
+  sag_not_known,
+  few_unloaded_postures,    ///< how many, how many are needed
+  few_postures_to_compare,  ///< how many are needed
+  axis_not_measured,        ///< axis, why (remark)
+  no_neighbouring_axes,
+  no_sweep_below_whole_turn,
+  no_two_reflectors_off_axis,
+  no_two_reflectors_in_states,
+  few_wrist_readings,
+  wrist_axes_not_swept,
+  no_readings_of_arm,
+  few_loads_of_model,
 };
 
 }  // namespace stiffscope::audit

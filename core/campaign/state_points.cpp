@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "core/campaign/read_table.h"
+#include "core/campaign/repeated_keys.h"
 #include "core/campaign/row_names.h"
 
 namespace stiffscope::campaign {

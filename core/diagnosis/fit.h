@@ -59,19 +59,4 @@ Vector6d complianceVariance(const GapFit& fit, const SystemInput& input);
 Selector selectorOf(const SystemInput& input, const GapFit& fit, const Projection& projection, double postures,
                     const std::vector<bool>& allowed);
 
-/// Where equations of the gap are made, and what they contain there.
-struct JointlyFitted {
-  SystemState state;
-  ContainedEffects contained;
-};
-
-/// Nonlinear least squares (Ceres, trust region) over the set's parameters and all nuisances together, for
-/// sets with an effect whose parameters multiply other unknowns (a wrong load point times a compliance).
-/// Minimises chi2(x) = |L^-1 (y(x) - A(x) x)|^2 plus the effects' priors, from `set` and `nuisances` as found
-/// where `from` stands. The equations A, y are made afresh at every trial x (linearSystem), so that a step counts
-/// only where it really lowers chi2; their columns are the Jacobian. Empty where no effect of the set is
-/// bilinear, where friction or play is in it, or where nothing better was found.
-std::optional<JointlyFitted> fitJointly(const SystemInput& input, const SystemState& from, const GapLayout& layout,
-                                        const FittedSet& set, const Eigen::VectorXd& nuisances);
-
 }  // namespace stiffscope::diagnosis

@@ -97,7 +97,7 @@ struct HiddenEffects {
 /// Where the model explains too little, half of the draws are those of `without`, joint springs alone: neither is
 /// right.
 ///
-/// The frames of `with` get what the same draws do to them (hidden_frames.h).
+/// The frames of `with` get what the same draws do to them.
 ///
 /// `seen`: cases and equations from which H is taken, of postures that the study has; `with` itself where it has all.
 /// `seen_campaign`: what `seen` was identified from.

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "core/preparation/drift_nests.h"
+#include "core/preparation/finding.h"
 #include "core/preparation/repeatability.h"
-#include "core/preparation/screening.h"
 #include "core/preparation/station_course.h"
 
 namespace stiffscope::preparation {

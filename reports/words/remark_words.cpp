@@ -13,7 +13,7 @@ namespace {
 
 using FamilyWords = std::string (*)(int id, const RemarkValues& values);
 
-/// The function for the remarks of one library, by the enumeration that it takes.
+/// The function for the remarks of one enumeration.
 template <class Id, std::string (*kWords)(Id, const RemarkValues&)>
 std::pair<const std::type_index, FamilyWords> of() {
   return {typeid(Id), [](int id, const RemarkValues& values) { return kWords(static_cast<Id>(id), values); }};
@@ -23,6 +23,8 @@ const std::unordered_map<std::type_index, FamilyWords>& families() {
   static const std::unordered_map<std::type_index, FamilyWords> all{
       of<accuracy::RemarkId, &accuracyWords>(),
       of<audit::RemarkId, &auditWords>(),
+      of<audit::LimitId, &auditLimitWords>(),
+      of<audit::MissingId, &auditMissingWords>(),
       of<calibration::RemarkId, &calibrationWords>(),
       of<comparison::RemarkId, &comparisonWords>(),
       of<compensation::RemarkId, &compensationWords>(),

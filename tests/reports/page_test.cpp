@@ -195,7 +195,7 @@ TEST(Page, TheAuditWithItsLimitsAndRejectedReadings) {
                      10e-6,
                      Remark(audit::RemarkId::at_time, 900.0),
                      Remark(preparation::RemarkId::station_wandered, 12.5e-6),
-                     preparation::byChance(Remark(audit::RemarkId::chi_square, 6)),
+                     preparation::byChance(Remark(audit::LimitId::chi_square, 6)),
                      {}},
                     {"lost_beam",
                      preparation::AuditVerdict::fail,
@@ -210,7 +210,7 @@ TEST(Page, TheAuditWithItsLimitsAndRejectedReadings) {
                      {},
                      {},
                      {},
-                     Remark(audit::RemarkId::no_load_cell_readings),
+                     Remark(audit::MissingId::no_load_cell_readings),
                      {},
                      {}},
                     {"posture_set",
@@ -219,7 +219,7 @@ TEST(Page, TheAuditWithItsLimitsAndRejectedReadings) {
                      100.0,
                      {},
                      Remark(audit::RemarkId::joints_identified, 19, 3, std::vector<int>{1}, 2.6, std::vector<Remark>{}),
-                     Remark(audit::RemarkId::condition_practice),
+                     Remark(audit::LimitId::condition_practice),
                      {Remark(audit::RemarkId::joint_identifiable, 1, 812.0, 3.1)}}};
   audited.rejected = {{"loading.csv", 7, Remark(preparation::RemarkId::beam_lost)}};
   preparation::Preparation preparation;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include "core/effects/elastic_arm.h"
 #include "core/identification/posture_stiffness.h"
+#include "core/robot/cartesian_stiffness.h"
 #include "core/robot/geometric_stiffness.h"
 #include "tests/fixtures/linear_machine.h"
 

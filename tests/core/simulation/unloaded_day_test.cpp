@@ -3,6 +3,7 @@
 #include "core/simulation/instruments.h"
 #include "core/simulation/postures.h"
 #include "core/simulation/rotation.h"
+#include "core/simulation/temperature.h"
 #include "tests/fixtures/simulation_fixture.h"
 
 namespace stiffscope {

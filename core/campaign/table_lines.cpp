@@ -1,4 +1,4 @@
-#include "core/campaign/read_table.h"
+#include "core/campaign/table_lines.h"
 
 #include <fmt/format.h>
 #include <algorithm>

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "core/calibration/calibrate.h"
+#include "core/calibration/fitted_arm.h"
+#include "core/comparison/error_components.h"
+
+namespace stiffscope::comparison {
+
+/// One reading of a day: its posture, and its place in the day's order of readings.
+struct Place {
+  std::size_t posture = 0, reading = 0;
+};
+
+struct CommonReading {
+  Place before, after;
+};
+
+/// What two days without a load have in common.
+struct CommonReadings {
+  std::array<std::vector<int>, 2> targets;  ///< reflectors of the same id, in each day's numbers
+  std::vector<CommonReading> readings;  ///< of the same reflector in the same posture, in the order of the day before
+  std::size_t postures = 0;
+};
+
+/// Postures correspond where the pose id is the same and no joint angle differs by more than MatchLimits says.
+CommonReadings commonReadings(const calibration::UnloadedDay& before, const calibration::UnloadedDay& after);
+
+/// Whether an effect is the machine's; the others are of one day's time.
+bool ofMachine(const calibration::EffectPart& part);
+
+/// Two calibrated days of one machine, each fitted again (geometry, base, reflectors, effects) so that what the fits
+/// differ by is the machine's change. Where half of the postures of the shorter day or more are in both, their common
+/// readings alone are fitted, without effects of the machine: what the model misses there cancels. Else effects of
+/// either day that are the machine's are fitted in both; a compliance that either day refuses is in neither, since two
+/// models would differ by more than the days do. Effects of time are each day's own.
+class PairedDays {
+ public:
+  explicit PairedDays(std::array<calibration::Calibration, 2> days);
+
+  const calibration::UnloadedDay& day(std::size_t k) const { return days_[k].day; }
+  /// By how much reflectors of one posture err together, as far as the fit's covariance has it.
+  double designEffectOf(std::size_t k) const { return fits[k].model_sd > 0.0 ? fits[k].design_effect : 1.0; }
+
+  std::array<std::vector<int>, 2> targets;  ///< of both days, in each one's numbers
+  std::size_t postures_common = 0;
+  bool same_postures = false;  ///< fitted on the common readings alone
+  std::array<calibration::ArmFit, 2> fits;
+  /// Of each fit's unknowns: by what it leaves, or on the same postures by what the difference of both leaves, where
+  /// what the model misses cancels; then each has half of it.
+  std::array<Eigen::MatrixXd, 2> covariances;
+  std::array<double, 2> left{};  ///< rms of the 3-D position by each fit, m
+  std::array<double, 2> rows{};  ///< equations of each fit
+
+ private:
+  void matchReadings();
+  std::vector<calibration::EffectPart> partsOf(std::size_t k) const;
+  void fit();
+  void fitDay(std::size_t k, const std::vector<calibration::EffectPart>& parts);
+  void setCovariances();
+  /// Of the covariance that whitens a day's residuals what the tracker declares.
+  double noiseShare(std::size_t k) const;
+  /// What the residuals of the two days differ by in each posture of day k, in parts of that day's covariance.
+  std::vector<Eigen::VectorXd> differences(std::size_t k, const FitEquations& equations) const;
+
+  std::array<calibration::Calibration, 2> days_;
+  std::vector<CommonReading> common_;
+  std::array<std::vector<Eigen::Vector3d>, 2> residuals_;
+};
+
+}  // namespace stiffscope::comparison

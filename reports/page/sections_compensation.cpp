@@ -1,0 +1,185 @@
+#include <fmt/format.h>
+#include <cmath>
+
+#include "reports/page/html.h"
+#include "reports/page/sections.h"
+#include "reports/words/names.h"
+#include "reports/words/numbers.h"
+#include "reports/words/paper_values.h"
+#include "reports/words/remark_words.h"
+
+namespace stiffscope::page {
+
+namespace {
+
+reports::Row shareRow(const reports::ReportContent& content, const reports::ReportCampaign& campaign,
+                      identification::Method method, bool at_wrist) {
+  const identification::MethodResult& one = campaign.identification.of(method);
+  const identification::Compensation& compensation = *reports::compensationAt(one, at_wrist);
+  const bool subsets = !one.subsets.compliances.empty();
+  const auto ofSubsets = [&](double share) { return subsets ? reports::percent(share) : std::string("–"); };
+  reports::Row row{reports::shortName(method), reports::percent(compensation.all_postures),
+                   ofSubsets(compensation.subsets.used), ofSubsets(compensation.subsets.held_out),
+                   ofSubsets(compensation.subsets.all)};
+  if (content.compare_with_paper) {
+    // The paper compensates what the active double encoders leave, and judges at P_wrist.
+    const bool comparable = at_wrist && campaign.campaign.double_encoder == campaign::DoubleEncoder::active;
+    row.emplace_back(comparable ? reports::percent(reports::kPaperCompensated[static_cast<std::size_t>(method)], 0)
+                                : "–");
+  }
+  return row;
+}
+
+reports::Table shareTable(const reports::ReportContent& content, const reports::ReportCampaign& one) {
+  reports::Table table{
+      "Share of the deflection compensated",
+      {"At", "Method", "All postures: fitted and judged", "Subsets: used", "Subsets: held out", "Subsets: all"},
+      {}};
+  table.id = "compensation";
+  if (content.compare_with_paper) table.columns.emplace_back("Paper: all");
+  for (const bool at_wrist : {true, false}) {
+    reports::RowGroup group{at_wrist ? "P_{wrist}" : "Reflectors", {}};
+    for (const identification::Method method : identification::kMethods) {
+      const identification::MethodResult& result = one.identification.of(method);
+      if (result.available && reports::compensationAt(result, at_wrist)) {
+        group.rows.push_back(shareRow(content, one, method, at_wrist));
+      }
+    }
+    table.groups.push_back(std::move(group));
+  }
+  return table;
+}
+
+/// Both points side by side, with the spread over the subsets.
+reports::Table heldOutTable(const identification::Identification& result) {
+  reports::Table table{"Share compensated on postures held out, and its standard deviation over the subsets, %",
+                       {"Method", "At the reflectors", "sd at the reflectors", "At P_{wrist}", "sd at P_{wrist}"},
+                       {{}}};
+  table.id = "held-out";
+  for (const identification::Method method : identification::kMethods) {
+    const identification::MethodResult& one = result.of(method);
+    if (!one.available || one.subsets.compliances.empty()) continue;
+    reports::Row row{reports::shortName(method)};
+    for (const bool at_wrist : {false, true}) {
+      const auto& share = reports::compensationAt(one, at_wrist);
+      row.emplace_back(share ? reports::fixed(100.0 * share->subsets.held_out, 2) : "–");
+      row.emplace_back(share && std::isfinite(share->held_out_sd) ? reports::fixed(100.0 * share->held_out_sd, 2)
+                                                                  : "–");
+    }
+    table.groups.front().rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+std::string noiseWords(const reports::ReportCampaign& one) {
+  const identification::Identification& result = one.identification;
+  if (!result.noise) {
+    return fmt::format("What noise alone forbids is not known: {}.",
+                       one.campaign.tracker ? "the campaign has displacements only, not the readings they come from"
+                                            : "the tracker's noise is not declared");
+  }
+  const std::string at_targets = reports::percent(result.noise->at_targets);
+  if (!result.noise->at_wrist) {
+    return fmt::format("Noise of the tracker alone forbids about {} at the reflectors: no model can take that away.",
+                       at_targets);
+  }
+  return fmt::format(
+      "Noise of the tracker alone forbids about {} at P_{{wrist}} and {} at the reflectors: no model can take that "
+      "away.",
+      reports::percent(*result.noise->at_wrist), at_targets);
+}
+
+std::string withU(const comparison::Uncertain& number, double times) {
+  return std::isfinite(number.value) ? reports::withUncertainty(times * number.value, times * number.expanded()) : "–";
+}
+
+std::string pWords(double p) {
+  if (!std::isfinite(p)) return "–";
+  return p < 1e-4 ? "< 0.0001" : reports::fixed(p, 4);
+}
+
+/// What the active encoders take away, joint by joint.
+reports::Table takenTable(const reports::AvoidedByEncoders& avoided) {
+  reports::Table table{fmt::format("What the double encoders take away ± U, by {}", reports::longName(avoided.method)),
+                       {"Joint", "Compliance 1/k, 10⁻⁹\u00a0rad/Nm", "Share of it, %",
+                        "Of the deflection at the reflectors, %", "p (Holm)"},
+                       {{}}};
+  table.id = "taken-away";
+  for (std::size_t j = 0; j < 6; ++j) {
+    const comparison::JointChange& joint = avoided.by_joint.joints[j];
+    if (!joint.comparable) continue;
+    const comparison::Uncertain gone{-joint.difference.value, joint.difference.sd, joint.difference.dof};
+    table.groups.front().rows.push_back({fmt::format("1/{}", reports::jointName(static_cast<int>(j))), withU(gone, 1e9),
+                                         withU(joint.taken, 100.0), withU(joint.avoided, 100.0), pWords(joint.p_holm)});
+  }
+  return table;
+}
+
+void writeTaken(Html& html, const reports::AvoidedByEncoders& avoided) {
+  if (!avoided.by_joint.available) return;
+  writeTable(html, takenTable(avoided));
+  std::string words = avoided.by_joint.same_postures
+                          ? fmt::format(
+                                "Differences of compliances fitted on the {} postures of both states: what both "
+                                "share cancels.",
+                                avoided.by_joint.postures)
+                      : avoided.by_joint.by_models
+                          ? std::string("Differences of the compliances of each day's own model.")
+                          : std::string(
+                                "Differences of compliances fitted on other postures: what the model misses does not "
+                                "cancel.");
+  if (!avoided.residual_is_noise) {
+    words +=
+        " What joint springs leave is more than noise, or not known to be noise: shares are of the apparent "
+        "compliance, "
+        "which holds what else gives as the joint does.";
+  }
+  html.paragraph(words, "faint");
+}
+
+void writeAvoided(Html& html, const reports::ReportContent& content) {
+  std::string words;
+  if (!content.avoided) return;  // the two states were not both measured: there is nothing to explain
+  if (content.avoided->available) {
+    words = fmt::format(
+        "With the double encoders active the deflection at {} is smaller than with them inactive by {}, over {} "
+        "postures at the same joint angles under the same load; the interval is of what other postures would give.",
+        reports::pointOf(*content.avoided), reports::shareWords(*content.avoided), content.avoided->postures.size());
+    if (content.compare_with_paper)
+      words += fmt::format(" The paper: {}.", reports::percent(reports::kPaperAvoided, 0));
+  } else {
+    words = fmt::format("Not known: {}.", reports::words(content.avoided->reason));
+  }
+  html.leaf("h3", "Avoided by the double encoders");
+  html.paragraph(words);
+  writeTaken(html, *content.avoided);
+}
+
+}  // namespace
+
+void writeCompensation(Html& html, const reports::ReportContent& content) {
+  const auto section = html.element("section", {{"id", "compensation"}});
+  html.leaf("h2", "Deflection compensated and avoided");
+  html.paragraph(
+      "Compensated is 1 − Σ|what is left| / Σ|displacement|. Over the subsets of postures it is "
+      "the mean: on the postures a subset used, on those it held out, and on all. P_{wrist} sees "
+      "joints 1 to 3 only, the reflectors all six.");
+  writeAvoided(html, content);
+  writeEach(html, content, "compensation", isLoaded, [&](const reports::ReportCampaign& one) {
+    if (!reports::shownMethod(one.identification)) {
+      html.paragraph("No method is available, so nothing is compensated.");
+      return;
+    }
+    if (one.identification.shown_first)
+      html.paragraph(reports::asIs(reports::shownFirstWords(one.identification, *one.identification.shown_first)));
+    if (const reports::Table held_out = heldOutTable(one.identification); !held_out.groups.front().rows.empty())
+      writeTable(html, held_out);
+    writeTable(html, shareTable(content, one));
+    if (one.identification.wrist_displacement.empty()) {
+      html.paragraph("P_{wrist} is not measured in the load states: shares are given at the reflectors.");
+    }
+    html.paragraph(noiseWords(one));
+  });
+}
+
+}  // namespace stiffscope::page
