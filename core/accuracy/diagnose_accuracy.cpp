@@ -49,7 +49,8 @@ double rmsOf(const std::vector<double>& squares) {
 diagnosis::Shrink shrinkOf(const std::vector<double>& before, const std::vector<double>& after,
                            const std::vector<double>& before_by, const std::vector<double>& after_by) {
   diagnosis::Shrink shrink;
-  if (before.empty()) return shrink;
+  // Too few postures to choose effects from: nothing was held out, nothing shrinks.
+  if (before.empty() || before_by.empty()) return shrink;
   const auto of = [](double was, double is) { return was > 0.0 ? 1.0 - std::sqrt(is / was) : 0.0; };
   shrink.value = of(rmsOf(before) * rmsOf(before), rmsOf(after) * rmsOf(after));
   constexpr int kSamples = 1000;

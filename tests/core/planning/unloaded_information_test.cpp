@@ -85,9 +85,11 @@ TEST(UnloadedInformation, DetailsAreThoseOfTheSequencesThemselves) {
   ASSERT_EQ(sight.predicted_after.size(), 24u);
   EXPECT_NEAR(sight.predicted_after.back(), sight.predicted, 1e-9 * sight.predicted);
   for (const double gain : sight.gain) EXPECT_GT(gain, 0.0);
+  for (std::size_t i = 1; i < sight.predicted_after.size(); ++i)
+    EXPECT_LT(sight.predicted_after[i], sight.predicted_after[i - 1]) << i;
   // Effects of the order are weighed in it too, so that a shorter sequence has other ones: some per cent.
   const std::vector<Vector6d> first(planned.postures.begin(), planned.postures.begin() + 12);
-  EXPECT_NEAR(information.sightOf(first, false).predicted / sight.predicted_after[11], 1.0, 0.05);
+  EXPECT_NEAR(information.sightOf(first, false).predicted / sight.predicted_after[11], 1.0, 0.1);
   EXPECT_LE(sight.predicted_geometry, sight.predicted);
   for (const planning::EffectSight& one : sight.effects) EXPECT_GE(one.inflation, 1.0 - 1e-9) << one.effect;
 }
