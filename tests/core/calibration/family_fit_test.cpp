@@ -132,8 +132,8 @@ TEST(LinearisedDay, ATruePartPredictsPosturesThatWereLeftOut) {
   EXPECT_GT(day.heldOut(with), with.squares());
 }
 
-/// With p parameters fitted to all but the rows that are judged, of n rows in all, these miss by 1 + p / (n - n / folds)
-/// of the noise on the average over divisions, where the rows see all parameters alike.
+/// With p parameters fitted to all but the rows that are judged, of n rows in all, these miss by 1 + p / (n - n /
+/// folds) of the noise on the average over divisions, where the rows see all parameters alike.
 TEST(LinearisedDay, OtherDivisionsIntoFoldsScatterAboutWhatFittingCosts) {
   const CleanDay clean(66);
   const LinearisedDay day(clean.day, clean.geometry, folds());
