@@ -86,8 +86,8 @@ class Search {
     selected.parts = set.model.parts;
     const LinearModel nothing = day_.geometryAlone();
     selected.before = day_.heldOutByPosture(nothing);
-    selected.before_by_division = day_.heldOutByDivision(nothing, options_.divisions);
-    selected.after_by_division = day_.heldOutByDivision(set.model, options_.divisions);
+    selected.before_by_division = byDivision(nothing);
+    selected.after_by_division = byDivision(set.model);
     for (const std::size_t family : set.families) selected.effects.push_back(describedOne(set, family));
     std::stable_sort(selected.effects.begin(), selected.effects.end(),
                      [](const SelectedEffect& a, const SelectedEffect& b) { return a.score > b.score; });
@@ -123,8 +123,12 @@ class Search {
     std::sort(one.rivals.begin(), one.rivals.end(), [](const Rival& a, const Rival& b) { return a.cost < b.cost; });
     const LinearModel alone = day_.keeping(set.model, [&](UnloadedEffect effect) { return effect == one.effect; });
     one.held_out = day_.heldOutByPosture(alone);
-    one.by_division = day_.heldOutByDivision(alone, options_.divisions);
+    one.by_division = byDivision(alone);
     return one;
+  }
+
+  std::vector<double> byDivision(const LinearModel& model) const {
+    return options_.divisions > 0 ? day_.heldOutByDivision(model, options_.divisions) : std::vector<double>();
   }
 
   void setEquations(const LinearModel& model) {

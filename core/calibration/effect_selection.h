@@ -26,7 +26,7 @@ struct SelectionOptions {
   std::function<int(int pose)> inner_fold;
   int outer_folds = 2;  ///< those that held-out figures are stated for
   std::function<int(int pose)> outer_fold;
-  int divisions = 0;  ///< beside the outer folds, see LinearisedDay::heldOutByDivision
+  int divisions = 0;  ///< beside the outer folds, see LinearisedDay::heldOutByDivision; 0: no sums by division
 };
 
 /// An effect that does nearly as well in the place of one that was selected.
