@@ -158,8 +158,7 @@ struct Result {
     campaign::Campaign read = openCampaign(folder);
     prepared = arguments.raw ? preparation::leaveRaw(std::move(read)) : preparation::prepareCampaign(std::move(read));
     loaded = identification::whatLoadsLack(prepared.campaign).empty();
-    if (!loaded && campaign::isUnloadedDay(prepared.campaign))
-      accuracy = accuracy::diagnoseAccuracy(prepared, calibration::CalibrationOptions());
+    if (!loaded && campaign::isUnloadedDay(prepared.campaign)) accuracy = accuracy::diagnoseAccuracy(prepared);
     if (loaded) improved = modelOf(prepared, arguments.model, options);
     if (loaded) diagnosis = diagnosisOf(prepared, improved);
     if (!improved) {

@@ -44,13 +44,13 @@ double rmsOf(const std::vector<double>& squares) {
 }
 
 /// 1 - after / before of held-out squares by posture. The interval has what resampling the postures does to it, and
-/// what other divisions into folds do, whose sums are `before_by` and `after_by`, that of these squares first: the
-/// postures say nothing of what the fits to the other folds have in common.
+/// what other divisions into folds do, whose sums are `before_by` and `after_by`, that of these squares first (none:
+/// the postures alone): the postures say nothing of what the fits to the other folds have in common.
 diagnosis::Shrink shrinkOf(const std::vector<double>& before, const std::vector<double>& after,
                            const std::vector<double>& before_by, const std::vector<double>& after_by) {
   diagnosis::Shrink shrink;
   // Too few postures to choose effects from: nothing was held out, nothing shrinks.
-  if (before.empty() || before_by.empty()) return shrink;
+  if (before.empty()) return shrink;
   const auto of = [](double was, double is) { return was > 0.0 ? 1.0 - std::sqrt(is / was) : 0.0; };
   shrink.value = of(rmsOf(before) * rmsOf(before), rmsOf(after) * rmsOf(after));
   constexpr int kSamples = 1000;
@@ -58,10 +58,14 @@ diagnosis::Shrink shrinkOf(const std::vector<double>& before, const std::vector<
   std::mt19937_64 random(kSeed);
   std::vector<double> values;
   for (int sample = 0; sample < kSamples; ++sample) {
-    const std::size_t division = static_cast<std::size_t>(sample) % before_by.size();
     double was = 0.0, is = 0.0;
     numerics::drawWithReplacement(random, before.size(), [&](std::size_t k) { was += before[k], is += after[k]; });
-    values.push_back(of(was * before_by[division] / before_by.front(), is * after_by[division] / after_by.front()));
+    if (!before_by.empty()) {
+      const std::size_t division = static_cast<std::size_t>(sample) % before_by.size();
+      was *= before_by[division] / before_by.front();
+      is *= after_by[division] / after_by.front();
+    }
+    values.push_back(of(was, is));
   }
   std::sort(values.begin(), values.end());
   constexpr double kTail = 0.025;

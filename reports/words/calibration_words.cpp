@@ -77,11 +77,13 @@ std::vector<JointStiffness> stiffnessOf(const calibration::ArmFit& fit) {
   Eigen::Index k = 0;
   for (const calibration::EffectPart& part : fit.parts) {
     for (const calibration::EffectTerm& term : part.terms) {
-      const double compliance = fit.sizes[k];
-      if (term.compliance_of >= 0 && part.effect == calibration::UnloadedEffect::joint_compliance && compliance > 0.0) {
+      const double compliance = fit.sizes[k], sd = fit.sd(static_cast<int>(fit.steps.size() + k));
+      // A compliance that may as well be zero is that of no stiffness.
+      if (term.compliance_of >= 0 && part.effect == calibration::UnloadedEffect::joint_compliance &&
+          compliance > 2.0 * sd) {
         JointStiffness& of = joints.at(static_cast<std::size_t>(term.compliance_of));
         of.value = 1.0 / compliance;
-        of.sd = fit.sd(static_cast<int>(fit.steps.size() + k)) / (compliance * compliance);
+        of.sd = sd / (compliance * compliance);
       }
       ++k;
     }

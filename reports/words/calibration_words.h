@@ -28,7 +28,8 @@ std::string angleWords(const calibration::AngleComparison& angles, calibration::
 /// "transmission error (joint 2, order 17.25)"
 std::string partName(const calibration::EffectPart& part);
 
-/// Stiffness of a joint from its compliance by the own weight, Nm/rad; 0: the fit has none.
+/// Stiffness of a joint from its compliance by the own weight, Nm/rad; 0: the fit has none, or a compliance of less
+/// than twice its standard uncertainty, which no stiffness follows from.
 struct JointStiffness {
   double value = 0.0, sd = 0.0;
 };

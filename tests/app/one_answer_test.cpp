@@ -52,6 +52,15 @@ void expectOneAnswer(const std::string& campaign, const std::string& method) {
 
 TEST(OneAnswer, OfTheSamples) { expectOneAnswer("'" STIFFSCOPE_SOURCE_DIR "/samples/active'", "dpp"); }
 
+TEST(OneAnswer, OfADayWithoutALoad) {
+  const ScratchFolder scratch;
+  const std::string campaign = "'" STIFFSCOPE_SOURCE_DIR "/samples/unloaded'";
+  const json diagnosed = answerOf("diagnose " + campaign, scratch), report = reported(campaign, scratch);
+  for (const char* key : {"verdict", "classes", "gap", "shrink_together"})
+    EXPECT_EQ(report["diagnosis"][key], diagnosed[key]) << key;
+  EXPECT_GT(diagnosed["classes"][0]["shrink"]["value"], 0.5);
+}
+
 const std::string kCable = STIFFSCOPE_SHARED_DIR "/real/fanuc-r2000ic-cable";
 
 TEST(OneAnswer, OfARealDay) {

@@ -227,6 +227,17 @@ TEST(DiagnoseAccuracy, ShrinkIntervalsHoldTheirValues) {
   // The gap falls as far by fits to each fold's others as the linearised day says, whose folds are the same.
   EXPECT_NEAR(result.shrink_together.value, 1.0 - result.gap.after / result.gap.before, 0.02);
   EXPECT_GT(result.classes.front().explained, 0.9);
+
+  // Without other divisions the gap shrinks as far; its interval is what the postures alone make it.
+  calibration::CalibrationOptions alone = accuracy::kDiagnosisFolds;
+  alone.divisions = 0;
+  Noise again(32);
+  UnloadedSpec same = machine(again, 60);
+  same.joint_errors = &byGear;
+  const AccuracyDiagnosis by_postures = accuracy::diagnoseAccuracy(unloadedCampaign(same, again), alone);
+  EXPECT_EQ(by_postures.shrink_together.value, result.shrink_together.value);
+  EXPECT_LT(0.0, by_postures.shrink_together.low);
+  EXPECT_LT(by_postures.shrink_together.low, by_postures.shrink_together.high);
 }
 
 /// Disabled: what starts at a time is held out with the time of the whole day here, and in the gap with the time that
