@@ -50,8 +50,9 @@ class TableColumns {
       double* to = values.mutable_data();
       bool some = false;
       for (Row& row : rows_) {
-        *to = (*number)(row) / unit;
-        some = some || !std::isnan(*to++);
+        const double value = (*number)(row) / unit;
+        *to++ = value;
+        some = some || !std::isnan(value);
       }
       return some || column.required ? py::object(std::move(values)) : py::none();
     }

@@ -109,9 +109,9 @@ class Postures(unittest.TestCase):
         for i in range(3):
             for other in (by_table, by_file):
                 self.assertEqual(other.rows[i].pose, by_arrays.rows[i].pose)
-                numpy.testing.assert_array_equal(other.rows[i].command_deg, by_arrays.rows[i].command_deg)
+                numpy.testing.assert_array_equal(other.rows[i].tcp_deflection_mm, by_arrays.rows[i].tcp_deflection_mm)
             # The same posture among the campaign's own: what is rounded in the tables' units moves by 1e-16.
-            numpy.testing.assert_allclose(own.rows[i].command_deg, by_arrays.rows[i].command_deg, rtol=1e-9)
+            numpy.testing.assert_allclose(own.rows[i].tcp_deflection_mm, by_arrays.rows[i].tcp_deflection_mm, rtol=1e-9)
 
     def test_one_wrench_serves_all_postures(self):
         rows = self.day.compensate(self.angles, [0, 0, -1000, 0, 0, 0], springs_only=True).rows

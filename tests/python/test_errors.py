@@ -30,7 +30,7 @@ class Refused(unittest.TestCase):
             file.write_text("\n".join(lines) + "\n")
             error = self.error(stiffscope.open, f"{folder}/day")
         self.assertEqual((error.file, error.line, error.column, error.value), (str(file), 3, "q1_deg", "twenty"))
-        self.assertIn("angle in degrees", error.expected)
+        self.assertEqual(error.expected, "expected a number")
         self.assertEqual(str(error).count("\n"), 0)
         self.assertIsNone(error.argument)
         self.assertIsInstance(error, ValueError)
