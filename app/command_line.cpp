@@ -8,11 +8,12 @@
 
 namespace stiffscope::app {
 
-int runCommandLine(int count, char** words) {
-  CLI::App app("Joint stiffness of industrial robots from laser-tracker campaigns", "stiffscope");
+std::unique_ptr<CLI::App> commandLine(Run& run) {
+  auto made =
+      std::make_unique<CLI::App>("Joint stiffness of industrial robots from laser-tracker campaigns", "stiffscope");
+  CLI::App& app = *made;
   app.set_version_flag("--version", "stiffscope " STIFFSCOPE_VERSION);
   app.require_subcommand(0, 1);
-  Run run;
   addInit(app, run);
   addImport(app, run);
   addAudit(app, run);
@@ -30,6 +31,13 @@ int runCommandLine(int count, char** words) {
   addReport(app, run);
   addView(app, run);
   checkOptionValues(app);
+  return made;
+}
+
+int runCommandLine(int count, char** words) {
+  Run run;
+  const std::unique_ptr<CLI::App> made = commandLine(run);
+  CLI::App& app = *made;
   try {
     app.parse(count, words);
   } catch (const CLI::Success& asked) {  // --help, --version

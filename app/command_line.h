@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 
 namespace CLI {
@@ -29,6 +30,9 @@ void addBlind(CLI::App& app, Run& run);
 void addSimulate(CLI::App& app, Run& run);
 void addReport(CLI::App& app, Run& run);
 void addView(CLI::App& app, Run& run);
+
+/// All of them, in the order of `--help`, with the program's name, description and version.
+std::unique_ptr<CLI::App> commandLine(Run& run);
 
 /// Parses the command line and runs the command. Returns the exit status; throws what the command throws.
 int runCommandLine(int count, char** words);

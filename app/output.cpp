@@ -169,6 +169,12 @@ void deliver(const std::function<reports::JsonDocument()>& json, const std::func
   printText(text());
 }
 
+Outlet commandLineOutlet(const std::string& json_file) {
+  return {[json_file](const auto& json, const auto& text) { deliver(json, text, json_file); },
+          [](const std::string& warning) { printWarnings({warning}); },
+          [](const std::string& line) { std::fprintf(stderr, "stiffscope: %s\n", line.c_str()); }};
+}
+
 void printText(std::string_view text) { printBytes(io::withoutControls(text)); }
 
 void printBytes(std::string_view text) {

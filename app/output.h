@@ -36,6 +36,19 @@ void printBytes(std::string_view text);
 void deliver(const std::function<reports::JsonDocument()>& json, const std::function<std::string()>& text,
              const std::string& json_file);
 
+/// Where the result of a computation goes: the command line prints it, the Python module makes objects of it.
+struct Outlet {
+  /// Takes the result as JSON and as text for a terminal, and makes at once what it wants of the two: what they are
+  /// made from lives no longer than this call.
+  std::function<void(const std::function<reports::JsonDocument()>& json, const std::function<std::string()>& text)>
+      deliver;
+  std::function<void(const std::string&)> warn;     ///< of the input, one line
+  std::function<void(const std::string&)> explain;  ///< why the result does not serve its purpose, one line
+};
+
+/// The command line's: deliver() to `json_file`, the lines to standard error.
+Outlet commandLineOutlet(const std::string& json_file);
+
 /// Throws std::runtime_error where --out and --json name one file: of two results in it one would be lost.
 void requireTwoFiles(const std::string& out, const std::string& json_file);
 

@@ -5,21 +5,12 @@
 #include <utility>
 #include <vector>
 
+#include "app/computations.h"
 #include "app/output.h"
 #include "core/campaign/state_points.h"
 #include "core/io/input_error.h"
 
 namespace stiffscope::app {
-
-campaign::Campaign described(const campaign::Campaign& campaign) {
-  campaign::Campaign words;
-  words.name = campaign.name;
-  words.date = campaign.date;
-  words.robot = campaign.robot;
-  words.double_encoder = campaign.double_encoder;
-  words.inputs = campaign.inputs;
-  return words;
-}
 
 void addRawOption(CLI::App& command, bool& raw) {
   command.add_flag("--raw", raw,
@@ -44,6 +35,12 @@ void requireCommanded(const campaign::Campaign& campaign, calibration::JointAngl
 preparation::PreparedCampaign openPrepared(const std::string& folder_or_xml, bool raw, campaign::Hashes hashes) {
   campaign::Campaign campaign = openCampaign(folder_or_xml, hashes);
   return raw ? preparation::leaveRaw(std::move(campaign)) : preparation::prepareCampaign(std::move(campaign));
+}
+
+CampaignSource sourceOf(const std::string& folder_or_xml, bool raw, campaign::Hashes hashes) {
+  return {folder_or_xml, [=] {
+            return std::make_shared<const preparation::PreparedCampaign>(openPrepared(folder_or_xml, raw, hashes));
+          }};
 }
 
 }  // namespace stiffscope::app

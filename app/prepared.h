@@ -13,9 +13,6 @@ class App;
 
 namespace stiffscope::app {
 
-/// What a result says of the campaign: that without its readings, which take megabytes.
-campaign::Campaign described(const campaign::Campaign& campaign);
-
 /// Adds --raw to a command.
 void addRawOption(CLI::App& command, bool& raw);
 

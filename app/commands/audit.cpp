@@ -1,10 +1,9 @@
 #include <CLI/CLI.hpp>
 #include <memory>
-#include <utility>
 
 #include "app/command_line.h"
+#include "app/computations.h"
 #include "app/output.h"
-#include "app/prepared.h"
 #include "core/audit/audit.h"
 #include "core/audit/check_design.h"
 #include "core/diagnosis/diagnose.h"
@@ -25,22 +24,21 @@ diagnosis::Diagnosis designOf(const preparation::PreparedCampaign& prepared) {
   return diagnosis::diagnose(prepared, design);
 }
 
-int auditCampaign(const std::string& folder, const std::string& json_file) {
-  campaign::Campaign campaign = openCampaign(folder, hashesFor(json_file));
-  const campaign::Campaign words = described(campaign);
-  const preparation::PreparedCampaign prepared = preparation::prepareCampaign(std::move(campaign));
+}  // namespace
+
+int auditCampaign(const CampaignSource& source, const Outlet& outlet) {
+  const auto opened = source.open();
+  const preparation::PreparedCampaign& prepared = *opened;
   audit::AuditReport report = audit::audit(prepared);
   const bool loaded = identification::whatLoadsLack(prepared.campaign).empty();
   // With a unit wrong nothing could be told apart, and the search would not settle for a minute.
   if (loaded && !audit::findsTheImpossible(report)) audit::addSeparableEffects(designOf(prepared), report);
-  deliver([&] { return reports::auditJson(words, report); }, [&] { return reports::auditText(words, report); },
-          json_file);
+  outlet.deliver([&] { return reports::auditJson(prepared.campaign, report); },
+                 [&] { return reports::auditText(prepared.campaign, report); });
   const bool usable =
       report.verdict == preparation::AuditVerdict::pass || report.verdict == preparation::AuditVerdict::warn;
   return usable ? kDone : kNotUsable;
 }
-
-}  // namespace
 
 void addAudit(CLI::App& app, Run& run) {
   struct AuditArguments {
@@ -57,8 +55,12 @@ void addAudit(CLI::App& app, Run& run) {
       "what one is worth; else warn or pass. Status 0 for pass and warn, else 1.");
   command->add_option("CAMPAIGN", arguments->campaign, "campaign folder or its campaign.xml")->required();
   command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
-  command->callback(
-      [arguments, &run] { run = [arguments] { return auditCampaign(arguments->campaign, arguments->json); }; });
+  command->callback([arguments, &run] {
+    run = [arguments] {
+      return auditCampaign(sourceOf(arguments->campaign, false, hashesFor(arguments->json)),
+                           commandLineOutlet(arguments->json));
+    };
+  });
 }
 
 }  // namespace stiffscope::app

@@ -1,8 +1,8 @@
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <memory>
 
 #include "app/command_line.h"
+#include "app/computations.h"
 #include "app/options.h"
 #include "app/output.h"
 #include "app/prepared.h"
@@ -21,12 +21,6 @@ namespace stiffscope::app {
 
 namespace {
 
-struct CalibrateArguments {
-  std::string campaign, json, urdf, csv, angles = "reported";
-  calibration::CalibrationOptions options;
-  bool raw = false;
-};
-
 void checkFolds(const calibration::CalibrationOptions& options) {
   constexpr int kMostFolds = 100, kMostSize = 1'000'000;
   if (options.folds < 2 || options.folds > kMostFolds)
@@ -35,56 +29,68 @@ void checkFolds(const calibration::CalibrationOptions& options) {
     throw io::InputError({"--fold-size"}, std::to_string(options.fold_size), "expected 1 to 1000000 postures");
 }
 
-int calibrateCampaign(CalibrateArguments& arguments) {
-  checkFolds(arguments.options);
-  arguments.options.angles = jointAnglesNamed(arguments.angles);
-  const preparation::PreparedCampaign prepared =
-      openPrepared(arguments.campaign, arguments.raw, hashesFor(arguments.json));
+}  // namespace
+
+int calibrateCampaign(CalibrateRequest request, const CampaignSource& source, const Outlet& outlet) {
+  checkFolds(request.options);
+  request.options.angles = jointAnglesNamed(request.angles);
+  const auto opened = source.open();
+  const preparation::PreparedCampaign& prepared = *opened;
   const campaign::Campaign& campaign = prepared.campaign;
-  requireCommanded(campaign, arguments.options.angles);
-  const calibration::Calibration calibration = calibration::calibrate(campaign, arguments.options);
+  requireCommanded(campaign, request.options.angles);
+  const calibration::Calibration calibration = calibration::calibrate(campaign, request.options);
   const bool done = calibration.reason.empty();
-  deliver(
+  outlet.deliver(
       [&] {
-        return reports::withPreparation(reports::calibrationJson(campaign, calibration, arguments.options),
+        return reports::withPreparation(reports::calibrationJson(campaign, calibration, request.options),
                                         prepared.preparation);
       },
       [&] {
-        return reports::calibrationText(campaign, calibration, arguments.options) +
+        return reports::calibrationText(campaign, calibration, request.options) +
                reports::preparationText(prepared.preparation);
-      },
-      arguments.json);
+      });
   if (!done) {
-    std::fprintf(stderr, "stiffscope: %s: not calibrated: %s\n", arguments.campaign.c_str(),
-                 reports::words(calibration.reason).c_str());
+    outlet.explain(source.name + ": not calibrated: " + reports::words(calibration.reason));
     return kNotUsable;
   }
-  if (!arguments.csv.empty()) {
-    io::requireNotRead(arguments.csv);
-    io::writeFileWhole(arguments.csv, reports::calibrationCsv(calibration));
+  if (!request.csv.empty()) {
+    io::requireNotRead(request.csv);
+    io::writeFileWhole(request.csv, reports::calibrationCsv(calibration));
   }
-  if (!arguments.urdf.empty())
-    writeCalibratedUrdf(campaign, calibration.geometry().fit.arm(campaign.robot), arguments.urdf);
+  if (!request.urdf.empty())
+    writeCalibratedUrdf(campaign, calibration.geometry().fit.arm(campaign.robot), request.urdf);
   return kDone;
 }
 
-}  // namespace
-
 void addCalibrate(CLI::App& app, Run& run) {
+  struct CalibrateArguments {
+    std::string campaign, json;
+    bool raw = false;
+    CalibrateRequest request;
+  };
   const auto arguments = std::make_shared<CalibrateArguments>();
   CLI::App* command =
       app.add_subcommand("calibrate", "Geometry, own weight and effects from unloaded postures, held out");
   command->add_option("CAMPAIGN", arguments->campaign, "campaign folder or its campaign.xml")->required();
-  command->add_option("--folds", arguments->options.folds, "parts of the postures, each predicted by the others")
+  command
+      ->add_option("--folds", arguments->request.options.folds, "parts of the postures, each predicted by the others")
       ->capture_default_str();
-  command->add_option("--fold-size", arguments->options.fold_size, "postures in a row that stay in one part")
+  command->add_option("--fold-size", arguments->request.options.fold_size, "postures in a row that stay in one part")
       ->capture_default_str();
-  command->add_option("--angles", arguments->angles, "reported or commanded joint angles")->capture_default_str();
-  command->add_option("--urdf", arguments->urdf, "write the URDF with calibrated origins to this file");
-  command->add_option("--csv", arguments->csv, "write axes and Denavit and Hartenberg's parameters to this file");
+  command->add_option("--angles", arguments->request.angles, "reported or commanded joint angles")
+      ->capture_default_str();
+  command->add_option("--urdf", arguments->request.urdf, "write the URDF with calibrated origins to this file");
+  command->add_option("--csv", arguments->request.csv,
+                      "write axes and Denavit and Hartenberg's parameters to this file");
   addRawOption(*command, arguments->raw);
   command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
-  command->callback([arguments, &run] { run = [arguments] { return calibrateCampaign(*arguments); }; });
+  command->callback([arguments, &run] {
+    run = [arguments] {
+      return calibrateCampaign(arguments->request,
+                               sourceOf(arguments->campaign, arguments->raw, hashesFor(arguments->json)),
+                               commandLineOutlet(arguments->json));
+    };
+  });
 }
 
 }  // namespace stiffscope::app

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "app/command_line.h"
+#include "app/computations.h"
 #include "app/model.h"
 #include "app/options.h"
 #include "app/output.h"
@@ -19,13 +20,6 @@
 namespace stiffscope::app {
 
 namespace {
-
-struct CompareArguments {
-  std::string before, after, json, step;
-  bool neglect_kc = false, raw = false;
-  ModelChoice model;
-  comparison::BootstrapOptions bootstrap;
-};
 
 /// One state: by joint springs alone, and by the model asked for.
 struct Day {
@@ -56,10 +50,10 @@ std::string preparationsText(const preparation::PreparedCampaign& before, const 
 }
 
 /// Two days without a load: what moved in the arm itself.
-int compareUnloaded(const CompareArguments& arguments, const preparation::PreparedCampaign& before,
-                    const preparation::PreparedCampaign& after) {
+int compareUnloaded(const preparation::PreparedCampaign& before, const preparation::PreparedCampaign& after,
+                    const Outlet& outlet) {
   const comparison::GeometryChange change = comparison::compareGeometry(before.campaign, after.campaign);
-  deliver(
+  outlet.deliver(
       [&] {
         reports::Json json = reports::geometryChangeJson(before.campaign, after.campaign, change);
         json["preparation"] = preparations(before, after);
@@ -67,27 +61,31 @@ int compareUnloaded(const CompareArguments& arguments, const preparation::Prepar
       },
       [&] {
         return reports::geometryChangeText(before.campaign, after.campaign, change) + preparationsText(before, after);
-      },
-      arguments.json);
+      });
   return change.reason.empty() ? kDone : kNotUsable;
 }
 
-int compareTwo(const CompareArguments& arguments) {
+}  // namespace
+
+int compareTwo(const CompareRequest& request, const CampaignSource& source_before, const CampaignSource& source_after,
+               const Outlet& outlet) {
   identification::IdentifyOptions options;
-  options.step = loadStepNamed(arguments.step);
-  options.finite_deflection = !arguments.neglect_kc;
-  const preparation::PreparedCampaign prepared_before = openPrepared(arguments.before, arguments.raw);
-  const preparation::PreparedCampaign prepared_after = openPrepared(arguments.after, arguments.raw);
+  options.step = loadStepNamed(request.step);
+  options.finite_deflection = !request.neglect_kc;
+  comparison::BootstrapOptions bootstrap;
+  bootstrap.seed = request.seed;
+  const auto opened_before = source_before.open(), opened_after = source_after.open();
+  const preparation::PreparedCampaign &prepared_before = *opened_before, &prepared_after = *opened_after;
   const campaign::Campaign &before = prepared_before.campaign, &after = prepared_after.campaign;
   if (campaign::isUnloadedDay(before) && campaign::isUnloadedDay(after))
-    return compareUnloaded(arguments, prepared_before, prepared_after);
-  const Day first = dayOf(prepared_before, arguments.model, options);
-  const Day second = dayOf(prepared_after, arguments.model, options);
+    return compareUnloaded(prepared_before, prepared_after, outlet);
+  const Day first = dayOf(prepared_before, request.model, options);
+  const Day second = dayOf(prepared_after, request.model, options);
   const comparison::Comparison comparison = comparison::compareCampaigns(
       before, first.springs(), after, second.springs(),
       reports::supportedModels(first.model ? &*first.model : nullptr, second.model ? &*second.model : nullptr),
-      arguments.bootstrap);
-  deliver(
+      bootstrap);
+  outlet.deliver(
       [&] {
         reports::Json json = reports::comparisonJson(before, after, comparison);
         json["preparation"] = preparations(prepared_before, prepared_after);
@@ -95,14 +93,16 @@ int compareTwo(const CompareArguments& arguments) {
       },
       [&] {
         return reports::comparisonText(before, after, comparison) + preparationsText(prepared_before, prepared_after);
-      },
-      arguments.json);
+      });
   return comparison.comparable ? kDone : kNotUsable;
 }
 
-}  // namespace
-
 void addCompare(CLI::App& app, Run& run) {
+  struct CompareArguments {
+    std::string before, after, json;
+    bool raw = false;
+    CompareRequest request;
+  };
   const auto arguments = std::make_shared<CompareArguments>();
   CLI::App* command = app.add_subcommand("compare", "Two states of one machine: compliances, and deflection avoided");
   command->footer(
@@ -118,13 +118,18 @@ void addCompare(CLI::App& app, Run& run) {
       "docs/method.md has the formulas.");
   command->add_option("BEFORE", arguments->before, "campaign before, or with the double encoders inactive")->required();
   command->add_option("AFTER", arguments->after, "campaign after, or with the double encoders active")->required();
-  command->add_option("--step", arguments->step, "load step of both to identify from");
-  command->add_flag("--neglect-kc", arguments->neglect_kc, "neglect K_c, as the paper does");
-  addModelOptions(*command, arguments->model);
+  command->add_option("--step", arguments->request.step, "load step of both to identify from");
+  command->add_flag("--neglect-kc", arguments->request.neglect_kc, "neglect K_c, as the paper does");
+  addModelOptions(*command, arguments->request.model);
   addRawOption(*command, arguments->raw);
-  command->add_option("--seed", arguments->bootstrap.seed, "of the bootstrap over postures")->capture_default_str();
+  command->add_option("--seed", arguments->request.seed, "of the bootstrap over postures")->capture_default_str();
   command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
-  command->callback([arguments, &run] { run = [arguments] { return compareTwo(*arguments); }; });
+  command->callback([arguments, &run] {
+    run = [arguments] {
+      return compareTwo(arguments->request, sourceOf(arguments->before, arguments->raw),
+                        sourceOf(arguments->after, arguments->raw), commandLineOutlet(arguments->json));
+    };
+  });
 }
 
 }  // namespace stiffscope::app

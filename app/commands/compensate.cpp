@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "app/command_line.h"
+#include "app/computations.h"
 #include "app/identified.h"
 #include "app/model.h"
 #include "app/output.h"
@@ -25,27 +26,31 @@ namespace stiffscope::app {
 
 namespace {
 
-struct CompensateArguments {
-  std::string campaign, postures, json, method, step;
-  bool raw = false;
-  ModelChoice model;
-};
+std::vector<compensation::PostureToCompensate> posturesOf(const CompensateRequest& request,
+                                                          const campaign::Campaign& campaign, int step,
+                                                          const Outlet& outlet) {
+  if (request.postures) return *request.postures;
+  if (request.postures_file.empty()) return compensation::campaignPostures(campaign, step);
+  std::vector<std::string> warnings;
+  const auto read = compensation::readPostures(request.postures_file, warnings);
+  for (const std::string& warning : warnings) outlet.warn(warning);
+  return read;
+}
 
-int compensateCampaign(const CompensateArguments& arguments) {
-  const MethodAndStep choice = methodAndStep(arguments.method, arguments.step);
-  const preparation::PreparedCampaign prepared = openPrepared(arguments.campaign, arguments.raw);
-  Identified found = identifiedBy(prepared, arguments.campaign, arguments.model, choice);
+}  // namespace
+
+int compensateCampaign(const CompensateRequest& request, const CampaignSource& source, const Outlet& outlet) {
+  const MethodAndStep choice = methodAndStep(request.method, request.step);
+  const auto opened = source.open();
+  const preparation::PreparedCampaign& prepared = *opened;
+  Identified found = identifiedBy(prepared, source.name, request.model, choice);
   const std::optional<extended_model::ExtendedModel>& improved = found.improved;
   const campaign::Campaign& campaign = found.campaign(prepared);
   const identification::Identification& result = found.result();
   identification::MethodResult& method = found.of_method();
   const std::vector<identification::Method> methods{found.method};
   const std::optional<identification::ShownFirst>& first = found.shown_first;
-  std::vector<std::string> warnings;
-  const std::vector<compensation::PostureToCompensate> asked =
-      arguments.postures.empty() ? compensation::campaignPostures(campaign, result.step)
-                                 : compensation::readPostures(arguments.postures, warnings);
-  printWarnings(warnings);
+  const std::vector<compensation::PostureToCompensate> asked = posturesOf(request, campaign, result.step, outlet);
   // Every model that a prediction may come from takes what is known of joints that the day cannot see.
   std::vector<identification::StiffnessEstimate*> estimates{&method.estimate};
   if (found.improved)
@@ -70,7 +75,7 @@ int compensateCampaign(const CompensateArguments& arguments) {
   for (std::size_t i = 0; i < estimates.size(); ++i) *estimates[i] = of_the_day[i];
   std::vector<std::string> cautions = reports::words(result.cautions);
   for (const Remark& caution : compensation::implausibleCommands(rows)) cautions.push_back(reports::words(caution));
-  deliver(
+  outlet.deliver(
       [&] {
         reports::Json json = reports::compensationJson(campaign, methods.front(), rows, known);
         json["shown_first"] = reports::shownFirstJson(first);
@@ -83,27 +88,35 @@ int compensateCampaign(const CompensateArguments& arguments) {
                (first ? reports::wrapped(reports::shownFirstWords(result, *first), 2) + "\n" : "") +
                (improved ? reports::extendedModelText(*improved, methods) : "") +
                reports::preparationText(prepared.preparation);
-      },
-      arguments.json);
+      });
   return summary.mostRefused() ? kNotUsable : kDone;
 }
 
-}  // namespace
-
 void addCompensate(CLI::App& app, Run& run) {
+  struct CompensateArguments {
+    std::string campaign, json;
+    bool raw = false;
+    CompensateRequest request;
+  };
   const auto arguments = std::make_shared<CompensateArguments>();
   CLI::App* command = app.add_subcommand("compensate", "Predicted deflection, and the joint commands that cancel it");
   command->add_option("CAMPAIGN", arguments->campaign, "campaign folder or its campaign.xml")->required();
   command->add_option(
-      "--postures", arguments->postures,
+      "--postures", arguments->request.postures_file,
       "CSV with pose, q1_deg..q6_deg and the load-cell reading fx_n..mz_nm expected there; without it the "
       "campaign's own");
-  command->add_option("--method", arguments->method, "cp, pp or dpp; without it the one that identify shows first");
-  command->add_option("--step", arguments->step, "load step to identify from");
-  addModelOptions(*command, arguments->model);
+  command->add_option("--method", arguments->request.method,
+                      "cp, pp or dpp; without it the one that identify shows first");
+  command->add_option("--step", arguments->request.step, "load step to identify from");
+  addModelOptions(*command, arguments->request.model);
   addRawOption(*command, arguments->raw);
   command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
-  command->callback([arguments, &run] { run = [arguments] { return compensateCampaign(*arguments); }; });
+  command->callback([arguments, &run] {
+    run = [arguments] {
+      return compensateCampaign(arguments->request, sourceOf(arguments->campaign, arguments->raw),
+                                commandLineOutlet(arguments->json));
+    };
+  });
 }
 
 }  // namespace stiffscope::app

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
-#include <utility>
 
 #include "app/command_line.h"
+#include "app/computations.h"
 #include "app/figures/figures.h"
 #include "app/model.h"
 #include "app/options.h"
@@ -96,31 +96,29 @@ int diagnoseWithSpikes(DiagnoseArguments& arguments) {
   return diagnosis.usable ? kDone : kNotUsable;
 }
 
-int diagnoseAccuracyOf(campaign::Campaign campaign, const DiagnoseArguments& arguments) {
+int diagnoseAccuracyOf(const preparation::PreparedCampaign& prepared, const std::string& angles, const Outlet& outlet) {
   calibration::CalibrationOptions options = accuracy::kDiagnosisFolds;
-  options.angles = jointAnglesNamed(arguments.angles);
-  requireCommanded(campaign, options.angles);
-  const campaign::Campaign words = described(campaign);
-  const accuracy::AccuracyDiagnosis diagnosis =
-      accuracy::diagnoseAccuracy(preparation::prepareCampaign(std::move(campaign)), options);
-  deliver([&] { return reports::accuracyJson(words, diagnosis); },
-          [&] { return reports::accuracyText(words, diagnosis); }, arguments.json);
-  return diagnosis.usable ? kDone : kNotUsable;
-}
-
-int diagnoseCampaign(const DiagnoseArguments& arguments) {
-  campaign::Campaign campaign = openCampaign(arguments.campaign);
-  if (campaign::isUnloadedDay(campaign)) return diagnoseAccuracyOf(std::move(campaign), arguments);
-  if (jointAnglesNamed(arguments.angles) != calibration::JointAngles::reported)
-    throw io::InputError({"--angles"}, arguments.angles, "expected a day without a load");
-  const campaign::Campaign words = described(campaign);
-  const diagnosis::Diagnosis diagnosis = diagnosed(preparation::prepareCampaign(std::move(campaign)));
-  deliver([&] { return reports::diagnosisJson(words, diagnosis); },
-          [&] { return reports::diagnosisText(words, diagnosis); }, arguments.json);
+  options.angles = jointAnglesNamed(angles);
+  requireCommanded(prepared.campaign, options.angles);
+  const accuracy::AccuracyDiagnosis diagnosis = accuracy::diagnoseAccuracy(prepared, options);
+  outlet.deliver([&] { return reports::accuracyJson(prepared.campaign, diagnosis); },
+                 [&] { return reports::accuracyText(prepared.campaign, diagnosis); });
   return diagnosis.usable ? kDone : kNotUsable;
 }
 
 }  // namespace
+
+int diagnoseCampaign(const std::string& angles, const CampaignSource& source, const Outlet& outlet) {
+  const auto opened = source.open();
+  const preparation::PreparedCampaign& prepared = *opened;
+  if (campaign::isUnloadedDay(prepared.campaign)) return diagnoseAccuracyOf(prepared, angles, outlet);
+  if (jointAnglesNamed(angles) != calibration::JointAngles::reported)
+    throw io::InputError({"--angles"}, angles, "expected a day without a load");
+  const diagnosis::Diagnosis diagnosis = diagnosed(prepared);
+  outlet.deliver([&] { return reports::diagnosisJson(prepared.campaign, diagnosis); },
+                 [&] { return reports::diagnosisText(prepared.campaign, diagnosis); });
+  return diagnosis.usable ? kDone : kNotUsable;
+}
 
 void addDiagnose(CLI::App& app, Run& run) {
   const auto arguments = std::make_shared<DiagnoseArguments>();
@@ -160,7 +158,9 @@ void addDiagnose(CLI::App& app, Run& run) {
   command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
   command->callback([arguments, spike, &run] {
     run = [arguments, spiked = spike->count() > 0] {
-      return spiked ? diagnoseWithSpikes(*arguments) : diagnoseCampaign(*arguments);
+      if (spiked) return diagnoseWithSpikes(*arguments);
+      return diagnoseCampaign(arguments->angles, sourceOf(arguments->campaign, false),
+                              commandLineOutlet(arguments->json));
     };
   });
 }

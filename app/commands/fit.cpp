@@ -1,9 +1,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdio>
 #include <memory>
 
 #include "app/command_line.h"
+#include "app/computations.h"
 #include "app/output.h"
 #include "core/io/input_error.h"
 #include "core/io/read_points.h"
@@ -49,41 +49,46 @@ reports::ShapeFit fitShape(const std::string& shape, metrology::CircleStrategy s
 
 }  // namespace
 
+int fitPoints(const FitRequest& request, const std::string& name,
+              const std::function<std::vector<Eigen::Vector3d>()>& points, const Outlet& outlet) {
+  requireKnown("SHAPE", request.shape, kShapes);
+  if (!request.strategy.empty()) {
+    requireKnown("--strategy", request.strategy, kStrategies);
+    if (request.shape != "circle") {
+      throw io::InputError({"--strategy"}, request.strategy,
+                           "expected with circle only: other shapes have no second one");
+    }
+  }
+  const auto strategy =
+      request.strategy == "plane-first" ? metrology::CircleStrategy::plane_first : metrology::CircleStrategy::full;
+  const reports::ShapeFit fitted = fitShape(request.shape, strategy, {points(), {}}, request.robust);
+  outlet.deliver([&] { return reports::fitJson(fitted); }, [&] { return reports::fitText(fitted); });
+  if (fitted.quality().determined) return kDone;
+  outlet.explain(name + ": " + request.shape + ": " + reports::words(fitted.quality().reason));
+  return kNotUsable;
+}
+
 void addFit(CLI::App& app, Run& run) {
   struct FitArguments {
-    std::string shape, file, json, strategy;
-    bool robust = false;
+    FitRequest request;
+    std::string file, json;
   };
   const auto arguments = std::make_shared<FitArguments>();
   CLI::App* command = app.add_subcommand("fit", "A line, plane, circle, sphere or cylinder through points of a file");
-  command->add_option("SHAPE", arguments->shape, "line, plane, circle, sphere or cylinder")->required();
+  command->add_option("SHAPE", arguments->request.shape, "line, plane, circle, sphere or cylinder")->required();
   command->add_option("FILE", arguments->file, "points, x y z a line; a first line with only their count is accepted")
       ->required();
   command->add_option(
-      "--strategy", arguments->strategy,
+      "--strategy", arguments->request.strategy,
       "of a circle: full (distances in space; without it this) or plane-first (a plane, then a circle in it)");
-  command->add_flag("--robust", arguments->robust,
+  command->add_flag("--robust", arguments->request.robust,
                     "leave out and list the readings that the others contradict (Baarda's w-test)");
   command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
   command->callback([arguments, &run] {
     run = [arguments] {
-      requireKnown("SHAPE", arguments->shape, kShapes);
-      if (!arguments->strategy.empty()) {
-        requireKnown("--strategy", arguments->strategy, kStrategies);
-        if (arguments->shape != "circle") {
-          throw io::InputError({"--strategy"}, arguments->strategy,
-                               "expected with circle only: other shapes have no second one");
-        }
-      }
-      const auto strategy = arguments->strategy == "plane-first" ? metrology::CircleStrategy::plane_first
-                                                                 : metrology::CircleStrategy::full;
-      const reports::ShapeFit fitted =
-          fitShape(arguments->shape, strategy, {io::readPoints(arguments->file), {}}, arguments->robust);
-      deliver([&] { return reports::fitJson(fitted); }, [&] { return reports::fitText(fitted); }, arguments->json);
-      if (fitted.quality().determined) return kDone;
-      std::fprintf(stderr, "stiffscope: %s: %s: %s\n", arguments->file.c_str(), arguments->shape.c_str(),
-                   reports::words(fitted.quality().reason).c_str());
-      return kNotUsable;
+      return fitPoints(
+          arguments->request, arguments->file, [&] { return io::readPoints(arguments->file); },
+          commandLineOutlet(arguments->json));
     };
   });
 }

@@ -1,10 +1,10 @@
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <memory>
 #include <optional>
 #include <utility>
 
 #include "app/command_line.h"
+#include "app/computations.h"
 #include "app/model.h"
 #include "app/output.h"
 #include "app/prepared.h"
@@ -18,6 +18,31 @@
 #include "reports/words/remark_words.h"
 
 namespace stiffscope::app {
+
+int framesOf(const CampaignSource& source, const ModelChoice& choice, const Outlet& outlet) {
+  const auto opened = source.open();
+  const preparation::PreparedCampaign& prepared = *opened;
+  std::optional<extended_model::ExtendedModel> model;
+  if (identification::whatLoadsLack(prepared.campaign).empty()) model = modelOf(prepared, choice, {});
+  const campaign::Campaign& campaign = prepared.campaign;
+  const frames::Frames frames = model ? model->with.frames : identification::solvedFrames(campaign);
+  const auto json = [&] {
+    reports::Json result = reports::framesJson(campaign, frames);
+    if (model) result = reports::withEffects(std::move(result), *model, {});
+    return reports::withPreparation(std::move(result), prepared.preparation);
+  };
+  const auto text = [&] {
+    std::string all = reports::framesText(campaign, frames);
+    if (model) all += reports::addedEffectsText(model->effects);
+    return all + reports::preparationText(prepared.preparation);
+  };
+  outlet.deliver(json, text);
+  if (frames.arm.points_placed) return kDone;
+  const frames::MeasuredAxis& missing = frames.axes[0].measured ? frames.axes[1] : frames.axes[0];
+  outlet.explain(source.name + ": no frame is measured: R0 needs sweeps of axes 1 and 2 (`circle_sweeps`): " +
+                 reports::words(missing.reason));
+  return kNotUsable;
+}
 
 void addFrames(CLI::App& app, Run& run) {
   struct FramesArguments {
@@ -34,28 +59,8 @@ void addFrames(CLI::App& app, Run& run) {
   command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
   command->callback([arguments, &run] {
     run = [arguments] {
-      const preparation::PreparedCampaign prepared = openPrepared(arguments->campaign, arguments->raw);
-      std::optional<extended_model::ExtendedModel> model;
-      if (identification::whatLoadsLack(prepared.campaign).empty()) model = modelOf(prepared, arguments->model, {});
-      const campaign::Campaign& campaign = prepared.campaign;
-      const frames::Frames frames = model ? model->with.frames : identification::solvedFrames(campaign);
-      const auto json = [&] {
-        reports::Json result = reports::framesJson(campaign, frames);
-        if (model) result = reports::withEffects(std::move(result), *model, {});
-        return reports::withPreparation(std::move(result), prepared.preparation);
-      };
-      const auto text = [&] {
-        std::string all = reports::framesText(campaign, frames);
-        if (model) all += reports::addedEffectsText(model->effects);
-        return all + reports::preparationText(prepared.preparation);
-      };
-      deliver(json, text, arguments->json);
-      if (frames.arm.points_placed) return kDone;
-      const frames::MeasuredAxis& missing = frames.axes[0].measured ? frames.axes[1] : frames.axes[0];
-      std::fprintf(stderr,
-                   "stiffscope: %s: no frame is measured: R0 needs sweeps of axes 1 and 2 (`circle_sweeps`): %s\n",
-                   arguments->campaign.c_str(), reports::words(missing.reason).c_str());
-      return kNotUsable;
+      return framesOf(sourceOf(arguments->campaign, arguments->raw), arguments->model,
+                      commandLineOutlet(arguments->json));
     };
   });
 }

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "app/command_line.h"
+#include "app/computations.h"
 #include "app/model.h"
 #include "app/options.h"
 #include "app/output.h"
@@ -28,28 +29,21 @@ namespace stiffscope::app {
 
 namespace {
 
-struct IdentifyArguments {
-  std::string campaign, json, method = "all", step;
-  int subset_size = 0, bootstrap = 0;
-  bool neglect_kc = false, raw = false, robust = false, postures = false;
-  ModelChoice model;
-};
-
-identification::IdentifyOptions optionsOf(const IdentifyArguments& arguments, bool subset_given) {
+identification::IdentifyOptions optionsOf(const IdentifyRequest& request) {
   identification::IdentifyOptions options;
-  options.all_steps = arguments.step == "all";
-  if (!options.all_steps) options.step = loadStepNamed(arguments.step, ", or all");
-  options.finite_deflection = !arguments.neglect_kc;
-  options.robust = arguments.robust;
-  if (subset_given && arguments.subset_size < 1) {
-    throw io::InputError({"--subset-size"}, std::to_string(arguments.subset_size), "expected 1 or more postures");
+  options.all_steps = request.step == "all";
+  if (!options.all_steps) options.step = loadStepNamed(request.step, ", or all");
+  options.finite_deflection = !request.neglect_kc;
+  options.robust = request.robust;
+  if (request.subset_size && *request.subset_size < 1) {
+    throw io::InputError({"--subset-size"}, std::to_string(*request.subset_size), "expected 1 or more postures");
   }
-  options.subsets.size = arguments.subset_size;
+  options.subsets.size = request.subset_size.value_or(0);
   constexpr int kMostDraws = 1'000'000;
-  if (arguments.bootstrap < 0 || arguments.bootstrap > kMostDraws) {
-    throw io::InputError({"--bootstrap"}, std::to_string(arguments.bootstrap), "expected 0 to 1000000 draws");
+  if (request.bootstrap < 0 || request.bootstrap > kMostDraws) {
+    throw io::InputError({"--bootstrap"}, std::to_string(request.bootstrap), "expected 0 to 1000000 draws");
   }
-  options.bootstrap.draws = arguments.bootstrap;
+  options.bootstrap.draws = request.bootstrap;
   return options;
 }
 
@@ -59,39 +53,42 @@ bool encodersAlone(const campaign::Campaign& campaign) {
          identification::hasSecondEncoders(campaign);
 }
 
-int identifyEncodersAlone(const preparation::PreparedCampaign& prepared, const IdentifyArguments& arguments) {
+int identifyEncodersAlone(const preparation::PreparedCampaign& prepared, const Outlet& outlet) {
   const identification::Identification result = identification::framesAlone(prepared.campaign);
   const auto text = [&] {
     return prepared.campaign.name + reports::transmissionText(result, {}) +
            reports::preparationText(prepared.preparation);
   };
-  deliver(
+  outlet.deliver(
       [&] {
         reports::JsonDocument document = reports::identificationJson(prepared.campaign, result, {});
         document.json = reports::withPreparation(std::move(document.json), prepared.preparation);
         return document;
       },
-      text, arguments.json);
+      text);
   return result.transmission->measured() ? kDone : kNotUsable;
 }
 
-int identifyCampaign(const IdentifyArguments& arguments, bool subset_given) {
-  const std::vector<identification::Method> methods = methodsNamed(arguments.method);
-  const identification::IdentifyOptions options = optionsOf(arguments, subset_given);
-  const preparation::PreparedCampaign prepared =
-      openPrepared(arguments.campaign, arguments.raw, hashesFor(arguments.json));
-  if (encodersAlone(prepared.campaign)) return identifyEncodersAlone(prepared, arguments);
+}  // namespace
+
+int identifyCampaign(const IdentifyRequest& request, const CampaignSource& source, bool steps_shown,
+                     const Outlet& outlet) {
+  const std::vector<identification::Method> methods = methodsNamed(request.method);
+  const identification::IdentifyOptions options = optionsOf(request);
+  const auto opened = source.open();
+  const preparation::PreparedCampaign& prepared = *opened;
+  if (encodersAlone(prepared.campaign)) return identifyEncodersAlone(prepared, outlet);
   requireLoad(prepared.campaign);
   const mistakes::ModelAgreement agreement = mistakes::findMistakes(prepared.campaign);
-  const std::optional<extended_model::ExtendedModel> improved = modelOf(prepared, arguments.model, options);
+  const std::optional<extended_model::ExtendedModel> improved = modelOf(prepared, request.model, options);
   const campaign::Campaign& campaign = improved ? improved->campaign : prepared.campaign;
   const identification::Identification result = improved ? improved->with : identification::identify(campaign, options);
   if (options.subsets.size >= static_cast<int>(result.cases.size()) && !result.cases.empty()) {
     throw io::InputError({"--subset-size"}, std::to_string(options.subsets.size),
                          fmt::format("expected fewer than the {} postures that identify", result.cases.size()));
   }
-  // With a dozen load steps several times the work of the rest, and only shown where asked for.
-  const bool steps_shown = options.all_steps || !arguments.json.empty();
+  // With a dozen load steps several times the work of the rest.
+  steps_shown = steps_shown || options.all_steps;
   const identification::StepStudy steps =
       steps_shown ? identification::studySteps(campaign, options, result) : identification::StepStudy{};
   constexpr std::size_t kQuick = 1000;  // load states that are predicted without being asked for
@@ -103,12 +100,12 @@ int identifyCampaign(const IdentifyArguments& arguments, bool subset_given) {
     std::string all = reports::identificationText(campaign, result, methods);
     all += reports::heldOutLoadsText(loads, result, methods, improved && !improved->effects.added.empty());
     if (options.all_steps) all += reports::stepsText(steps, result, methods);
-    if (const auto best = identification::bestMethodOf(result, methods); best && arguments.postures)
+    if (const auto best = identification::bestMethodOf(result, methods); best && request.postures)
       all += reports::posturesText(campaign, result, *best);
     if (improved) all += reports::extendedModelText(*improved, methods);
     return all + reports::agreementText(agreement) + reports::preparationText(prepared.preparation);
   };
-  deliver(
+  outlet.deliver(
       [&] {
         reports::JsonDocument document = reports::identificationJson(campaign, result, methods);
         document.json = reports::withSteps(std::move(document.json), steps, result, methods);
@@ -121,38 +118,48 @@ int identifyCampaign(const IdentifyArguments& arguments, bool subset_given) {
         document.json = reports::withPreparation(std::move(document.json), prepared.preparation);
         return document;
       },
-      text, arguments.json);
+      text);
   return identification::anyUsable(result, methods) && !agreement.contradicted() ? kDone : kNotUsable;
 }
 
-}  // namespace
-
 void addIdentify(CLI::App& app, Run& run) {
+  struct IdentifyArguments {
+    std::string campaign, json;
+    bool raw = false;
+    int subset_size = 0;
+    IdentifyRequest request;
+  };
   const auto arguments = std::make_shared<IdentifyArguments>();
   CLI::App* command = app.add_subcommand("identify", "Joint stiffness by Complete, Partial and Decoupled Partial Pose");
   command->footer(
       "Status 1 where no method gives a positive stiffness, or where the day contradicts the model so far that no "
       "number\nserves: what would mend it is named, as audit has it.");
   command->add_option("CAMPAIGN", arguments->campaign, "campaign folder or its campaign.xml")->required();
-  command->add_option("--method", arguments->method, "cp, pp, dpp or all")->capture_default_str();
+  command->add_option("--method", arguments->request.method, "cp, pp, dpp or all")->capture_default_str();
   command->add_option(
-      "--step", arguments->step,
+      "--step", arguments->request.step,
       "load step to identify from, or all of them together; without it the one with the largest mean force");
   const CLI::Option* subset =
       command->add_option("--subset-size", arguments->subset_size,
                           "postures that identify in Table II's subsets; without it 10 of 19, in proportion");
-  command->add_flag("--neglect-kc", arguments->neglect_kc,
+  command->add_flag("--neglect-kc", arguments->request.neglect_kc,
                     "neglect K_c and take Jacobians at the unloaded arm, as the paper does");
-  command->add_flag("--robust", arguments->robust,
+  command->add_flag("--robust", arguments->request.robust,
                     "leave postures out that disagree with the rest; without it they are only named");
-  command->add_option("--bootstrap", arguments->bootstrap,
+  command->add_option("--bootstrap", arguments->request.bootstrap,
                       "draws of the postures for percentile intervals beside the stated ones");
-  command->add_flag("--postures", arguments->postures, "Cartesian stiffness and the share of K_c, posture by posture");
-  addModelOptions(*command, arguments->model);
+  command->add_flag("--postures", arguments->request.postures,
+                    "Cartesian stiffness and the share of K_c, posture by posture");
+  addModelOptions(*command, arguments->request.model);
   addRawOption(*command, arguments->raw);
   command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
   command->callback([arguments, subset, &run] {
-    run = [arguments, subset_given = subset->count() > 0] { return identifyCampaign(*arguments, subset_given); };
+    if (subset->count() > 0) arguments->request.subset_size = arguments->subset_size;
+    run = [arguments] {
+      return identifyCampaign(arguments->request,
+                              sourceOf(arguments->campaign, arguments->raw, hashesFor(arguments->json)),
+                              !arguments->json.empty(), commandLineOutlet(arguments->json));
+    };
   });
 }
 

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "app/command_line.h"
+#include "app/computations.h"
 #include "app/model.h"
 #include "app/output.h"
 #include "core/extended_model/effect_offsets.h"
@@ -24,32 +25,20 @@ namespace stiffscope::app {
 
 namespace {
 
-struct PlanArguments {
-  std::string campaign, json, out, criterion = "balanced";
-  double load = 0.0, pull = 0.0;
-  int add = 0;
-  bool unloaded = false;
-  ModelChoice model;
-  std::vector<double> hook_mm, tracker_mm, min_deg, max_deg;
-  planning::PlanOptions options;
-};
-
-/// Which options were given.
-struct Given {
-  const CLI::Option *load, *pull, *add, *postures, *candidates;
-};
-
 std::optional<Eigen::Vector3d> millimetres(const std::vector<double>& values) {
   if (values.empty()) return std::nullopt;
   return Eigen::Vector3d(values[0], values[1], values[2]) * io::kMillimetre;
 }
 
-planning::PlanOptions optionsOf(const PlanArguments& arguments, const Given& given) {
-  planning::PlanOptions options = arguments.options;
-  const bool pull = given.pull->count() > 0;
-  if (pull || given.load->count() > 0) {
-    options.inputs.load = pull ? arguments.pull : arguments.load;
-    options.inputs.pull = pull;
+planning::PlanOptions optionsOf(const PlanRequest& arguments) {
+  planning::PlanOptions options;
+  options.inputs.repeats = arguments.repeats;
+  options.seed = arguments.seed;
+  if (arguments.postures) options.postures = *arguments.postures;
+  if (arguments.candidates) options.candidates = *arguments.candidates;
+  if (arguments.pull || arguments.load) {
+    options.inputs.load = arguments.pull ? *arguments.pull : *arguments.load;
+    options.inputs.pull = arguments.pull.has_value();
   }
   options.inputs.hook_in_flange = millimetres(arguments.hook_mm);
   options.inputs.tracker_in_base = millimetres(arguments.tracker_mm);
@@ -66,8 +55,8 @@ planning::PlanOptions optionsOf(const PlanArguments& arguments, const Given& giv
         {"--criterion"}, arguments.criterion,
         "expected balanced or determinant" + io::nearestNameHint(arguments.criterion, {"balanced", "determinant"}));
   }
-  options.augment = given.add->count() > 0;
-  if (options.augment) options.postures = arguments.add;
+  options.augment = arguments.add.has_value();
+  if (options.augment) options.postures = *arguments.add;
   return options;
 }
 
@@ -112,34 +101,37 @@ planning::EffectDoubt doubtOf(const std::optional<extended_model::ExtendedModel>
 }
 
 /// Writes what `--out` asks for.
-void writeOut(const PlanArguments& arguments, const std::function<std::string(bool xml)>& content) {
+void writeOut(const PlanRequest& arguments, const std::function<std::string(bool xml)>& content) {
   if (arguments.out.empty()) return;
   io::requireNotRead(arguments.out);
   io::writeFileWhole(arguments.out, content(std::filesystem::path(arguments.out).extension() == ".xml"));
 }
 
 /// A day without a load: postures that calibrate, in an order that tells effects apart.
-int planUnloadedDay(const PlanArguments& arguments, const Given& given, const planning::PlanOptions& loaded) {
+int planUnloadedDay(const PlanRequest& arguments, const CampaignSource& source, const planning::PlanOptions& loaded,
+                    const Outlet& outlet) {
   planning::UnloadedPlanOptions options;
-  if (given.postures->count() > 0) options.postures = loaded.postures;
-  if (given.candidates->count() > 0) options.candidates = loaded.candidates;
+  if (arguments.postures) options.postures = loaded.postures;
+  if (arguments.candidates) options.candidates = loaded.candidates;
   options.seed = loaded.seed;
   options.inputs = loaded.inputs;
   options.rules = loaded.rules;
-  const preparation::PreparedCampaign prepared = preparation::prepareCampaign(openCampaign(arguments.campaign));
-  const campaign::Campaign& campaign = prepared.campaign;
+  const auto opened = source.open();
+  const campaign::Campaign& campaign = opened->campaign;
   const planning::UnloadedPlan plan = planning::planUnloaded(campaign, options);
   writeOut(arguments, [&](bool xml) { return xml ? reports::unloadedPlanXml(plan) : reports::unloadedPlanCsv(plan); });
-  deliver([&] { return reports::unloadedPlanJson(campaign, plan); },
-          [&] { return reports::unloadedPlanText(campaign, plan); }, arguments.json);
+  outlet.deliver([&] { return reports::unloadedPlanJson(campaign, plan); },
+                 [&] { return reports::unloadedPlanText(campaign, plan); });
   return plan.postures.empty() ? kNotUsable : kDone;
 }
 
-int planDay(const PlanArguments& arguments, const Given& given) {
-  requireTwoFiles(arguments.out, arguments.json);
-  planning::PlanOptions options = optionsOf(arguments, given);
-  if (arguments.unloaded) return planUnloadedDay(arguments, given, options);
-  const preparation::PreparedCampaign prepared = preparation::prepareCampaign(openCampaign(arguments.campaign));
+}  // namespace
+
+int planDay(const PlanRequest& arguments, const CampaignSource& source, const Outlet& outlet) {
+  planning::PlanOptions options = optionsOf(arguments);
+  if (arguments.unloaded) return planUnloadedDay(arguments, source, options, outlet);
+  const auto opened = source.open();
+  const preparation::PreparedCampaign& prepared = *opened;
   const Measured measured = measuredBy(prepared, arguments.model);
   const campaign::Campaign& campaign = measured.campaign(prepared.campaign);
   options.inputs.effects = doubtOf(measured.model);
@@ -156,58 +148,73 @@ int planDay(const PlanArguments& arguments, const Given& given) {
     if (measured.model) all += reports::addedEffectsText(measured.model->effects) + reports::nextText(measured.next);
     return all;
   };
-  deliver(json, text, arguments.json);
+  outlet.deliver(json, text);
   return plan.usable && !plan.postures.empty() ? kDone : kNotUsable;
 }
 
-}  // namespace
-
 void addPlan(CLI::App& app, Run& run) {
+  struct PlanArguments {
+    std::string campaign, json;
+    int postures = planning::PlanOptions().postures, candidates = planning::PlanOptions().candidates, add = 0;
+    double load = 0.0, pull = 0.0;
+    PlanRequest request;
+  };
   const auto arguments = std::make_shared<PlanArguments>();
-  planning::PlanOptions& options = arguments->options;
+  PlanRequest& request = arguments->request;
   CLI::App* command = app.add_subcommand("plan", "Postures and loads to measure, before the day or after it");
   command
       ->add_option("CAMPAIGN", arguments->campaign,
                    "campaign folder or its campaign.xml; before the day it needs no tables")
       ->required();
-  addModelOptions(*command, arguments->model);
-  Given given{};
-  given.postures = command->add_option("--postures", options.postures, "how many")->capture_default_str();
-  given.add = command->add_option("--add", arguments->add, "how many to add to those that the campaign has measured")
-                  ->excludes(const_cast<CLI::Option*>(given.postures));
-  given.load =
+  addModelOptions(*command, request.model);
+  CLI::Option* postures = command->add_option("--postures", arguments->postures, "how many")->capture_default_str();
+  const CLI::Option* add =
+      command->add_option("--add", arguments->add, "how many to add to those that the campaign has measured")
+          ->excludes(postures);
+  CLI::Option* load =
       command->add_option("--load", arguments->load, "newtons that hang; without it, and without --pull, as measured");
-  given.pull = command->add_option("--pull", arguments->pull, "newtons of a cable, pulling in any of nine directions")
-                   ->excludes(const_cast<CLI::Option*>(given.load));
-  command->add_option("--hook", arguments->hook_mm, "x,y,z (mm) on the flange where the load acts")
+  const CLI::Option* pull =
+      command->add_option("--pull", arguments->pull, "newtons of a cable, pulling in any of nine directions")
+          ->excludes(load);
+  command->add_option("--hook", request.hook_mm, "x,y,z (mm) on the flange where the load acts")
       ->delimiter(',')
       ->expected(3);
-  command->add_option("--tracker", arguments->tracker_mm, "x,y,z (mm) of the tracker in base_link")
+  command->add_option("--tracker", request.tracker_mm, "x,y,z (mm) of the tracker in base_link")
       ->delimiter(',')
       ->expected(3);
-  command->add_option("--min-deg", arguments->min_deg, "least joint angles, six")->delimiter(',')->expected(6);
-  command->add_option("--max-deg", arguments->max_deg, "largest joint angles, six")->delimiter(',')->expected(6);
-  command->add_option("--repeats", options.inputs.repeats, "readings of each reflector in a state")
-      ->capture_default_str();
+  command->add_option("--min-deg", request.min_deg, "least joint angles, six")->delimiter(',')->expected(6);
+  command->add_option("--max-deg", request.max_deg, "largest joint angles, six")->delimiter(',')->expected(6);
+  command->add_option("--repeats", request.repeats, "readings of each reflector in a state")->capture_default_str();
   const auto unloaded =
-      command->add_flag("--unloaded", arguments->unloaded,
+      command->add_flag("--unloaded", request.unloaded,
                         "a day without a load: postures that calibrate the geometry, in an order that tells effects of "
                         "the order apart; 40 of 400 unless said otherwise");
   command
-      ->add_option("--criterion", arguments->criterion,
-                   "balanced (no joint pays for another) or determinant (D-optimal)")
+      ->add_option("--criterion", request.criterion, "balanced (no joint pays for another) or determinant (D-optimal)")
       ->capture_default_str();
-  given.candidates =
-      command->add_option("--candidates", options.candidates, "random postures to choose from")->capture_default_str();
-  command->add_option("--seed", options.seed, "of the random postures")->capture_default_str();
+  const CLI::Option* candidates =
+      command->add_option("--candidates", arguments->candidates, "random postures to choose from")
+          ->capture_default_str();
+  command->add_option("--seed", request.seed, "of the random postures")->capture_default_str();
   command->add_option(
-      "--out", arguments->out,
+      "--out", request.out,
       "write the postures to this file: CSV, or where its name ends in .xml the <postures> of a simulation");
   command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
   // What only a load has is refused, not ignored.
   for (const char* loaded : {"--add", "--load", "--pull", "--hook", "--criterion", "--with", "--springs-only"})
     unloaded->excludes(command->get_option(loaded));
-  command->callback([arguments, given, &run] { run = [arguments, given] { return planDay(*arguments, given); }; });
+  command->callback([=, &run] {
+    PlanRequest& asked = arguments->request;
+    if (postures->count() > 0) asked.postures = arguments->postures;
+    if (candidates->count() > 0) asked.candidates = arguments->candidates;
+    if (add->count() > 0) asked.add = arguments->add;
+    if (load->count() > 0) asked.load = arguments->load;
+    if (pull->count() > 0) asked.pull = arguments->pull;
+    run = [arguments] {
+      requireTwoFiles(arguments->request.out, arguments->json);
+      return planDay(arguments->request, sourceOf(arguments->campaign, false), commandLineOutlet(arguments->json));
+    };
+  });
 }
 
 }  // namespace stiffscope::app

@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <memory>
 
 #include "app/command_line.h"
+#include "app/computations.h"
 #include "app/options.h"
 #include "app/output.h"
 #include "core/campaign/write_campaign.h"
@@ -15,40 +15,37 @@
 
 namespace stiffscope::app {
 
+int simulateDay(const SimulateRequest& request, const Outlet& outlet) {
+  const simulation::SimulationSpec spec = simulation::readSimulationSpec(request.spec);
+  if (!request.replace) requireNoCampaign(request.out, "expected another folder, or --replace to write over it");
+  const std::vector<int> rigid = simulation::rigidJoints(spec);
+  // On a day without a load rigid joints are what most have.
+  if (!rigid.empty() && spec.loading) {
+    outlet.warn(fmt::format("{}: joints: no stiffness_nm_per_rad for joint{} {}: taken as rigid", request.spec,
+                            rigid.size() == 1 ? "" : "s", fmt::join(rigid, ", ")));
+  }
+  const campaign::Tracker& declared = spec.tracker.declared;
+  if (declared.range_fixed + declared.range_per_m <= 0.0 || declared.angle_fixed + declared.angle_per_m <= 0.0) {
+    outlet.warn(request.spec +
+                ": tracker: no noise declared in range or in angle: no command reads such a "
+                "campaign; for readings without noise declare some and set true_noise_factor=\"0\"");
+  }
+  const reports::Json truth = reports::truthJson(spec);
+  campaign::writeCampaign(simulation::simulate(spec), spec.urdf_file, request.out,
+                          {{"truth.json", truth.dump(1) + '\n'}});
+  outlet.deliver([&] { return truth; }, [&] { return request.out + ": campaign written\n"; });
+  return kDone;
+}
+
 void addSimulate(CLI::App& app, Run& run) {
-  struct SimulateArguments {
-    std::string spec, out;
-    bool replace = false;
-  };
-  const auto arguments = std::make_shared<SimulateArguments>();
+  const auto arguments = std::make_shared<SimulateRequest>();
   CLI::App* command = app.add_subcommand("simulate", "A campaign measured on a described machine");
   command->add_option("SPEC", arguments->spec, "description of the machine and the day (XML)")->required();
   command->add_option("--out", arguments->out, "campaign folder to write, with truth.json: what the machine truly is")
       ->required();
   command->add_flag("--replace", arguments->replace, "write over a campaign that is there");
-  command->callback([arguments, &run] {
-    run = [arguments] {
-      const simulation::SimulationSpec spec = simulation::readSimulationSpec(arguments->spec);
-      if (!arguments->replace)
-        requireNoCampaign(arguments->out, "expected another folder, or --replace to write over it");
-      const std::vector<int> rigid = simulation::rigidJoints(spec);
-      // On a day without a load rigid joints are what most have.
-      if (!rigid.empty() && spec.loading) {
-        printWarnings({fmt::format("{}: joints: no stiffness_nm_per_rad for joint{} {}: taken as rigid",
-                                   arguments->spec, rigid.size() == 1 ? "" : "s", fmt::join(rigid, ", "))});
-      }
-      const campaign::Tracker& declared = spec.tracker.declared;
-      if (declared.range_fixed + declared.range_per_m <= 0.0 || declared.angle_fixed + declared.angle_per_m <= 0.0) {
-        printWarnings({arguments->spec +
-                       ": tracker: no noise declared in range or in angle: no command reads such a "
-                       "campaign; for readings without noise declare some and set true_noise_factor=\"0\""});
-      }
-      campaign::writeCampaign(simulation::simulate(spec), spec.urdf_file, arguments->out,
-                              {{"truth.json", reports::truthJson(spec).dump(1) + '\n'}});
-      std::printf("%s: campaign written\n", arguments->out.c_str());
-      return kDone;
-    };
-  });
+  command->callback(
+      [arguments, &run] { run = [arguments] { return simulateDay(*arguments, commandLineOutlet("")); }; });
 }
 
 }  // namespace stiffscope::app

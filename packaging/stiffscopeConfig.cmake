@@ -1,0 +1,10 @@
+# stiffscope::metrology, stiffscope::core, and stiffscope::FOLDER for each folder of core.
+include(CMakeFindDependencyMacro)
+find_dependency(Eigen3 3.4)
+find_dependency(fmt)
+find_dependency(tinyxml2)
+find_dependency(Ceres)
+find_dependency(Threads)
+find_dependency(OpenSSL COMPONENTS Crypto)
+find_dependency(utf8cpp)
+include(${CMAKE_CURRENT_LIST_DIR}/stiffscopeTargets.cmake)

@@ -1,0 +1,122 @@
+"""Campaigns of tables in memory, and postures and points as arrays."""
+
+import json
+import os
+import pathlib
+import tempfile
+import unittest
+
+import numpy
+import stiffscope
+
+SAMPLES = pathlib.Path(os.environ["STIFFSCOPE_SOURCE_DIR"]) / "samples"
+
+
+class Tables(unittest.TestCase):
+
+    @classmethod
+    def setUpClass(cls):
+        cls.day = stiffscope.open(SAMPLES / "active")
+
+    def setUp(self):
+        made = tempfile.TemporaryDirectory()
+        self.addCleanup(made.cleanup)
+        self.folder = pathlib.Path(made.name)
+
+    def test_columns_are_those_of_the_files(self):
+        lines = (SAMPLES / "active" / "loading.csv").read_text().splitlines()
+        loading = self.day.tables.loading
+        self.assertEqual(list(loading), lines[0].split(","))
+        self.assertEqual(len(loading["x_mm"]), len(lines) - 1)
+        first = dict(zip(lines[0].split(","), lines[1].split(",")))
+        # Millimetres to metres and back is exact to some units in the last place.
+        self.assertAlmostEqual(loading["x_mm"][0], float(first["x_mm"]), delta=1e-9)
+        self.assertEqual(loading["target"][0], first["target"])
+        self.assertEqual(loading["step"][0], int(first["step"]))
+
+    def test_a_campaign_of_tables_in_memory_is_the_same_day(self):
+        again = stiffscope.write_campaign(self.folder / "again", self.day, self.day.tables)
+        for name, table in self.day.tables.items():
+            for column, values in table.items():
+                if isinstance(values, list):
+                    self.assertEqual(values, again.tables[name][column])
+                else:
+                    numpy.testing.assert_allclose(again.tables[name][column], values, rtol=1e-14, atol=1e-12)
+        before = self.day.identify(springs_only=True, method="pp").methods.pp
+        after = again.identify(springs_only=True, method="pp").methods.pp
+        # Roundings of 1e-16 of a reading grow with the condition of the fit and where steps end.
+        numpy.testing.assert_allclose(after.stiffness_nm_per_rad, before.stiffness_nm_per_rad, rtol=1e-6)
+
+    def test_a_table_that_is_changed_changes_the_result(self):
+        states = dict(self.day.tables.states)
+        for name in ("fx_n", "fy_n", "fz_n", "mx_nm", "my_nm", "mz_nm"):
+            states[name] = 2 * states[name]
+        twice = stiffscope.write_campaign(self.folder / "twice", SAMPLES / "active", {"states": states, "nests": None})
+        self.assertNotIn("nests", twice.tables)
+        before = self.day.identify(springs_only=True, method="pp", neglect_kc=True).methods.pp.stiffness_nm_per_rad
+        after = twice.identify(springs_only=True, method="pp", neglect_kc=True).methods.pp.stiffness_nm_per_rad
+        # Linear springs: twice the load for the same displacement. K_c is neglected; the sag of the sweeps is not doubled.
+        numpy.testing.assert_allclose(after[1:] / before[1:], 2.0, rtol=0.02)
+
+    def test_what_the_format_refuses_leaves_nothing_behind(self):
+        loading = dict(self.day.tables.loading)
+        loading["x_mm"] = loading["x_mm"].copy()
+        loading["x_mm"][3] = 1e9
+        with self.assertRaises(stiffscope.InputError) as raised:
+            stiffscope.write_campaign(self.folder / "spoilt", self.day, {"loading": loading})
+        error = raised.exception
+        self.assertEqual((error.line, error.column), (5, "x_mm"))
+        self.assertEqual(error.file, str(self.folder / "spoilt" / "loading.csv"))
+        self.assertIn("within +-200 m", error.expected)
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+    def test_an_existing_folder_is_not_written_over(self):
+        (self.folder / "mine").mkdir()
+        with self.assertRaises(FileExistsError):
+            stiffscope.write_campaign(self.folder / "mine", self.day, {})
+
+    def test_simulate_writes_a_day(self):
+        truth = stiffscope.simulate(SAMPLES / "active.xml", self.folder / "day")
+        self.assertEqual(truth.stiffness_nm_per_rad.shape, (6,))
+        self.assertEqual(list(truth), list(json.loads((self.folder / "day" / "truth.json").read_text())))
+        self.assertEqual(stiffscope.open(self.folder / "day").postures, self.day.postures)
+
+
+class Postures(unittest.TestCase):
+
+    @classmethod
+    def setUpClass(cls):
+        cls.day = stiffscope.open(SAMPLES / "active")
+        states = cls.day.tables.states
+        heavy = numpy.flatnonzero(states["step"] == 3)[:3]
+        cls.names = [states["pose"][i] for i in heavy]
+        cls.angles = numpy.column_stack([states[f"q{j}_deg"][heavy] for j in range(1, 7)])
+        cls.wrenches = numpy.column_stack([states[n][heavy] for n in ("fx_n", "fy_n", "fz_n", "mx_nm", "my_nm", "mz_nm")])
+
+    def test_arrays_table_and_file_are_the_same(self):
+        by_arrays = self.day.compensate(self.angles, self.wrenches, names=self.names, springs_only=True)
+        columns = {"pose": self.names}
+        columns.update({f"q{j + 1}_deg": self.angles[:, j] for j in range(6)})
+        columns.update(dict(zip(("fx_n", "fy_n", "fz_n", "mx_nm", "my_nm", "mz_nm"), self.wrenches.T)))
+        by_table = self.day.compensate(columns, springs_only=True)
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "postures.csv"
+            rows = zip(*([str(v) for v in values] if isinstance(values, list) else map(repr, values.tolist())
+                         for values in columns.values()))
+            file.write_text(",".join(columns) + "\n" + "".join(",".join(row) + "\n" for row in rows))
+            by_file = self.day.compensate(file, springs_only=True)
+        own = self.day.compensate(springs_only=True)
+        for i in range(3):
+            for other in (by_table, by_file):
+                self.assertEqual(other.rows[i].pose, by_arrays.rows[i].pose)
+                numpy.testing.assert_array_equal(other.rows[i].tcp_deflection_mm, by_arrays.rows[i].tcp_deflection_mm)
+            # The same posture among the campaign's own: what is rounded in the tables' units moves by 1e-16.
+            numpy.testing.assert_allclose(own.rows[i].tcp_deflection_mm, by_arrays.rows[i].tcp_deflection_mm, rtol=1e-9)
+
+    def test_one_wrench_serves_all_postures(self):
+        rows = self.day.compensate(self.angles, [0, 0, -1000, 0, 0, 0], springs_only=True).rows
+        self.assertEqual([row.pose for row in rows], ["1", "2", "3"])
+
+
+if __name__ == "__main__":
+    unittest.main()
