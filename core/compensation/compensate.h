@@ -2,6 +2,7 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,6 +22,8 @@ struct PostureToCompensate {
   std::string id;
   Vector6d q = Vector6d::Zero();               ///< rad
   Vector6d wrench_in_cell = Vector6d::Zero();  ///< N, Nm, in the load cell's axes
+  /// Where the load is known by its direction in R0 instead: then the reading plays no part.
+  std::optional<effects::FlangeLoad> load = std::nullopt;
 };
 
 /// Predicted move of one point of the flange body by the load, loaded less unloaded: R0 axes, m.
@@ -98,6 +101,15 @@ std::vector<CompensatedPosture> compensate(const campaign::Campaign& campaign, c
                                            const CompensateOptions& options = {},
                                            const effects::EffectDeflection* with = nullptr,
                                            const Certainty* certainty = nullptr);
+
+/// Whether a joint's axis is upright, so that its angle does not change how weights load the arm.
+bool turnsFreely(const frames::LoadingGeometry& geometry, int joint);
+
+/// base_from_flange (R0) of the unloaded arm at rest with these commands, bent by its own weight, by the model that
+/// `compensate` predicts by. Empty where it does not come to rest.
+std::optional<Eigen::Isometry3d> restingFlange(const frames::LoadingGeometry& geometry,
+                                               const identification::StiffnessEstimate& estimate,
+                                               const effects::EffectDeflection* with, const Vector6d& commands);
 
 /// How many postures have commands, and why others have none.
 struct CompensationSummary {
