@@ -61,6 +61,18 @@ std::vector<PostureToCompensate> readPostures(const std::filesystem::path& file,
   return postures;
 }
 
+std::vector<NamedReading> readWrenches(const std::filesystem::path& file, std::vector<std::string>& warnings) {
+  using Row = NamedReading;
+  static const campaign::TableLayout<Row> layout{
+      "wrenches",
+      campaign::joined<Row>({{{"pose", campaign::CellKind::text, [](Row& row) -> std::string& { return row.id; }}},
+                             campaign::wrenchColumns<Row>()}),
+      {"pose"}};
+  const std::string bytes = io::readTextFile(file);
+  campaign::CampaignNames names;
+  return campaign::readTable<Row>({file.string(), bytes}, layout, names, warnings);
+}
+
 std::vector<PostureToCompensate> campaignPostures(const campaign::Campaign& campaign, int step) {
   std::vector<PostureToCompensate> postures;
   for (const campaign::State& state : campaign.states->rows) {

@@ -133,6 +133,16 @@ std::vector<Remark> implausibleCommands(const std::vector<CompensatedPosture>& p
 /// campaign's tables do; unknown columns go to `warnings`.
 std::vector<PostureToCompensate> readPostures(const std::filesystem::path& file, std::vector<std::string>& warnings);
 
+/// Load-cell readings by the name of the posture that they act at.
+struct NamedReading {
+  std::string id;
+  Vector6d wrench_in_cell = Vector6d::Zero();  ///< N, Nm
+  std::size_t line = 0;
+};
+
+/// Reads them from a CSV file: `pose`, `fx_n fy_n fz_n mx_nm my_nm mz_nm`, as above.
+std::vector<NamedReading> readWrenches(const std::filesystem::path& file, std::vector<std::string>& warnings);
+
 /// The campaign's own postures in load step `step`.
 std::vector<PostureToCompensate> campaignPostures(const campaign::Campaign& campaign, int step);
 

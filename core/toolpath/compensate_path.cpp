@@ -68,6 +68,13 @@ JointPathOptions jointOptions(const PathArm& arm, const PathJob& job) {
 
 }  // namespace
 
+ToolWrench CompensatedPathPose::wrenchAtTip() const {
+  ToolWrench at_tip = wrench;
+  at_tip.point_in_tool.setZero();
+  at_tip.moment += (workpiece_from_tool * wrench.point_in_tool).cross(wrench.force);
+  return at_tip;
+}
+
 std::vector<compensation::CompensatedPosture> CompensatedPath::postures() const {
   std::vector<compensation::CompensatedPosture> all;
   for (const CompensatedPathPose& pose : poses) all.push_back(pose.compensated);
@@ -90,6 +97,7 @@ CompensatedPath compensatePath(const PathArm& arm, const PathJob& job) {
   numerics::onAllCores(wanted.size(), [&](std::size_t i) {
     CompensatedPathPose& pose = result.poses[i];
     pose.tip_in_workpiece = job.path.poses[i].workpiece_from_tool.translation();
+    pose.workpiece_from_tool = job.path.poses[i].workpiece_from_tool.linear();
     pose.along = lengths[i];
     pose.joints = joints.poses[i];
     pose.wrench = wrenches[i];

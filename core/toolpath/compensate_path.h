@@ -35,6 +35,7 @@ struct SmallMotion {
 
 struct CompensatedPathPose {
   Eigen::Vector3d tip_in_workpiece = Eigen::Vector3d::Zero();  ///< as asked for, m
+  Eigen::Matrix3d workpiece_from_tool = Eigen::Matrix3d::Identity();
   double along = 0.0;                                          ///< length of the path up to here, m
   JointPathPose joints;                                        ///< of the rigid arm
   ToolWrench wrench;                                           ///< on the tool, workpiece axes
@@ -44,6 +45,8 @@ struct CompensatedPathPose {
   SmallMotion deflection;                     ///< by the process, without compensation
   SmallMotion offset;                         ///< to add to the programmed pose, in place of other joint commands
   Vector6d joint_torque = Vector6d::Zero();   ///< of the process, Nm
+
+  ToolWrench wrenchAtTip() const;  ///< its moment about the tip
 };
 
 struct CompensatedPath {
