@@ -163,10 +163,11 @@ std::string pathText(const campaign::Campaign& campaign, identification::Method 
                  path.poses.empty() ? 0.0 : path.poses.back().along / io::kMillimetre, namesOf(method).full);
   fmt::format_to(out, "  {:<52}{:>9}{:>11}   {}\n", "deviation of the tool's tip by the process load (mm)", "rms",
                  "largest", "at pose");
-  addAlong("without compensation, of the poses predicted", path, false,
-           [](const auto& pose) { return pose.deflection.shift.norm(); }, text);
-  addAlong("without compensation, of those compensated", path, true,
-           [](const auto& pose) { return pose.deflection.shift.norm(); }, text);
+  const compensation::CompensationSummary summary = compensation::summaryOf(path.postures());
+  if (summary.compensated < summary.asked)
+    addAlong("without compensation, refused poses too", path, false,
+             [](const auto& pose) { return pose.deflection.shift.norm(); }, text);
+  addAlong("without compensation", path, true, [](const auto& pose) { return pose.deflection.shift.norm(); }, text);
   addAlong("with it at most: U (coverage 95 %)", path, true,
            [](const auto& pose) { return pose.compensated.tcp.expanded; }, text);
   addAlong("offset of the programmed pose", path, true, [](const auto& pose) { return pose.offset.shift.norm(); }, text);
