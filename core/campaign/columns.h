@@ -63,7 +63,7 @@ struct CampaignNames {
   NameList targets, poses, nests;
 };
 
-/// What a column holds. The first seven are numbers with the unit of their name, the others names and counts.
+/// What a column holds. The first eight are numbers with the unit of their name, the others names and counts.
 enum class CellKind {
   millimetre,
   displacement_millimetre,
@@ -72,6 +72,7 @@ enum class CellKind {
   newton,
   newton_metre,
   celsius,
+  ratio,
   axis,    ///< 1..6 in the file, 0..5 in memory
   step,    ///< 0, 1, 2...
   target,  ///< id of a declared target
@@ -90,7 +91,7 @@ struct NumberKind {
 };
 
 // In the order of CellKind.
-inline constexpr std::array<NumberKind, 7> kNumberKinds{{
+inline constexpr std::array<NumberKind, 8> kNumberKinds{{
     {io::kMillimetre, 200e3, "expected a coordinate in mm, within +-200 m", 4},
     {io::kMillimetre, 1e3, "expected a displacement from step 0 in mm, within +-1 m", 4},
     {io::kDegree, 720.0, "expected an angle in degrees, within +-720", 5},
@@ -98,6 +99,7 @@ inline constexpr std::array<NumberKind, 7> kNumberKinds{{
     {1.0, 1e6, "expected a force in N, within +-1e6", 3},
     {1.0, 1e6, "expected a moment in Nm, within +-1e6", 4},
     {1.0, 200.0, "expected a temperature in degrees Celsius, within +-200", 2},
+    {1.0, 1.0 + 1e-6, "expected a number within +-1", 9},  // of a unit vector, rounded
 }};
 
 /// Throws std::out_of_range for a kind that is no number.

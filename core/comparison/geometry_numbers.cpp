@@ -6,6 +6,7 @@
 
 #include "core/calibration/denavit_hartenberg.h"
 #include "core/frames/arm_parameters.h"
+#include "core/robot/inverse_kinematics.h"
 #include "metrology/lines.h"
 
 namespace stiffscope::comparison {
@@ -42,11 +43,6 @@ Eigen::Isometry3d lastFrame(const DenavitHartenberg& arm, const Vector6d& q) {
 Eigen::Isometry3d firstAlongAxis(const LinkParameters& first) {
   Eigen::Isometry3d motion(Eigen::AngleAxisd(first.theta, Eigen::Vector3d::UnitZ()));
   return first.hayati ? motion : motion * Eigen::Translation3d(0.0, 0.0, first.d);
-}
-
-Eigen::Vector3d rotationVector(const Eigen::Matrix3d& rotation) {
-  const Eigen::AngleAxisd turn(rotation);
-  return turn.angle() * turn.axis();
 }
 
 }  // namespace
@@ -105,7 +101,7 @@ Eigen::VectorXd GeometryNumbers::allOf(const robot::Robot& nominal, const calibr
         flange_from_base * at_zero[static_cast<std::size_t>(targets[t])];
   }
   const Eigen::Isometry3d moved = points_from_base.inverse() * pointsFromBase(nominal, fit);
-  all.segment<3>(count() + reflectors) = rotationVector(moved.linear());
+  all.segment<3>(count() + reflectors) = robot::rotationVector(moved.linear());
   all.tail<3>() = moved.translation();
   return all;
 }

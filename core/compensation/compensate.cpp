@@ -9,6 +9,8 @@
 #include "core/identification/load_case.h"
 #include "core/io/read_file.h"
 #include "core/io/units.h"
+#include "core/numerics/parallel.h"
+#include "core/robot/inverse_kinematics.h"
 #include "core/robot/wrench.h"
 #include "metrology/linear_algebra.h"
 
@@ -59,6 +61,18 @@ std::vector<PostureToCompensate> readPostures(const std::filesystem::path& file,
   return postures;
 }
 
+std::vector<NamedReading> readWrenches(const std::filesystem::path& file, std::vector<std::string>& warnings) {
+  using Row = NamedReading;
+  static const campaign::TableLayout<Row> layout{
+      "wrenches",
+      campaign::joined<Row>({{{"pose", campaign::CellKind::text, [](Row& row) -> std::string& { return row.id; }}},
+                             campaign::wrenchColumns<Row>()}),
+      {"pose"}};
+  const std::string bytes = io::readTextFile(file);
+  campaign::CampaignNames names;
+  return campaign::readTable<Row>({file.string(), bytes}, layout, names, warnings);
+}
+
 std::vector<PostureToCompensate> campaignPostures(const campaign::Campaign& campaign, int step) {
   std::vector<PostureToCompensate> postures;
   for (const campaign::State& state : campaign.states->rows) {
@@ -69,11 +83,6 @@ std::vector<PostureToCompensate> campaignPostures(const campaign::Campaign& camp
 }
 
 namespace {
-
-Eigen::Vector3d rotationVector(const Eigen::Matrix3d& rotation) {
-  const Eigen::AngleAxisd turn(rotation);
-  return turn.angle() * turn.axis();
-}
 
 /// The flange unloaded and loaded.
 struct Moved {
@@ -113,14 +122,13 @@ class Compensator {
       return result;
     }
     const robot::ArmPosture unloaded = robot::postureAt(geometry_.arm, *unloaded_angles);
-    const auto resting =
-        with_ ? with_->flange(asked.q, effects::FlangeLoad()) : robot::flangeAt(geometry_.arm, unloaded);
+    const auto resting = loadedFlange(asked.q, unloaded, effects::FlangeLoad());
     if (!resting) {
       result.reason = Remark(RemarkId::unloaded_arm_does_not_rest);
       return result;
     }
     const Eigen::Isometry3d wanted = *resting;
-    const effects::FlangeLoad load = loadAt(unloaded, wanted, asked.wrench_in_cell);
+    const effects::FlangeLoad load = asked.load ? *asked.load : loadAt(unloaded, wanted, asked.wrench_in_cell);
     predict(unloaded, wanted, load, result);
     if (!result.predicted) return result;
     addCautions(unloaded, wanted, load, result);
@@ -169,7 +177,7 @@ class Compensator {
     if (range_ == nullptr) return {};
     if (found.load_ratio > options_.load_most)
       return Remark(RemarkId::load_far_beyond, found.load_ratio, options_.load_most);
-    for (int joint = turnsFreely(0) ? 1 : 0; joint < 6; ++joint) {
+    for (int joint = turnsFreely(geometry_, 0) ? 1 : 0; joint < 6; ++joint) {
       if (beyondAngles(found.posture.q, joint) > options_.posture_most)
         return Remark(RemarkId::posture_far_beyond, joint + 1, found.posture.q[joint], range_->low[joint],
                       range_->high[joint], options_.posture_most);
@@ -213,14 +221,6 @@ class Compensator {
     const double low = range_->low[joint], high = range_->high[joint];
     const double past = std::remainder(q[joint] - 0.5 * (low + high), kTurn);
     return std::max(0.0, std::abs(past) - 0.5 * (high - low));
-  }
-
-  /// Whether a joint's axis is upright, so that its angle does not change how weights load the arm.
-  bool turnsFreely(int joint) const {
-    constexpr double kUpright = 0.087;  // rad, 5 deg
-    const Eigen::Vector3d& axis = geometry_.arm.axes_in_base_at_zero[static_cast<std::size_t>(joint)].direction;
-    const Eigen::Vector3d& gravity = geometry_.weight.gravity_in_base;
-    return axis.cross(gravity).norm() <= std::sin(kUpright) * gravity.norm();
   }
 
   /// The reason to refuse where the load turns a joint of unknown stiffness, which counts as rigid here, or
@@ -308,7 +308,7 @@ class Compensator {
     return flange.loaded * point_in_flange - flange.unloaded * point_in_flange;
   }
   static Eigen::Vector3d turnOf(const Moved& flange) {
-    return rotationVector(flange.loaded.linear() * flange.unloaded.linear().transpose());
+    return robot::rotationVector(flange.loaded.linear() * flange.unloaded.linear().transpose());
   }
 
   void predict(const robot::ArmPosture& unloaded, const Eigen::Isometry3d& wanted, const effects::FlangeLoad& load,
@@ -355,8 +355,7 @@ class Compensator {
     result.rotation_sd = spreadOf(errorsOf(jacobian.bottomRows<3>() * torque.asDiagonal(), rowsFrom(by.rows() - 3),
                                            result.rotation, turn_left))
                              .sd;
-    const Vector6d singular = singularValues(jacobian);
-    result.conditioning = singular[5] / singular[0];
+    result.conditioning = robot::conditioningAt(axes, wanted * tcp_);
   }
 
   void solve(const PostureToCompensate& asked, const Vector6d& unloaded_angles, const Eigen::Isometry3d& wanted,
@@ -374,7 +373,7 @@ class Compensator {
       }
       const Eigen::Isometry3d& flange = *resting;
       Vector6d error;
-      error << wanted * tcp_ - flange * tcp_, rotationVector(wanted.linear() * flange.linear().transpose());
+      error << wanted * tcp_ - flange * tcp_, robot::rotationVector(wanted.linear() * flange.linear().transpose());
       result.remaining = error.head<3>().norm();
       if (step == 0) result.mirrored_remaining = result.remaining;
       if (error.cwiseAbs().maxCoeff() < kThere) {
@@ -417,10 +416,25 @@ std::vector<CompensatedPosture> compensate(const campaign::Campaign& campaign, c
                                            const CompensateOptions& options, const effects::EffectDeflection* with,
                                            const Certainty* certainty) {
   const Compensator compensator(campaign, geometry, estimate, tcp_in_flange, options, with, certainty);
-  std::vector<CompensatedPosture> results;
-  results.reserve(postures.size());
-  for (const PostureToCompensate& posture : postures) results.push_back(compensator.run(posture));
+  std::vector<CompensatedPosture> results(postures.size());
+  numerics::onAllCores(postures.size(), [&](std::size_t i) { results[i] = compensator.run(postures[i]); });
   return results;
+}
+
+bool turnsFreely(const frames::LoadingGeometry& geometry, int joint) {
+  constexpr double kUpright = 0.087;  // rad, 5 deg
+  const Eigen::Vector3d& axis = geometry.arm.axes_in_base_at_zero[static_cast<std::size_t>(joint)].direction;
+  const Eigen::Vector3d& gravity = geometry.weight.gravity_in_base;
+  return axis.cross(gravity).norm() <= std::sin(kUpright) * gravity.norm();
+}
+
+std::optional<Eigen::Isometry3d> restingFlange(const frames::LoadingGeometry& geometry,
+                                               const identification::StiffnessEstimate& estimate,
+                                               const effects::EffectDeflection* with, const Vector6d& commands) {
+  if (with != nullptr) return with->flange(commands, effects::FlangeLoad());
+  const auto angles = effects::loadedAngles(geometry, estimate.compliance, commands, effects::FlangeLoad());
+  if (!angles) return std::nullopt;
+  return robot::flangeAt(geometry.arm, robot::postureAt(geometry.arm, *angles));
 }
 
 Certainty certaintyOf(const identification::Identification& result, identification::Method method, double load_sd) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,6 +22,8 @@ struct PostureToCompensate {
   std::string id;
   Vector6d q = Vector6d::Zero();               ///< rad
   Vector6d wrench_in_cell = Vector6d::Zero();  ///< N, Nm, in the load cell's axes
+  /// Where the load is known by its direction in R0 instead: then the reading plays no part.
+  std::optional<effects::FlangeLoad> load = std::nullopt;
 };
 
 /// Predicted move of one point of the flange body by the load, loaded less unloaded: R0 axes, m.
@@ -99,6 +102,15 @@ std::vector<CompensatedPosture> compensate(const campaign::Campaign& campaign, c
                                            const effects::EffectDeflection* with = nullptr,
                                            const Certainty* certainty = nullptr);
 
+/// Whether a joint's axis is upright, so that its angle does not change how weights load the arm.
+bool turnsFreely(const frames::LoadingGeometry& geometry, int joint);
+
+/// base_from_flange (R0) of the unloaded arm at rest with these commands, bent by its own weight, by the model that
+/// `compensate` predicts by. Empty where it does not come to rest.
+std::optional<Eigen::Isometry3d> restingFlange(const frames::LoadingGeometry& geometry,
+                                               const identification::StiffnessEstimate& estimate,
+                                               const effects::EffectDeflection* with, const Vector6d& commands);
+
 /// How many postures have commands, and why others have none.
 struct CompensationSummary {
   std::size_t asked = 0, compensated = 0;
@@ -120,6 +132,16 @@ std::vector<Remark> implausibleCommands(const std::vector<CompensatedPosture>& p
 /// reading expected there, `fx_n fy_n fz_n mx_nm my_nm mz_nm`; columns in any order. Throws InputError as the
 /// campaign's tables do; unknown columns go to `warnings`.
 std::vector<PostureToCompensate> readPostures(const std::filesystem::path& file, std::vector<std::string>& warnings);
+
+/// Load-cell readings by the name of the posture that they act at.
+struct NamedReading {
+  std::string id;
+  Vector6d wrench_in_cell = Vector6d::Zero();  ///< N, Nm
+  std::size_t line = 0;
+};
+
+/// Reads them from a CSV file: `pose`, `fx_n fy_n fz_n mx_nm my_nm mz_nm`, as above.
+std::vector<NamedReading> readWrenches(const std::filesystem::path& file, std::vector<std::string>& warnings);
 
 /// The campaign's own postures in load step `step`.
 std::vector<PostureToCompensate> campaignPostures(const campaign::Campaign& campaign, int step);

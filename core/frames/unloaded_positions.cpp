@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <map>
 
+#include "core/robot/inverse_kinematics.h"
 #include "core/robot/kinematics.h"
 #include "metrology/linear_algebra.h"
 #include "metrology/registration.h"
@@ -24,11 +25,6 @@ std::map<int, Seen> byPose(const LoadingGeometry& geometry, const std::vector<Un
     seen.points[position.target] = position.point;
   }
   return poses;
-}
-
-Eigen::Vector3d rotationVector(const Eigen::Matrix3d& rotation) {
-  const Eigen::AngleAxisd turn(rotation);
-  return turn.angle() * turn.axis();
 }
 
 /// Rotation of the reflectors from one pose to another by their common points.
@@ -58,7 +54,7 @@ std::optional<BaseFromPostures> baseFromPostures(const LoadingGeometry& geometry
     const auto turn = measuredTurn(first, seen);
     if (!turn) continue;
     const Eigen::Matrix3d by_model = seen.posture.motion[6].linear() * first.posture.motion[6].linear().transpose();
-    cross += rotationVector(*turn) * rotationVector(by_model).transpose();
+    cross += robot::rotationVector(*turn) * robot::rotationVector(by_model).transpose();
   }
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(cross, Eigen::ComputeFullU | Eigen::ComputeFullV);
   constexpr double kOneAxis = 1e-3;

@@ -30,10 +30,17 @@ struct JointSample {
   std::size_t line = 0;
 };
 
+/// Where a number stands in a text, bytes.
+struct TextSpan {
+  std::size_t from = 0, size = 0;
+};
+
 struct RobotLog {
   LogFormat format = LogFormat::columns;
   Encoding encoding = Encoding::utf8;
   std::vector<JointSample> samples;
+  /// Of a program: where the figures of each sample stand in the text, joint by joint.
+  std::vector<std::array<TextSpan, 6>> places;
   std::vector<SkippedRow> skipped;
   std::vector<std::string> warnings;
 };
@@ -43,6 +50,10 @@ struct LogOptions {
   std::optional<LogFormat> format;
   FileOptions table;              ///< of `columns`, and the encoding of all
   std::optional<double> rate_hz;  ///< of a log without times: samples a second
+  /// Of a program: targets that stand in its instructions (PTP {A1 ...}, MoveAbsJ [[...]]), too, and not only those that
+  /// are declared. They are called by their line.
+  bool in_instructions = false;
+  bool joints_needed = true;  ///< false: a file without joint angles is no error
 };
 
 }  // namespace stiffscope::interchange

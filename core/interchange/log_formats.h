@@ -26,10 +26,10 @@ RobotLog readJointTable(const LogText& text, LogFormat format);
 bool looksLikeFanucProgram(std::string_view text);
 RobotLog readFanucProgram(const LogText& text);
 
-bool looksLikeKukaData(std::string_view text);
+bool looksLikeKukaData(const LogText& text);
 RobotLog readKukaData(const LogText& text);
 
-bool looksLikeRapid(std::string_view text);
+bool looksLikeRapid(const LogText& text);
 RobotLog readRapid(const LogText& text);
 
 RobotLog readJointColumns(const LogText& text);

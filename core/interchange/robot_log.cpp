@@ -29,8 +29,8 @@ std::optional<LogFormat> shownFormat(const LogText& text) {
   if (looksLikeJointTable(text, LogFormat::fanuc_karel)) return LogFormat::fanuc_karel;
   if (hasColumnHeader({text.file, text.text, text.options.table})) return LogFormat::columns;
   if (looksLikeJointTable(text, LogFormat::ur)) return LogFormat::ur;
-  if (looksLikeRapid(text.text)) return LogFormat::rapid;
-  if (looksLikeKukaData(text.text)) return LogFormat::kuka_krl;
+  if (looksLikeRapid(text)) return LogFormat::rapid;
+  if (looksLikeKukaData(text)) return LogFormat::kuka_krl;
   return std::nullopt;
 }
 
@@ -96,7 +96,8 @@ RobotLog parseRobotLog(const std::string& file, std::string_view bytes, const Lo
   const LogText text{file, decoded.text, options};
   RobotLog log = readAs(formatOf(text), text);
   log.encoding = decoded.encoding;
-  if (log.samples.empty()) throw io::InputError({file, 0, ""}, "", "expected joint angles; there are none");
+  if (log.samples.empty() && options.joints_needed)
+    throw io::InputError({file, 0, ""}, "", "expected joint angles; there are none");
   if (options.rate_hz) {
     for (std::size_t i = 0; i < log.samples.size(); ++i) {
       if (log.samples[i].time_s)

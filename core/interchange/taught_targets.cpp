@@ -41,6 +41,8 @@ class ProgramText {
   /// Goes on behind a place that was found by a search, never backwards.
   void goTo(std::size_t place) { at_ = std::max(at_, place); }
   std::size_t place() const { return at_; }
+  /// To a place behind which nothing was asked for its line yet.
+  void returnTo(std::size_t place) { at_ = place; }
 
   /// A word, a number with its sign and unit left out, or one other character.
   std::string_view next() {
@@ -64,8 +66,11 @@ class ProgramText {
     const std::string_view found = next();
     const double value = decimalOrNan(found, DecimalSign::point);
     if (std::isnan(value)) refuse(found, fmt::format("expected a number, {}", what));
+    number_ = {at_ - found.size(), found.size()};
     return value;
   }
+  /// Where the number stands that was read last.
+  const TextSpan& numberPlace() const { return number_; }
 
   [[noreturn]] void refuse(std::string_view found, const std::string& expectation) const {
     throw io::InputError({file_, line(), ""}, std::string(found),
@@ -87,6 +92,7 @@ class ProgramText {
   const std::string& file_;
   std::string_view text_;
   std::size_t at_;
+  TextSpan number_;
   mutable std::size_t counted_ = 0, line_ = 1;
 };
 
@@ -101,6 +107,33 @@ std::size_t findWord(const std::string& small, std::string_view word, std::size_
     from = at + 1;
   }
 }
+
+/// The words of a list in the order in which they stand in a text in small letters.
+class WordsInOrder {
+ public:
+  WordsInOrder(const std::string& small, std::vector<std::string_view> words) : small_(small) {
+    for (const std::string_view word : words) places_.push_back({word, findWord(small, word, 0)});
+  }
+
+  struct Found {
+    std::string_view word;
+    std::size_t at = std::string::npos;  ///< npos: there is none
+  };
+
+  /// The next one that starts at `from` or behind it.
+  Found next(std::size_t from) {
+    Found first;
+    for (Found& one : places_) {
+      if (one.at != std::string::npos && one.at < from) one.at = findWord(small_, one.word, from);
+      if (one.at < first.at) first = one;
+    }
+    return first;
+  }
+
+ private:
+  const std::string& small_;
+  std::vector<Found> places_;
+};
 
 /// Text behind `mark` in each line becomes blanks, so that no target is read out of a comment.
 std::string withoutComments(std::string_view text, char mark) {
@@ -152,6 +185,7 @@ RobotLog readFanucProgram(const LogText& text) {
       if (token.empty()) program.refuse(token, "expected '{' behind P[NUMBER]");
     }
     std::array<bool, 6> given{};
+    std::array<TextSpan, 6> places;
     int group = 1;
     for (std::string_view token = program.next(); token != "}"; token = program.next()) {
       if (token.empty()) program.refuse(token, "expected '}' at the end of this target");
@@ -161,6 +195,7 @@ RobotLog readFanucProgram(const LogText& text) {
       const auto joint = static_cast<std::size_t>(word[1] - '1');
       program.require("=", "behind a joint");
       sample.figures[static_cast<Eigen::Index>(joint)] = program.number("a joint's angle") * io::kDegree;
+      places[joint] = program.numberPlace();
       if (lowered(program.next()) != "deg") program.refuse("", "expected deg behind a joint's angle");
       given[joint] = true;
     }
@@ -173,98 +208,197 @@ RobotLog readFanucProgram(const LogText& text) {
                            "expected all six joints of group 1, or a target in space");
     } else {
       log.samples.push_back(std::move(sample));
+      log.places.push_back(places);
     }
   }
   throw io::InputError({text.file, program.line(), ""}, "", "expected /END; the file ends before it");
 }
 
-bool looksLikeKukaData(std::string_view text) {
-  const std::string small = lowered(text);
-  return findWord(small, "defdat", 0) != std::string::npos ||
-         (findWord(small, "decl", 0) != std::string::npos &&
-          (findWord(small, "axis", 0) != std::string::npos || findWord(small, "e6axis", 0) != std::string::npos));
+bool looksLikeKukaData(const LogText& text) {
+  const std::string small = lowered(text.text);
+  const auto has = [&](std::string_view word) { return findWord(small, word, 0) != std::string::npos; };
+  return has("defdat") || (has("decl") && (has("axis") || has("e6axis"))) ||
+         (text.options.in_instructions && has("def") && (has("ptp") || has("sptp")));
 }
+
+namespace {
+
+/// What stands in the braces of a KRL aggregate, behind '{'.
+struct KrlAggregate {
+  Vector6d figures = Vector6d::Zero();  ///< rad
+  std::array<TextSpan, 6> places;
+  std::array<bool, 6> given{};
+  bool in_space = false;  ///< X, Y, Z, A, B, C
+
+  bool whole() const { return std::count(given.begin(), given.end(), true) == 6; }
+};
+
+/// `space_too`: a target in space is no error.
+KrlAggregate readKrlAggregate(ProgramText& program, bool space_too) {
+  KrlAggregate found;
+  for (std::string_view token = program.next(); token != "}"; token = program.next()) {
+    if (token.empty()) program.refuse(token, "expected '}' at the end of this target");
+    if (token == ",") continue;
+    const std::string word = lowered(token);
+    if (word == ":") continue;
+    const bool axis = word.size() == 2 && word[0] == 'a' && word[1] >= '1' && word[1] <= '6';
+    const bool external = word.size() == 2 && word[0] == 'e' && word[1] >= '1' && word[1] <= '6';
+    if (word == "axis" || word == "e6axis") continue;  // {E6AXIS: A1 ...}
+    if (space_too && !axis && !external) {
+      found.in_space = true;
+      continue;
+    }
+    if (!axis && !external) program.refuse(token, "expected A1 to A6 or E1 to E6");
+    const double value = program.number("an axis's angle");
+    if (!axis) continue;
+    const auto joint = static_cast<std::size_t>(word[1] - '1');
+    found.given[joint] = true;
+    found.places[joint] = program.numberPlace();
+    found.figures[word[1] - '1'] = value * io::kDegree;
+  }
+  return found;
+}
+
+/// A target that is declared: DECL AXIS NAME={A1 ...}.
+void readKrlDeclaration(const LogText& text, ProgramText& program, RobotLog& log) {
+  std::string type = lowered(program.next());
+  if (type == "global" || type == "const") type = lowered(program.next());
+  JointSample sample;
+  sample.line = program.line();
+  if (type == "e6pos" || type == "pos" || type == "frame") log.skipped.push_back({sample.line, Skip::joints_not_given});
+  if (type != "axis" && type != "e6axis") return;
+  sample.name = program.next();
+  if (program.next() != "=") return;  // declared without a value
+  program.require("{", "behind the name of a target");
+  const KrlAggregate found = readKrlAggregate(program, false);
+  if (!found.whole()) throw io::InputError({text.file, sample.line, ""}, sample.name, "expected A1 to A6");
+  sample.figures = found.figures;
+  log.samples.push_back(std::move(sample));
+  log.places.push_back(found.places);
+}
+
+/// A target that stands in the instruction, PTP {A1 ...}, called by its line. One that gives some axes alone leaves the
+/// others where they are, so that its posture is not known here.
+void readKrlMotion(ProgramText& program, RobotLog& log) {
+  JointSample sample;
+  sample.line = program.line();
+  const std::size_t behind = program.place();
+  if (program.next() != "{") {
+    program.returnTo(behind);
+    return;
+  }
+  const KrlAggregate found = readKrlAggregate(program, true);
+  if (found.in_space || !found.whole()) {
+    log.skipped.push_back({sample.line, Skip::joints_not_given});
+    return;
+  }
+  sample.name = fmt::format("line {}", sample.line);
+  sample.figures = found.figures;
+  log.samples.push_back(std::move(sample));
+  log.places.push_back(found.places);
+}
+
+}  // namespace
 
 RobotLog readKukaData(const LogText& text) {
   const std::string code = withoutComments(text.text, ';'), small = lowered(code);
   RobotLog log;
   log.format = LogFormat::kuka_krl;
   ProgramText program(text.file, code);
-  for (std::size_t at = findWord(small, "decl", 0); at != std::string::npos;
-       at = findWord(small, "decl", program.place())) {
-    program.goTo(at);
+  std::vector<std::string_view> starts{"decl"};
+  if (text.options.in_instructions)
+    starts.insert(starts.end(), {"ptp", "sptp", "lin", "slin", "circ", "scirc", "spl"});
+  WordsInOrder words(small, starts);
+  for (auto found = words.next(0); found.at != std::string::npos; found = words.next(program.place())) {
+    program.goTo(found.at);
     program.next();
-    std::string type = lowered(program.next());
-    if (type == "global" || type == "const") type = lowered(program.next());
-    JointSample sample;
-    sample.line = program.line();
-    if (type == "e6pos" || type == "pos" || type == "frame")
-      log.skipped.push_back({sample.line, Skip::joints_not_given});
-    if (type != "axis" && type != "e6axis") continue;
-    sample.name = program.next();
-    std::string_view token = program.next();
-    if (token != "=") continue;  // declared without a value
-    program.require("{", "behind the name of a target");
-    std::array<bool, 6> given{};
-    for (token = program.next(); token != "}"; token = program.next()) {
-      if (token.empty()) program.refuse(token, "expected '}' at the end of this target");
-      if (token == ",") continue;
-      const std::string word = lowered(token);
-      if (word == ":") continue;
-      const bool axis = word.size() == 2 && word[0] == 'a' && word[1] >= '1' && word[1] <= '6';
-      const bool external = word.size() == 2 && word[0] == 'e' && word[1] >= '1' && word[1] <= '6';
-      if (word == "axis" || word == "e6axis") continue;  // {E6AXIS: A1 ...}
-      if (!axis && !external) program.refuse(token, "expected A1 to A6 or E1 to E6");
-      const double value = program.number("an axis's angle");
-      if (!axis) continue;
-      given[static_cast<std::size_t>(word[1] - '1')] = true;
-      sample.figures[word[1] - '1'] = value * io::kDegree;
+    if (found.word == "decl") {
+      readKrlDeclaration(text, program, log);
+    } else {
+      readKrlMotion(program, log);
     }
-    if (std::count(given.begin(), given.end(), true) != 6)
-      throw io::InputError({text.file, sample.line, ""}, sample.name, "expected A1 to A6");
-    log.samples.push_back(std::move(sample));
   }
   requireUniqueNames(text, log);
   return log;
 }
 
-bool looksLikeRapid(std::string_view text) { return findWord(lowered(text), "jointtarget", 0) != std::string::npos; }
+bool looksLikeRapid(const LogText& text) {
+  const std::string small = lowered(text.text);
+  return findWord(small, "jointtarget", 0) != std::string::npos ||
+         (text.options.in_instructions && findWord(small, "moveabsj", 0) != std::string::npos);
+}
+
+namespace {
+
+/// Six angles behind '[[', or of Rokae behind 'j:{'.
+void readSixAngles(ProgramText& program, JointSample& sample, RobotLog& log) {
+  std::array<TextSpan, 6> places;
+  for (int j = 0; j < 6; ++j) {
+    if (j > 0) program.require(",", "between angles");
+    sample.figures[j] = program.number("a joint's angle") * io::kDegree;
+    places[static_cast<std::size_t>(j)] = program.numberPlace();
+  }
+  log.samples.push_back(std::move(sample));
+  log.places.push_back(places);
+}
+
+/// A jointtarget with its value: ABB's [[q1,...,q6],[...]], Rokae's j:{q1,...,q6,...}{EJ ...}.
+void readRapidDeclaration(ProgramText& program, RobotLog& log) {
+  JointSample sample;
+  sample.line = program.line();
+  sample.name = program.next();
+  std::string_view token = program.next();
+  if (token == ":") token = program.next();
+  if (token != "=") return;  // a parameter, or declared without a value
+  token = program.next();
+  if (lowered(token) == "j") {
+    program.require(":", "behind j");
+    program.require("{", "behind j:");
+  } else {
+    if (token != "[") program.refuse(token, "expected [[q1, ..., q6], [...]]");
+    program.require("[", "before six angles");
+  }
+  readSixAngles(program, sample, log);
+}
+
+/// A target that stands in the instruction, called by its line: MoveAbsJ [[q1,...],[...]], or of the others one in space.
+void readRapidMotion(std::string_view word, ProgramText& program, RobotLog& log) {
+  JointSample sample;
+  sample.line = program.line();
+  const std::size_t behind = program.place();
+  if (program.next() != "[") {
+    program.returnTo(behind);
+    return;
+  }
+  if (word != "moveabsj") {
+    log.skipped.push_back({sample.line, Skip::joints_not_given});
+    return;
+  }
+  program.require("[", "before six angles");
+  sample.name = fmt::format("line {}", sample.line);
+  readSixAngles(program, sample, log);
+}
+
+}  // namespace
 
 RobotLog readRapid(const LogText& text) {
   const std::string code = withoutComments(text.text, '!'), small = lowered(code);
   RobotLog log;
   log.format = LogFormat::rapid;
-  ProgramText spaces(text.file, code);
-  for (std::size_t at = findWord(small, "robtarget", 0); at != std::string::npos;
-       at = findWord(small, "robtarget", at + 1)) {
-    spaces.goTo(at);
-    log.skipped.push_back({spaces.line(), Skip::joints_not_given});
-  }
   ProgramText program(text.file, code);
-  for (std::size_t at = findWord(small, "jointtarget", 0); at != std::string::npos;
-       at = findWord(small, "jointtarget", program.place())) {
-    program.goTo(at);
+  std::vector<std::string_view> starts{"jointtarget", "robtarget"};
+  if (text.options.in_instructions) starts.insert(starts.end(), {"moveabsj", "movej", "movel", "movec"});
+  WordsInOrder words(small, starts);
+  for (auto found = words.next(0); found.at != std::string::npos; found = words.next(program.place())) {
+    program.goTo(found.at);
     program.next();
-    JointSample sample;
-    sample.line = program.line();
-    sample.name = program.next();
-    std::string_view token = program.next();
-    if (token == ":") token = program.next();
-    if (token != "=") continue;  // a parameter, or declared without a value
-    // ABB: [[q1,...,q6],[...]]; Rokae: j:{q1,...,q6,...}{EJ ...}
-    token = program.next();
-    if (lowered(token) == "j") {
-      program.require(":", "behind j");
-      program.require("{", "behind j:");
+    if (found.word == "jointtarget") {
+      readRapidDeclaration(program, log);
+    } else if (found.word == "robtarget") {
+      log.skipped.push_back({program.line(), Skip::joints_not_given});
     } else {
-      if (token != "[") program.refuse(token, "expected [[q1, ..., q6], [...]]");
-      program.require("[", "before six angles");
+      readRapidMotion(found.word, program, log);
     }
-    for (int j = 0; j < 6; ++j) {
-      if (j > 0) program.require(",", "between angles");
-      sample.figures[j] = program.number("a joint's angle") * io::kDegree;
-    }
-    log.samples.push_back(std::move(sample));
   }
   requireUniqueNames(text, log);
   return log;

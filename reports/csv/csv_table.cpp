@@ -73,21 +73,21 @@ void splitUncertainties(std::vector<Line>& lines) {
   }
 }
 
-std::string quoted(const std::string& field) {
+}  // namespace
+
+std::string csvField(const std::string& field) {
   if (field.find_first_of("\",\r\n") == std::string::npos) return field;
   std::string text = field;
   replaceAll(text, "\"", "\"\"");
   return '"' + text + '"';
 }
 
-}  // namespace
-
 std::string csvTable(const Table& table) {
   std::vector<Line> lines = linesOf(table);
   splitUncertainties(lines);
   std::string csv;
   for (const Line& line : lines) {
-    for (std::size_t i = 0; i < line.size(); ++i) csv += (i > 0 ? "," : "") + quoted(line[i]);
+    for (std::size_t i = 0; i < line.size(); ++i) csv += (i > 0 ? "," : "") + csvField(line[i]);
     csv += "\r\n";
   }
   return csv;

@@ -17,4 +17,7 @@ struct TableFile {
 /// two. Remarks follow in a column of their own where there are any.
 std::string csvTable(const Table& table);
 
+/// A field as RFC 4180 has it: in quotes, and these doubled, where it holds a comma, a quote or a line end.
+std::string csvField(const std::string& field);
+
 }  // namespace stiffscope::reports

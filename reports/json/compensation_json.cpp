@@ -1,5 +1,7 @@
 #include "core/compensation/compensate.h"
 #include "core/identification/identify.h"
+#include "core/interchange/taught_program.h"
+#include "core/toolpath/compensate_path.h"
 #include "reports/json/campaign_json.h"
 #include "reports/json/json.h"
 
@@ -94,6 +96,55 @@ Json compensationJson(const campaign::Campaign& campaign, identification::Method
           {"known_stiffness", knownJson(known)},
           {"rows", rows},
           {"summary", summaryJson(postures)}};
+}
+
+namespace {
+
+void addPathKeys(const toolpath::CompensatedPathPose& pose, Json& row) {
+  const toolpath::ToolWrench at_tip = pose.wrenchAtTip();
+  row["along_mm"] = pose.along / io::kMillimetre;
+  row["tip_mm"] = array(pose.tip_in_workpiece, 1.0 / io::kMillimetre);
+  row["process"] = {{"force_n", array(at_tip.force)}, {"moment_nm", array(at_tip.moment)}};
+  if (!at_tip.reason.empty()) row["process"] = nullptr;
+  const bool held = pose.joints.q.allFinite();
+  row["turn_deg"] = held ? number(pose.joints.turn / io::kDegree) : Json(nullptr);
+  row["limit_margin_deg"] = held ? number(pose.joints.limit_margin / io::kDegree) : Json(nullptr);
+  row["nearest_limit"] = held ? Json(pose.joints.nearest_limit + 1) : Json(nullptr);
+  const bool predicted = pose.compensated.predicted;
+  row["deflection_in_workpiece_mm"] =
+      predicted ? array(pose.deflection.shift, 1.0 / io::kMillimetre) : Json(nullptr);
+  row["joint_torque_nm"] = predicted ? array(pose.joint_torque) : Json(nullptr);
+  row["offset"] = pose.compensated.solved ? Json{{"shift_mm", array(pose.offset.shift, 1.0 / io::kMillimetre)},
+                                                 {"rotation_deg", array(pose.offset.turn, 1.0 / io::kDegree)}}
+                                          : Json(nullptr);
+}
+
+}  // namespace
+
+Json pathJson(const campaign::Campaign& campaign, identification::Method method, const toolpath::PathJob& job,
+              const toolpath::CompensatedPath& path, const std::vector<campaign::KnownStiffness>& known) {
+  Json json = compensationJson(campaign, method, path.postures(), known);
+  std::size_t reached = 0;
+  for (std::size_t i = 0; i < path.poses.size(); ++i) {
+    addPathKeys(path.poses[i], json["rows"][i]);
+    reached += path.poses[i].joints.q.allFinite() ? 1 : 0;
+  }
+  json["joints"] = {{"reached", reached}, {"branches", path.branches}, {"turn_free", job.turn_free}};
+  return json;
+}
+
+Json withProgram(Json json, const interchange::TaughtProgram& program, const std::string& out,
+                 const std::vector<compensation::CompensatedPosture>& targets, double rounding) {
+  Json in_space = Json::array();
+  for (const interchange::SkippedRow& skipped : program.log.skipped) in_space.push_back(skipped.line);
+  const std::size_t replaced = compensation::summaryOf(targets).compensated;
+  json["program"] = {{"file", program.file},
+                     {"out", replaced > 0 ? Json(out) : Json(nullptr)},
+                     {"format", interchange::nameOf(program.log.format)},
+                     {"replaced", replaced},
+                     {"rounding_mm", rounding / io::kMillimetre},
+                     {"in_space", in_space}};
+  return json;
 }
 
 }  // namespace stiffscope::reports

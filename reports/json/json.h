@@ -36,6 +36,9 @@ struct SpikeStudy;
 namespace stiffscope::extended_model {
 struct ExtendedModel;
 }
+namespace stiffscope::interchange {
+struct TaughtProgram;
+}
 namespace stiffscope::mistakes {
 struct ModelAgreement;
 }
@@ -55,6 +58,10 @@ enum class AuditVerdict;
 namespace stiffscope::simulation {
 struct SimulationSpec;
 }
+namespace stiffscope::toolpath {
+struct CompensatedPath;
+struct PathJob;
+}  // namespace stiffscope::toolpath
 namespace stiffscope::validation {
 struct BlindOptions;
 struct BlindResult;
@@ -98,6 +105,18 @@ Json geometryChangeJson(const campaign::Campaign& before, const campaign::Campai
 Json compensationJson(const campaign::Campaign& campaign, identification::Method method,
                       const std::vector<compensation::CompensatedPosture>& postures,
                       const std::vector<campaign::KnownStiffness>& known);
+
+/// The result of `compensate --path`: that of `compensate`, its P_TCP the tool's tip; in each row besides, in the
+/// workpiece's axes, along_mm, tip_mm, process (force_n, moment_nm about the tip), deflection_in_workpiece_mm, offset
+/// (shift_mm, rotation_deg: to add to the programmed pose), and turn_deg, joint_torque_nm, limit_margin_deg (of joint
+/// nearest_limit); joints (reached, branches, turn_free).
+Json pathJson(const campaign::Campaign& campaign, identification::Method method, const toolpath::PathJob& job,
+              const toolpath::CompensatedPath& path, const std::vector<campaign::KnownStiffness>& known);
+
+/// Adds `program` to the result of `compensate`: file, out (null: not written), format, replaced, rounding_mm, in_space
+/// (lines of targets that were left).
+Json withProgram(Json json, const interchange::TaughtProgram& program, const std::string& out,
+                 const std::vector<compensation::CompensatedPosture>& targets, double rounding);
 
 /// The result of `diagnose`. `verdict` is a list of lists of effect ids: the outer names all that is present,
 /// an inner one what this data cannot tell apart; [["none"]], or ["unknown"] among them.

@@ -38,6 +38,9 @@ struct ExtendedModel;
 namespace stiffscope::frames {
 struct Frames;
 }
+namespace stiffscope::interchange {
+struct TaughtProgram;
+}
 namespace stiffscope::mistakes {
 struct ModelAgreement;
 }
@@ -51,6 +54,10 @@ namespace stiffscope::planning {
 struct Plan;
 struct UnloadedPlan;
 }  // namespace stiffscope::planning
+namespace stiffscope::toolpath {
+struct CompensatedPath;
+struct PathJob;
+}  // namespace stiffscope::toolpath
 namespace stiffscope::validation {
 struct BlindResult;
 }
@@ -90,6 +97,17 @@ std::string compensationText(const campaign::Campaign& campaign, identification:
                              const std::vector<compensation::CompensatedPosture>& postures,
                              const std::vector<campaign::KnownStiffness>& known,
                              const std::vector<std::string>& cautions);
+
+/// The result of `compensate --path`: joints, deflection of the tool's tip along the path without and with compensation,
+/// why poses are refused, and what to know.
+std::string pathText(const campaign::Campaign& campaign, identification::Method method, const toolpath::PathJob& job,
+                     const toolpath::CompensatedPath& path, const std::vector<campaign::KnownStiffness>& known,
+                     const std::vector<std::string>& cautions);
+
+/// What became of a program's targets in `compensate --program`: joint targets replaced in `out`, and those in space by
+/// their lines.
+std::string programText(const interchange::TaughtProgram& program, const std::string& out,
+                        const std::vector<compensation::CompensatedPosture>& targets, double rounding);
 
 /// The diagnosis for people: the verdict with its reason, the candidates with how far each shrinks the gap,
 /// where the gap lies, stiffnesses before and after, what could not be tested and what to measure next.

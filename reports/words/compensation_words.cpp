@@ -1,8 +1,10 @@
 #include "reports/words/compensation_words.h"
 
 #include <fmt/format.h>
+#include <typeindex>
 
 #include "core/compensation/remarks.h"
+#include "core/toolpath/remarks.h"
 
 namespace stiffscope::reports {
 
@@ -42,9 +44,28 @@ const char* refusalWords(compensation::RemarkId reason) {
   return "";
 }
 
+const char* refusalWords(toolpath::RemarkId reason) {
+  using enum toolpath::RemarkId;
+  switch (reason) {
+    case not_reached:
+      return "no joint angles hold the tool there";
+    case leaves_branch:
+      return "the path leads through a singularity";
+    case no_feed_direction:
+      return "the process load has no direction of feed";
+    case arm_does_not_rest:
+      return "the arm does not come to rest";
+  }
+  return "";
+}
+
 }  // namespace
 
-std::string refusalWords(const Remark& reason) { return refusalWords(static_cast<compensation::RemarkId>(reason.id)); }
+std::string refusalWords(const Remark& reason) {
+  return reason.family == std::type_index(typeid(toolpath::RemarkId))
+             ? refusalWords(static_cast<toolpath::RemarkId>(reason.id))
+             : refusalWords(static_cast<compensation::RemarkId>(reason.id));
+}
 
 std::string summaryWords(const compensation::CompensationSummary& summary) {
   std::string text = fmt::format("{} of {} postures compensated", summary.compensated, summary.asked);

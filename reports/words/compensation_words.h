@@ -6,7 +6,7 @@
 
 namespace stiffscope::reports {
 
-/// Why a posture was refused, for many of them: "the load turns a joint of unknown stiffness".
+/// Why a posture, or a pose of a path, was refused, for many of them: "the load turns a joint of unknown stiffness".
 std::string refusalWords(const Remark& reason);
 
 /// "12 of 19 postures compensated, 3 of them with cautions; 7 refused: 5 because ..., 2 because ...".

@@ -38,6 +38,7 @@ const std::unordered_map<std::type_index, FamilyWords>& families() {
       of<mistakes::RemarkId, &mistakesWords>(),
       of<planning::RemarkId, &planningWords>(),
       of<preparation::RemarkId, &preparationWords>(),
+      of<toolpath::RemarkId, &toolpathWords>(),
       of<validation::RemarkId, &validationWords>(),
   };
   return all;

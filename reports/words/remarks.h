@@ -20,6 +20,7 @@
 #include "core/mistakes/remarks.h"
 #include "core/planning/remarks.h"
 #include "core/preparation/remarks.h"
+#include "core/toolpath/remarks.h"
 #include "core/validation/remarks.h"
 #include "metrology/remark.h"
 #include "metrology/remarks.h"
@@ -76,6 +77,7 @@ std::string metrologyWords(metrology::RemarkId id, const RemarkValues& values);
 std::string mistakesWords(mistakes::RemarkId id, const RemarkValues& values);
 std::string planningWords(planning::RemarkId id, const RemarkValues& values);
 std::string preparationWords(preparation::RemarkId id, const RemarkValues& values);
+std::string toolpathWords(toolpath::RemarkId id, const RemarkValues& values);
 std::string validationWords(validation::RemarkId id, const RemarkValues& values);
 
 }  // namespace stiffscope::reports

@@ -7,6 +7,8 @@ TEST(RobotByKdl, IsNotBuilt) { GTEST_SKIP() << "urdfdom or KDL is not here"; }
 #else
 
 #include <urdf_parser/urdf_parser.h>
+#include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <kdl/chaindynparam.hpp>
 #include <kdl/chainfksolverpos_recursive.hpp>
@@ -14,6 +16,7 @@ TEST(RobotByKdl, IsNotBuilt) { GTEST_SKIP() << "urdfdom or KDL is not here"; }
 #include <random>
 
 #include "core/robot/gravity_load.h"
+#include "core/robot/inverse_kinematics.h"
 #include "core/robot/kinematics.h"
 #include "core/robot/read_urdf.h"
 
@@ -154,6 +157,45 @@ TEST(RobotByKdl, RotatedOriginsFixedJointsAndSideBranches) {
   expectTheSame(STIFFSCOPE_SOURCE_DIR "/tests/data/rotated_arm.urdf");
 }
 TEST(RobotByKdl, DefaultsOfUrdf) { expectTheSame(STIFFSCOPE_SOURCE_DIR "/tests/data/plain_arm.urdf"); }
+
+// Joint angles that the inverse kinematics finds, put into KDL's forward kinematics of the URDF as urdfdom reads it.
+TEST(RobotByKdl, InverseKinematicsHoldThePose) {
+  int reached = 0;
+  double worst = 0.0;
+  for (const char* name : {"/samples/m900ib700.urdf", "/tests/data/rotated_arm.urdf", "/tests/data/plain_arm.urdf"}) {
+    const std::string file = std::string(STIFFSCOPE_SOURCE_DIR) + name;
+    const auto model = urdf::parseURDFFile(file);
+    ASSERT_TRUE(model);
+    const KDL::Chain chain = chainOf(*model, "base_link", "tool0");
+    KDL::ChainFkSolverPos_recursive place(chain);
+    const robot::Robot ours = robot::readUrdf(file, "base_link", "tool0");
+    std::mt19937_64 random(11);
+    std::uniform_real_distribution<double> angle(-2.5, 2.5), off(-0.25, 0.25);
+    constexpr int kPoses = 1000;
+    for (int k = 0; k < kPoses; ++k) {
+      const Vector6d q = Vector6d::NullaryExpr([&] { return angle(random); });
+      KDL::Frame wanted, held;
+      ASSERT_GE(place.JntToCart(jointsOf(q), wanted), 0);
+      Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+      pose.translation() = vectorOf(wanted.p);
+      for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 3; ++column) pose.linear()(row, column) = wanted.M(row, column);
+      }
+      // From a quarter of a radian off in every joint.
+      const Vector6d start = q + Vector6d::NullaryExpr([&] { return off(random); });
+      const robot::InverseKinematics found =
+          robot::inverseKinematics(ours, pose, Eigen::Isometry3d::Identity(), start);
+      if (!found.reached) continue;
+      ++reached;
+      ASSERT_GE(place.JntToCart(jointsOf(found.q), held), 0);
+      worst = std::max({worst, (vectorOf(held.p) - pose.translation()).norm(), KDL::diff(wanted.M, held.M).Norm()});
+    }
+  }
+  std::printf("%d of 3000 poses reached, missed by %.1e m or rad at most\n", reached, worst);
+  EXPECT_LT(worst, 1e-9);  // Newton's end at 1e-10 of six numbers, and the rounding of both kinematics
+  // Near a singularity a start so far off may lead to a minimum that is none of the pose.
+  EXPECT_GE(reached, 2850);
+}
 
 TEST(RobotByKdl, RealAndPracticeCampaigns) {
   std::size_t files = 0;

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/robot/robot.h"
+#include "core/toolpath/cutting_force.h"
+#include "metrology/remark.h"
+
+namespace stiffscope::toolpath {
+
+/// One pose of the tool, in the workpiece's frame. The tool's origin is its tip; its z axis leads out of the tool, from
+/// the spindle through the tip.
+struct PathPose {
+  std::string id;
+  Eigen::Isometry3d workpiece_from_tool = Eigen::Isometry3d::Identity();
+  std::optional<Vector6d> wrench;  ///< on the tool: force, moment about the tip, in the axes of ProcessLoad; N, Nm
+  double share = 1.0;              ///< of the process load; 0: the tool does not cut here
+};
+
+struct ToolPath {
+  std::string file;  ///< for messages
+  std::vector<PathPose> poses;
+  /// The file gives the tool's axis alone, so that the tool may turn about it. The x axes are then carried along the path
+  /// without a turn about z, from an arbitrary first one.
+  bool turn_free = false;
+  bool has_wrenches = false;  ///< of every pose
+};
+
+/// Reads a path from a CSV file: `pose` (any name, not repeated), `x_mm y_mm z_mm` of the tip; the tool's direction as
+/// `i j k`, its axis from the tip to the spindle, as in CL data of CAM, or as a quaternion `qw qx qy qz` (workpiece from
+/// tool), or neither: then the axis is the workpiece's z; perhaps `fx_n fy_n fz_n mx_nm my_nm mz_nm`, and
+/// `load_share`, 0 to 1. Columns in any order. Throws InputError as the campaign's tables do, and where an axis or
+/// quaternion is not of length one within 1 %, or both kinds are given; unknown columns go to `warnings`.
+ToolPath readToolPath(const std::filesystem::path& file, std::vector<std::string>& warnings);
+
+/// The axes in which a process wrench is stated. `feed`: x along the path across the tool's axis, z from the tip to the
+/// spindle, y = z x x.
+enum class WrenchAxes { workpiece, tool, feed, base_link };
+
+inline constexpr std::array<const char*, 4> kWrenchAxesNames{"workpiece", "tool", "feed", "base_link"};
+
+/// What acts on the tool along a path: in the path's own wrenches, the same everywhere, or by cutting.
+struct ProcessLoad {
+  WrenchAxes axes = WrenchAxes::workpiece;
+  Vector6d constant = Vector6d::Zero();  ///< where the path has no wrenches: force, moment about the tip; N, Nm
+  std::optional<Cutting> cutting;        ///< instead
+};
+
+/// A load on the tool: force and moment in the workpiece's axes, about a point on the tool.
+struct ToolWrench {
+  Eigen::Vector3d point_in_tool = Eigen::Vector3d::Zero();  ///< m
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();          ///< N
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();         ///< about the point, Nm
+  Remark reason;                                            ///< why there is none
+};
+
+/// The load at each pose. Feed directions are central differences of the tips; a tip that stands still, or moves along the
+/// tool's axis, has that of the pose before, and none before the first that moves.
+std::vector<ToolWrench> toolWrenches(const ToolPath& path, const Eigen::Isometry3d& base_from_workpiece,
+                                     const ProcessLoad& load);
+
+/// Length along the tips from the first pose to each, m.
+std::vector<double> lengthsAlong(const ToolPath& path);
+
+}  // namespace stiffscope::toolpath
