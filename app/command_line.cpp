@@ -21,6 +21,7 @@ int runCommandLine(int count, char** words) {
   addIdentify(app, run);
   addCalibrate(app, run);
   addCompensate(app, run);
+  addStiffness(app, run);
   addExport(app, run);
   addCompare(app, run);
   addPlan(app, run);

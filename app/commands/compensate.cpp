@@ -7,10 +7,8 @@
 #include "app/output.h"
 #include "app/prepared.h"
 #include "core/compensation/compensate.h"
-#include "core/extended_model/effect_deflection.h"
 #include "core/extended_model/extended_model.h"
 #include "core/identification/identification.h"
-#include "core/identification/known_stiffness.h"
 #include "reports/json/campaign_json.h"
 #include "reports/json/identification_json.h"
 #include "reports/json/json.h"
@@ -38,7 +36,6 @@ int compensateCampaign(const CompensateArguments& arguments) {
   const std::optional<extended_model::ExtendedModel>& improved = found.improved;
   const campaign::Campaign& campaign = found.campaign(prepared);
   const identification::Identification& result = found.result();
-  identification::MethodResult& method = found.of_method();
   const std::vector<identification::Method> methods{found.method};
   const std::optional<identification::ShownFirst>& first = found.shown_first;
   std::vector<std::string> warnings;
@@ -46,28 +43,16 @@ int compensateCampaign(const CompensateArguments& arguments) {
       arguments.postures.empty() ? compensation::campaignPostures(campaign, result.step)
                                  : compensation::readPostures(arguments.postures, warnings);
   printWarnings(warnings);
-  // Every model that a prediction may come from takes what is known of joints that the day cannot see.
-  std::vector<identification::StiffnessEstimate*> estimates{&method.estimate};
-  if (found.improved)
-    estimates.push_back(&found.improved->without.methods[static_cast<std::size_t>(methods.front())].estimate);
-  std::vector<identification::StiffnessEstimate> of_the_day;
+  std::vector<compensation::CompensatedPosture> rows;
   std::vector<campaign::KnownStiffness> known;
-  for (identification::StiffnessEstimate* estimate : estimates) {
-    of_the_day.push_back(*estimate);
-    known = identification::completeByKnown(campaign.known_stiffness, *estimate);
+  {
+    const PredictedArm predicted(campaign, found.improved, found.result(), found.method);
+    const workspace::DeflectingArm& arm = predicted.arm();
+    rows = compensation::compensate(campaign, arm.geometry, arm.estimate, arm.tcp_in_flange, asked, {}, arm.with,
+                                    &arm.certainty);
+    known = predicted.known();
   }
-  const double load_sd = campaign.load_cell->gain_sigma;
-  const compensation::Certainty certainty = improved ? compensation::certaintyOf(*improved, methods.front(), load_sd)
-                                                     : compensation::certaintyOf(result, methods.front(), load_sd);
-  std::optional<effects::EffectDeflection> give;
-  if (improved && extended_model::deflectsByEffects(improved->effects))
-    give = extended_model::effectDeflection(*improved, methods.front());
-  const std::vector<compensation::CompensatedPosture> rows =
-      compensation::compensate(campaign, method.geometry, method.estimate, result.frames.tcp_in_flange, asked, {},
-                               give ? &*give : nullptr, &certainty);
   const compensation::CompensationSummary summary = compensation::summaryOf(rows);
-  // Tables of stiffnesses are of the day.
-  for (std::size_t i = 0; i < estimates.size(); ++i) *estimates[i] = of_the_day[i];
   std::vector<std::string> cautions = reports::words(result.cautions);
   for (const Remark& caution : compensation::implausibleCommands(rows)) cautions.push_back(reports::words(caution));
   deliver(

@@ -69,6 +69,11 @@ class FigureList {
     if (!intervals.series.empty()) add("stiffness", describeStiffnessIntervals(one_), intervals);
   }
 
+  void addWorkspace() {
+    add("workspace", describeStiffnessSlice(one_), stiffnessSliceChart(one_), kScene);
+    add("workspace", describePostureStiffness(one_), postureStiffnessChart(one_));
+  }
+
   /// Of a day without a load: before and after, over the workspace and over the day.
   void addAccuracy() {
     if (!one_.accuracy->calibration.reason.empty()) return;
@@ -106,6 +111,7 @@ std::vector<reports::Figure> figuresOf(const reports::ReportCampaign& one, const
   const bool loaded = !one.identification.cases.empty();
   if (loaded) list.addDeflection();
   if (loaded) list.addStiffness(options);
+  if (one.workspace != nullptr) list.addWorkspace();
   if (one.accuracy != nullptr) list.addAccuracy();
   list.addReadings();
   if (loaded) list.addGap();

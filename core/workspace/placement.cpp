@@ -38,8 +38,8 @@ Vector6d readingOf(const DeflectingArm& arm, const Vector6d& q, const Eigen::Vec
   Eigen::Matrix3d r0_from_cell;
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   for (int k = 0; k < 3; ++k) {
-    const robot::Wrench unit = identification::cellWrench(*arm.campaign.load_cell, arm.geometry, posture, flange,
-                                                          flange, Vector6d::Unit(k));
+    const robot::Wrench unit =
+        identification::cellWrench(*arm.campaign.load_cell, arm.geometry, posture, flange, flange, Vector6d::Unit(k));
     r0_from_cell.col(k) = unit.force;
     point = unit.point;
   }
@@ -78,12 +78,11 @@ Placement placed(const DeflectingArm& arm, const Eigen::Vector3d& force, const s
   }
   placement.reached = asked.size();
   if (asked.size() < postures.size()) return placement;
-  for (compensation::CompensatedPosture& one :
-       compensation::compensate(arm.campaign, arm.geometry, arm.estimate, arm.tcp_in_flange, asked, options, arm.with,
-                                &arm.certainty)) {
+  for (compensation::CompensatedPosture& one : compensation::compensate(
+           arm.campaign, arm.geometry, arm.estimate, arm.tcp_in_flange, asked, options, arm.with, &arm.certainty)) {
     if (placement.reason.empty()) placement.reason = one.reason;
-    if (!one.predicted || (placement.prediction.predicted &&
-                           one.tcp.deflection.norm() <= placement.prediction.tcp.deflection.norm()))
+    if (!one.predicted ||
+        (placement.prediction.predicted && one.tcp.deflection.norm() <= placement.prediction.tcp.deflection.norm()))
       continue;
     placement.worst = one.posture.id;
     placement.prediction = std::move(one);

@@ -42,8 +42,8 @@ struct PlacementStudy {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< on P_TCP, kept in R0, N
   std::vector<NamedPosture> postures;               ///< of the workpiece where it stands now
   std::vector<Placement> placements;                ///< in the order of the offsets
-  std::optional<std::size_t> best;                  ///< of those judged, the one that deflects least; the first of equals
-  std::optional<std::size_t> now;                   ///< the one without an offset
+  std::optional<std::size_t> best;  ///< of those judged, the one that deflects least; the first of equals
+  std::optional<std::size_t> now;   ///< the one without an offset
 };
 
 /// Predicts at each offset the deflection of P_TCP under `force` in every posture of the workpiece; the largest is the

@@ -11,8 +11,8 @@ namespace stiffscope::workspace {
 
 namespace {
 
-constexpr double kProbe = 500.0;   // N: a robot's usual load; the model is straight to a thousandth over it
-constexpr double kNoMove = 1e-9;   // m per rad: no joint of an arm in a laboratory moves a point by so little
+constexpr double kProbe = 500.0;  // N: a robot's usual load; the model is straight to a thousandth over it
+constexpr double kNoMove = 1e-9;  // m per rad: no joint of an arm in a laboratory moves a point by so little
 
 /// Where P_TCP stands under a force there, R0; empty where the arm does not come to rest.
 std::optional<Eigen::Vector3d> loadedPoint(const effects::RestingFlange& flange, const DeflectingArm& arm,
@@ -112,8 +112,7 @@ std::optional<PointStiffness> pointStiffness(const DeflectingArm& arm, const Vec
     compliance[joint] = 0.0;
     if (moves.col(joint).norm() > kNoMove) place.unknown.push_back(joint);
   }
-  place.springs =
-      robot::cartesianStiffness(at.tcp, at.jacobian, compliance).compliance.topLeftCorner<3, 3>();
+  place.springs = robot::cartesianStiffness(at.tcp, at.jacobian, compliance).compliance.topLeftCorner<3, 3>();
   place.model = place.springs;
   if (arm.with != nullptr) {
     for (int k = 0; k < 3; ++k) {
@@ -134,8 +133,7 @@ std::optional<PointStiffness> pointStiffness(const DeflectingArm& arm, const Vec
   }
   for (const robot::PrincipalStiffness& one : robot::principalStiffnessWithin(place.model, known)) {
     const Eigen::Vector3d move = place.model * one.direction;
-    const Eigen::RowVectorXd by =
-        one.direction.transpose() * byParameters(arm, q, at.tcp, one.direction, move);
+    const Eigen::RowVectorXd by = one.direction.transpose() * byParameters(arm, q, at.tcp, one.direction, move);
     place.of_model.push_back(withInterval(arm, moves, one.direction, one.direction.dot(move), by));
   }
   return place;

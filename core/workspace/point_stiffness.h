@@ -43,8 +43,8 @@ struct DirectionalCompliance {
 /// force does no work on it. Principal directions are therefore sought at right angles to what such joints move, and
 /// there are fewer than three of them: softest first.
 ///
-/// Intervals: each draw of the certainty moves a direction's compliance by sum_j (z_j x r . d)^2 (c_draw - c)_j and what
-/// its effects' parameters do, to first order; the direction stays.
+/// Intervals: each draw of the certainty moves a direction's compliance by sum_j (z_j x r . d)^2 (c_draw - c)_j and
+/// what its effects' parameters do, to first order; the direction stays.
 struct PointStiffness {
   std::string pose;  ///< of the campaign; empty: of none
   Vector6d q = Vector6d::Zero();

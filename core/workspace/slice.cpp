@@ -127,8 +127,8 @@ StiffnessSlice stiffnessSlice(const DeflectingArm& arm, const std::vector<NamedP
   using Cell = std::pair<int, int>;  // height, radius
   const auto angles = [&](const Cell& cell, const Vector6d& start) {
     Eigen::Isometry3d wanted = flange;
-    const Eigen::Vector3d at = cell.second * slice.spacing * slice.outward +
-                               cell.first * slice.spacing * Eigen::Vector3d::UnitZ();
+    const Eigen::Vector3d at =
+        cell.second * slice.spacing * slice.outward + cell.first * slice.spacing * Eigen::Vector3d::UnitZ();
     wanted.pretranslate(at - tcp);
     return continuedAngles(machine, wanted, start, options.least_conditioning);
   };
@@ -146,7 +146,8 @@ StiffnessSlice stiffnessSlice(const DeflectingArm& arm, const std::vector<NamedP
   };
   const double across = std::hypot(tcp.x(), tcp.y()) / slice.spacing, up = tcp.z() / slice.spacing;
   for (const double h : {std::floor(up), std::ceil(up)})
-    for (const double r : {std::floor(across), std::ceil(across)}) visit({static_cast<int>(h), static_cast<int>(r)}, middle.q);
+    for (const double r : {std::floor(across), std::ceil(across)})
+      visit({static_cast<int>(h), static_cast<int>(r)}, middle.q);
   while (!open.empty()) {
     const Cell cell = open.front();
     open.pop_front();

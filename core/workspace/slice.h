@@ -33,11 +33,11 @@ struct SlicePlace {
 /// limits. Of collisions nothing is known.
 struct StiffnessSlice {
   std::string pose;
-  Vector6d q = Vector6d::Zero();                          ///< of that posture, rad
-  double azimuth = 0.0;                                   ///< of the plane about z0, from x0, rad
-  double spacing = 0.0;                                   ///< m
-  Eigen::Vector3d outward = Eigen::Vector3d::UnitX();     ///< from axis 1, level; z0 is the other direction of the plane
-  std::vector<SlicePlace> places;                         ///< by height, then radius
+  Vector6d q = Vector6d::Zero();                       ///< of that posture, rad
+  double azimuth = 0.0;                                ///< of the plane about z0, from x0, rad
+  double spacing = 0.0;                                ///< m
+  Eigen::Vector3d outward = Eigen::Vector3d::UnitX();  ///< from axis 1, level; z0 is the other direction of the plane
+  std::vector<SlicePlace> places;                      ///< by height, then radius
 };
 
 /// A posture of the campaign by its name.
@@ -53,8 +53,8 @@ std::vector<NamedPosture> identifiedPostures(const campaign::Campaign& campaign,
 /// The one whose joint angles are nearest to the means of all.
 const NamedPosture& middlePosture(const std::vector<NamedPosture>& postures);
 
-/// Of an arm with at least one posture. Throws InputError where `options.pose` is none of them, and where the grid would
-/// have more places than `most`.
+/// Of an arm with at least one posture. Throws InputError where `options.pose` is none of them, and where the grid
+/// would have more places than `most`.
 StiffnessSlice stiffnessSlice(const DeflectingArm& arm, const std::vector<NamedPosture>& postures,
                               const SliceOptions& options);
 

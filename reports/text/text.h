@@ -54,6 +54,9 @@ struct UnloadedPlan;
 namespace stiffscope::validation {
 struct BlindResult;
 }
+namespace stiffscope::workspace {
+struct WorkspaceStiffness;
+}
 
 namespace stiffscope::reports {
 
@@ -141,6 +144,10 @@ std::string transmissionText(const identification::Identification& result,
 /// Conditioning, softest and stiffest direction at P_TCP, and what neglecting K_c costs, a line a posture.
 std::string posturesText(const campaign::Campaign& campaign, const identification::Identification& result,
                          identification::Method method);
+
+/// The result of `stiffness` for a terminal: softest and stiffest direction by posture, the slice, the placement, and
+/// what the numbers hold.
+std::string workspaceText(const campaign::Campaign& campaign, const workspace::WorkspaceStiffness& found);
 
 /// The result of `plan` for a terminal.
 std::string planText(const campaign::Campaign& campaign, const planning::Plan& plan);

@@ -54,7 +54,8 @@ TEST(PointStiffness, IsWhatTheArmDoesUnderAForce) {
 TEST(PointStiffness, TheModelsComplianceIsProbed) {
   const PlacedArm day;
   const effects::EffectDeflection springs = day.springsAsEffects();
-  const auto alone = workspace::pointStiffness(day.arm(), day.q), with = workspace::pointStiffness(day.arm(&springs), day.q);
+  const auto alone = workspace::pointStiffness(day.arm(), day.q),
+             with = workspace::pointStiffness(day.arm(&springs), day.q);
   ASSERT_TRUE(alone && with);
   EXPECT_TRUE(alone->springs.isApprox(with->springs, 0.0));
   EXPECT_LT((with->model - with->springs).norm(), 5e-3 * with->springs.norm());  // K_c of the own weight, as above
