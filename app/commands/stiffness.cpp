@@ -130,14 +130,16 @@ void addStiffness(CLI::App& app, Run& run) {
           ->delimiter(',')
           ->expected(3);
   command
-      ->add_option("--workpiece", arguments->workpiece,
-                   "CSV with pose, q1_deg..q6_deg (and fx_n..mz_nm, not used): postures in which the force acts; without "
-                   "it the slice's")
+      ->add_option(
+          "--workpiece", arguments->workpiece,
+          "CSV with pose, q1_deg..q6_deg (and fx_n..mz_nm, not used): postures in which the force acts; without "
+          "it the slice's")
       ->needs(force);
   command
-      ->add_option("--offsets", arguments->offsets,
-                   "CSV with offset, dx_mm, dy_mm, dz_mm in R0: where the workpiece could be moved; without it two steps "
-                   "either way along each axis")
+      ->add_option(
+          "--offsets", arguments->offsets,
+          "CSV with offset, dx_mm, dy_mm, dz_mm in R0: where the workpiece could be moved; without it two steps "
+          "either way along each axis")
       ->needs(force);
   command->add_option("--method", arguments->method, "cp, pp or dpp; without it the one that identify shows first");
   command->add_option("--step", arguments->step, "load step to identify from");

@@ -82,9 +82,9 @@ render::PointChart stiffnessSliceChart(const campaign::Campaign& campaign, const
   const workspace::StiffnessSlice& slice = found.slice;
   render::PointChart chart;
   chart.title = "Compliance of P_{TCP} in a vertical plane through axis 1";
-  chart.subtitle = fmt::format("{}; tool turned as in posture {}; {} from x_{{0}}", reports::asIs(campaign.name),
-                               reports::asIs(slice.pose),
-                               fmt::format("{}°", reports::fixed(slice.azimuth / io::kDegree, 1)));
+  chart.subtitle =
+      fmt::format("{}; tool turned as in posture {}; {} from x_{{0}}", reports::asIs(campaign.name),
+                  reports::asIs(slice.pose), fmt::format("{}°", reports::fixed(slice.azimuth / io::kDegree, 1)));
   render::ShapePanel panel;
   double largest = 0.0;
   std::vector<double> stiffness;
@@ -105,7 +105,8 @@ render::PointChart stiffnessSliceChart(const campaign::Campaign& campaign, const
     const render::PlotPoint centre{one.radius, one.height};
     if (!found.held.empty()) addEllipse(inPlane(one.at.springs, slice.outward), centre, scale, springs.points);
     const double own = softest > 0.0 ? io::kMicrometre / softest : 0.0;
-    const auto k = static_cast<std::size_t>(std::count_if(bounds.begin(), bounds.end(), [&](double b) { return own >= b; }));
+    const auto k =
+        static_cast<std::size_t>(std::count_if(bounds.begin(), bounds.end(), [&](double b) { return own >= b; }));
     addEllipse(model, centre, scale, classes[k].points);
   }
   // The arm in the slice's posture, seen at right angles to the plane.
@@ -122,8 +123,9 @@ render::PointChart stiffnessSliceChart(const campaign::Campaign& campaign, const
   }
   panel.scale_bar = slice.spacing;
   const double um_per_kn = scale > 0.0 ? slice.spacing / scale * 1000.0 / io::kMicrometre : 0.0;
-  panel.scale_name = fmt::format("{} mm; as a move of P_{{TCP}}: {} µm by 1 kN",
-                                 reports::fixed(slice.spacing / io::kMillimetre, 0), reports::significant(um_per_kn, 3));
+  panel.scale_name =
+      fmt::format("{} mm; as a move of P_{{TCP}}: {} µm by 1 kN", reports::fixed(slice.spacing / io::kMillimetre, 0),
+                  reports::significant(um_per_kn, 3));
   chart.shapes.push_back(std::move(panel));
   chart.note =
       "Each outline is where P_{TCP} moves under a force of one size in all directions of the plane. Places are within "
@@ -202,7 +204,8 @@ reports::Figure describePostureStiffness(const reports::ReportCampaign& one) {
   const workspace::PointStiffness* softest = nullptr;
   for (const workspace::PointStiffness& place : found.postures) {
     if (place.of_model.empty()) continue;
-    if (softest == nullptr || place.of_model.front().compliance > softest->of_model.front().compliance) softest = &place;
+    if (softest == nullptr || place.of_model.front().compliance > softest->of_model.front().compliance)
+      softest = &place;
   }
   figure.caption =
       softest == nullptr

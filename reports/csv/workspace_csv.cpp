@@ -77,9 +77,9 @@ DataTable stiffnessPlaces(const workspace::WorkspaceStiffness& found, bool postu
 
 DataTable placementTable(const workspace::PlacementStudy& study) {
   DataTable table;
-  table.columns = {"offset",          "dx_mm",           "dy_mm",           "dz_mm", "judged",        "postures_reached",
-                   "deflection_mm",   "u_deflection_mm", "deflection_x_mm", "deflection_y_mm", "deflection_z_mm",
-                   "worst_pose",      "reason"};
+  table.columns = {"offset",           "dx_mm",         "dy_mm",           "dz_mm",           "judged",
+                   "postures_reached", "deflection_mm", "u_deflection_mm", "deflection_x_mm", "deflection_y_mm",
+                   "deflection_z_mm",  "worst_pose",    "reason"};
   for (std::size_t i = 0; i < study.placements.size(); ++i) {
     const workspace::Placement& one = study.placements[i];
     std::vector<DataCell> row{one.offset.id};

@@ -50,8 +50,8 @@ Json pointJson(Json json, const workspace::PointStiffness& place) {
 Json sliceJson(const workspace::StiffnessSlice& slice) {
   Json places = Json::array();
   for (const workspace::SlicePlace& one : slice.places)
-    places.push_back(pointJson({{"radius_mm", one.radius / io::kMillimetre}, {"height_mm", one.height / io::kMillimetre}},
-                               one.at));
+    places.push_back(
+        pointJson({{"radius_mm", one.radius / io::kMillimetre}, {"height_mm", one.height / io::kMillimetre}}, one.at));
   return {{"pose", slice.pose},
           {"azimuth_deg", slice.azimuth / io::kDegree},
           {"spacing_mm", slice.spacing / io::kMillimetre},
@@ -92,12 +92,9 @@ Json workspaceJson(const workspace::WorkspaceStiffness& found) {
   for (const effects::Effect effect : found.held) held.push_back(std::string(effects::idOf(effect)));
   Json postures = Json::array();
   for (const workspace::PointStiffness& one : found.postures) postures.push_back(pointJson({{"pose", one.pose}}, one));
-  Json json{{"method", namesOf(found.method).key},
-            {"frame", "r0"},
-            {"model_holds_besides_joints", held},
-            {"unknown_joints", jointNumbers(found.unknown)},
-            {"notes", workspaceNotes(found)},
-            {"postures", postures},
+  Json json{{"method", namesOf(found.method).key}, {"frame", "r0"},
+            {"model_holds_besides_joints", held},  {"unknown_joints", jointNumbers(found.unknown)},
+            {"notes", workspaceNotes(found)},      {"postures", postures},
             {"slice", sliceJson(found.slice)}};
   if (found.placement) json["placement"] = placementJson(*found.placement);
   return json;

@@ -37,12 +37,10 @@ reports::Table placesTable(const workspace::WorkspaceStiffness& found) {
   constexpr bool kPostures = true, kSlice = true;
   table.data = reports::stiffnessPlaces(found, kPostures, !kSlice);
   for (const workspace::PointStiffness& one : found.postures)
-    table.groups.front().rows.push_back({reports::asIs(one.pose), principalCell(one.of_model, true),
-                                         directionCell(one.of_model), principalCell(one.of_model, false),
-                                         one.of_springs.empty()
-                                             ? "–"
-                                             : reports::significant(
-                                                   one.of_springs.front().stiffness() * io::kMicrometre, 3)});
+    table.groups.front().rows.push_back(
+        {reports::asIs(one.pose), principalCell(one.of_model, true), directionCell(one.of_model),
+         principalCell(one.of_model, false),
+         one.of_springs.empty() ? "–" : reports::significant(one.of_springs.front().stiffness() * io::kMicrometre, 3)});
   return table;
 }
 

@@ -29,10 +29,9 @@ void addSlice(const workspace::StiffnessSlice& slice, std::string& text) {
     if (!one.at.of_model.empty()) places.push_back(&one);
   }
   if (places.empty()) return;
-  const auto [least, most] =
-      std::minmax_element(places.begin(), places.end(), [](const auto* a, const auto* b) {
-        return a->at.of_model.front().stiffness() < b->at.of_model.front().stiffness();
-      });
+  const auto [least, most] = std::minmax_element(places.begin(), places.end(), [](const auto* a, const auto* b) {
+    return a->at.of_model.front().stiffness() < b->at.of_model.front().stiffness();
+  });
   for (const workspace::SlicePlace* one : {*least, *most}) {
     text += fmt::format("  {} at radius {:g} mm, height {:g} mm: {} N/um in its softest direction\n",
                         one == *least ? "softest " : "stiffest", one->radius / io::kMillimetre,
@@ -43,21 +42,20 @@ void addSlice(const workspace::StiffnessSlice& slice, std::string& text) {
 }  // namespace
 
 std::string workspaceText(const campaign::Campaign& campaign, const workspace::WorkspaceStiffness& found) {
-  std::string text = fmt::format(
-      "{}: stiffness at P_TCP by {}, N/um [95 % interval]\n\n  {:<10}{:>26}{:>26}{:>24}\n", campaign.name,
-      namesOf(found.method).full, "pose", "softest", "stiffest", "K_x alone, softest");
+  std::string text =
+      fmt::format("{}: stiffness at P_TCP by {}, N/um [95 % interval]\n\n  {:<10}{:>26}{:>26}{:>24}\n", campaign.name,
+                  namesOf(found.method).full, "pose", "softest", "stiffest", "K_x alone, softest");
   for (const workspace::PointStiffness& one : found.postures)
-    text += fmt::format("  {:<10}{:>26}{:>26}{:>24}\n", one.pose, stiffnessCell(one.of_model, true),
-                        stiffnessCell(one.of_model, false),
-                        one.of_springs.empty()
-                            ? "-"
-                            : fmt::format("{:.3f}", one.of_springs.front().stiffness() * io::kMicrometre));
+    text += fmt::format(
+        "  {:<10}{:>26}{:>26}{:>24}\n", one.pose, stiffnessCell(one.of_model, true), stiffnessCell(one.of_model, false),
+        one.of_springs.empty() ? "-" : fmt::format("{:.3f}", one.of_springs.front().stiffness() * io::kMicrometre));
   addSlice(found.slice, text);
   if (found.placement) {
     const Eigen::Vector3d& force = found.placement->force;
-    text += fmt::format("\n{}\n", wrapped(fmt::format("Placement under {:g}, {:g}, {:g} N (R0) on P_TCP: {}.", force.x(),
-                                                      force.y(), force.z(), placementWords(*found.placement)),
-                                          2));
+    text +=
+        fmt::format("\n{}\n", wrapped(fmt::format("Placement under {:g}, {:g}, {:g} N (R0) on P_TCP: {}.", force.x(),
+                                                  force.y(), force.z(), placementWords(*found.placement)),
+                                      2));
   }
   text += "\n";
   for (const std::string& note : workspaceNotes(found)) text += wrapped("  " + note, 2) + "\n";

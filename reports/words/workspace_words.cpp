@@ -31,7 +31,8 @@ std::vector<std::string> workspaceNotes(const workspace::WorkspaceStiffness& fou
       "the joints alone.");
   if (found.held.empty()) {
     notes.emplace_back(
-        "The model has nothing but joint springs, so what else gives (bearings across their axes, links, base) is in no "
+        "The model has nothing but joint springs, so what else gives (bearings across their axes, links, base) is in "
+        "no "
         "number here, and intervals hold it only as far as those of the stiffnesses do.");
   } else {
     notes.push_back(fmt::format(
