@@ -23,10 +23,10 @@ void addPoint(const std::vector<DataCell>& which, const identification::CaseEqua
 }  // namespace
 
 DataTable postureTable(const ReportCampaign& one) {
-  DataTable table{{"pose", "step", "point", "method", "measured_x_mm", "measured_y_mm", "measured_z_mm",
-                   "predicted_x_mm", "predicted_y_mm", "predicted_z_mm", "residual_x_mm", "residual_y_mm",
-                   "residual_z_mm", "residual_mm"},
-                  {}};
+  DataTable table{
+      {"pose", "step", "point", "method", "measured_x_mm", "measured_y_mm", "measured_z_mm", "predicted_x_mm",
+       "predicted_y_mm", "predicted_z_mm", "residual_x_mm", "residual_y_mm", "residual_z_mm", "residual_mm"},
+      {}};
   const identification::Identification& result = one.identification;
   for (std::size_t i = 0; i < result.cases.size(); ++i) {
     const identification::LoadCase& load_case = result.cases[i];

@@ -50,19 +50,43 @@ std::vector<Record> recordsOf(const std::string& bytes) {
 const std::set<std::string> kOfWords{"conditions", "inputs", "versions", "settings"};
 
 /// Columns that hold names or sentences.
-const std::set<std::string> kTexts{"method",     "mark",          "reason",   "at",        "chosen_by", "source",
-                                   "effects",    "detail",        "by",       "part",      "effect",    "parameter",
-                                   "unit",       "check",         "verdict",  "where",     "message",   "limit_by",
-                                   "pose",       "reflector",     "model",    "what",      "name",      "point",
-                                   "place",      "unknown_joints", "held_under_load", "agreement", "Effect",   "Method",
-                                   "Reflector",  "Point",         "Axes",     "Remark"};
+const std::set<std::string> kTexts{"method",    "mark",           "reason",
+                                   "at",        "chosen_by",      "source",
+                                   "effects",   "detail",         "by",
+                                   "part",      "effect",         "parameter",
+                                   "unit",      "check",          "verdict",
+                                   "where",     "message",        "limit_by",
+                                   "pose",      "reflector",      "model",
+                                   "what",      "name",           "point",
+                                   "place",     "unknown_joints", "held_under_load",
+                                   "agreement", "Effect",         "Method",
+                                   "Reflector", "Point",          "Axes",
+                                   "Remark"};
 
 /// Numbers without a unit: counts, indices, ratios and components of unit vectors.
-const std::set<std::string> kPure{"joint",      "identifiable", "step",      "shown_on_page", "in_verdict",
-                                  "score",      "value",        "u",         "limit",         "parameters",
-                                  "axis",       "axis_from",    "axis_to",   "states",        "used",
-                                  "conditioning", "jacobian_condition", "p_value_holm", "Axis", "Circles",
-                                  "Condition number", "Count", "near_parallel"};
+const std::set<std::string> kPure{"joint",
+                                  "identifiable",
+                                  "step",
+                                  "shown_on_page",
+                                  "in_verdict",
+                                  "score",
+                                  "value",
+                                  "u",
+                                  "limit",
+                                  "parameters",
+                                  "axis",
+                                  "axis_from",
+                                  "axis_to",
+                                  "states",
+                                  "used",
+                                  "conditioning",
+                                  "jacobian_condition",
+                                  "p_value_holm",
+                                  "Axis",
+                                  "Circles",
+                                  "Condition number",
+                                  "Count",
+                                  "near_parallel"};
 
 bool hasUnit(const std::string& column) {
   static const std::regex kInName("_(nm_per_rad|rad_per_nm|n_per_um|percent|mdeg|deg|rad|mm|um|m|nm|sd|n)$");
@@ -107,11 +131,12 @@ TEST(CsvFiles, OfALoadedDayAreReadByAProgram) {
   const ScratchFolder scratch;
   const fs::path out = scratch.path() / "report";
   const Ran ran = runProgram("report '" STIFFSCOPE_SOURCE_DIR "/samples/inactive' '" STIFFSCOPE_SOURCE_DIR
-                             "/samples/active' --paper --out '" + out.string() + "'",
+                             "/samples/active' --paper --out '" +
+                                 out.string() + "'",
                              scratch.path());
   ASSERT_EQ(ran.status, 0) << ran.err;
-  expectAllReadable(out, {"axes-1", "postures-1", "posture-stiffness-2", "stiffness-slice-2", "stiffness-1", "subsets-2",
-                          "taken-away", "budget-1", "gap-2", "audit-passed-1"});
+  expectAllReadable(out, {"axes-1", "postures-1", "posture-stiffness-2", "stiffness-slice-2", "stiffness-1",
+                          "subsets-2", "taken-away", "budget-1", "gap-2", "audit-passed-1"});
   const std::vector<Record> axes = recordsOf(contentsOf(out / "axes-1.csv"));
   ASSERT_EQ(axes.size(), 7u);
   const auto at = [&axes](const char* name, std::size_t row) {
