@@ -153,8 +153,7 @@ void addStiffnessList(XMLElement& data, const DccContent& content, const std::ve
 }
 
 void addMethod(XMLElement& results, const DccContent& content) {
-  XMLElement& method =
-      *results.InsertNewChildElement("dcc:usedMethods")->InsertNewChildElement("dcc:usedMethod");
+  XMLElement& method = *results.InsertNewChildElement("dcc:usedMethods")->InsertNewChildElement("dcc:usedMethod");
   addText(method, "dcc:name", fmt::format("{} identification of joint stiffness", namesOf(content.method).full));
   addText(method, "dcc:description",
           "Displacements of reflectors on the tool under measured loads, by laser tracker, against the torques of the "
@@ -164,8 +163,8 @@ void addMethod(XMLElement& results, const DccContent& content) {
 
 void addEquipment(XMLElement& results, const campaign::Campaign& campaign) {
   if (!campaign.tracker || campaign.tracker->model.empty()) return;
-  XMLElement& tracker = *results.InsertNewChildElement("dcc:measuringEquipments")
-                             ->InsertNewChildElement("dcc:measuringEquipment");
+  XMLElement& tracker =
+      *results.InsertNewChildElement("dcc:measuringEquipments")->InsertNewChildElement("dcc:measuringEquipment");
   addName(tracker, campaign.tracker->model);
 }
 
@@ -197,9 +196,9 @@ void addResults(XMLElement& root, const DccContent& content) {
       addText(data, "dcc:text", notListedWords(content, joint));
   }
   addText(data, "dcc:text",
-          content.model == nullptr ? std::string("The model has joint springs alone.")
-                                   : fmt::format("The model has besides joint springs: {}.",
-                                                 addedNames(content.model->effects)));
+          content.model == nullptr
+              ? std::string("The model has joint springs alone.")
+              : fmt::format("The model has besides joint springs: {}.", addedNames(content.model->effects)));
 }
 
 }  // namespace
@@ -242,9 +241,9 @@ Json dccExportJson(const DccContent& content, const std::string& file) {
 std::string dccExportText(const DccContent& content, const std::string& file) {
   std::vector<std::string> joints;
   for (const int joint : listedJoints(content)) joints.push_back(fmt::format("k{}", joint + 1));
-  std::string text = fmt::format("{}: certificate {} of {} by {}\n", content.campaign.name, content.certificate.number,
-                                 joints.empty() ? "no joint" : fmt::format("{}", fmt::join(joints, ", ")),
-                                 longName(content.method));
+  std::string text =
+      fmt::format("{}: certificate {} of {} by {}\n", content.campaign.name, content.certificate.number,
+                  joints.empty() ? "no joint" : fmt::format("{}", fmt::join(joints, ", ")), longName(content.method));
   return text + fmt::format("{}: written (DCC {}, not signed)\n", file, kDccSchema);
 }
 

@@ -23,9 +23,9 @@ struct DccContent {
 /// Version of PTB's schema of Digital Calibration Certificates that is written, with D-SI 2.2 inside.
 inline constexpr const char* kDccSchema = "3.3.0";
 
-/// The certificate as XML: administrative data, method, equipment, and the stiffnesses of the identifiable joints as one
-/// D-SI list of real numbers with expanded uncertainty, coverage factor and probability; the others are named with the
-/// reason. Not signed. The same content gives the same bytes.
+/// The certificate as XML: administrative data, method, equipment, and the stiffnesses of the identifiable joints as
+/// one D-SI list of real numbers with expanded uncertainty, coverage factor and probability; the others are named with
+/// the reason. Not signed. The same content gives the same bytes.
 std::string dccXml(const DccContent& content);
 
 /// `campaign`, `method`, `format`, `file`, `schema`, `number`, `joints` (those in the list).

@@ -98,7 +98,9 @@ void writeNotTestable(Html& html, const std::vector<Untestable>& not_testable) {
   html.list(missing);
 }
 
-/// Adds the parameters of an effect, in the page in units that suit their size.
+/// Effect, parameter, value ± U, unit: a group an effect. Sizes of one unit have one power of ten; of its file none.
+reports::Table effectParametersTable(const std::string& caption);
+/// Adds the parameters of an effect to it.
 void addParameters(const std::string& effect, const std::vector<extended_model::EffectParameter>& parameters,
                    reports::Table& table);
 
