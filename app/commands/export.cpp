@@ -96,13 +96,28 @@ void addUrdf(CLI::App& parent, Run& run) {
   command->callback([arguments, &run] { run = [arguments] { return exportUrdf(*arguments); }; });
 }
 
-using Writer = std::string (*)(const elastic_model::ElasticChain& chain, const std::vector<std::string>& comments);
-
-struct ElasticArguments {
-  std::string campaign, out, json, method, step, format;
-  Writer write = nullptr;
+/// What is exported of an identified day.
+struct IdentifiedArguments {
+  std::string campaign, out, json, method, step;
   bool raw = false;
   ModelChoice model;
+};
+
+void addIdentifiedOptions(CLI::App& command, IdentifiedArguments& arguments) {
+  command.add_option("CAMPAIGN", arguments.campaign, "campaign folder or its campaign.xml")->required();
+  command.add_option("--out", arguments.out, "file to write")->required();
+  command.add_option("--method", arguments.method, "cp, pp or dpp; without it the one that identify shows first");
+  command.add_option("--step", arguments.step, "load step to identify from");
+  addModelOptions(command, arguments.model);
+  addRawOption(command, arguments.raw);
+  command.add_option("--json", arguments.json, "write what was exported to this file, - for standard output");
+}
+
+using Writer = std::string (*)(const elastic_model::ElasticChain& chain, const std::vector<std::string>& comments);
+
+struct ElasticArguments : IdentifiedArguments {
+  std::string format;
+  Writer write = nullptr;
 };
 
 int exportElastic(const ElasticArguments& arguments) {
@@ -148,23 +163,11 @@ void addElastic(CLI::App& parent, Run& run, const std::string& format, const std
   arguments->format = format;
   arguments->write = write;
   CLI::App* command = parent.add_subcommand(format, "The arm as bodies, drives and springs in series, for " + program);
-  command->add_option("CAMPAIGN", arguments->campaign, "campaign folder or its campaign.xml")->required();
-  command->add_option("--out", arguments->out, "file to write")->required();
-  command->add_option("--method", arguments->method, "cp, pp or dpp; without it the one that identify shows first");
-  command->add_option("--step", arguments->step, "load step to identify from");
-  addModelOptions(*command, arguments->model);
-  addRawOption(*command, arguments->raw);
-  command->add_option("--json", arguments->json, "write what was exported to this file, - for standard output");
+  addIdentifiedOptions(*command, *arguments);
   command->callback([arguments, &run] { run = [arguments] { return exportElastic(*arguments); }; });
 }
 
-struct DccArguments {
-  std::string campaign, out, json, method, step;
-  bool raw = false;
-  ModelChoice model;
-};
-
-int exportDcc(const DccArguments& arguments) {
+int exportDcc(const IdentifiedArguments& arguments) {
   const MethodAndStep choice = methodAndStep(arguments.method, arguments.step);
   requireTwoFiles(arguments.out, arguments.json);
   const preparation::PreparedCampaign prepared = openPrepared(arguments.campaign, arguments.raw);
@@ -192,19 +195,13 @@ int exportDcc(const DccArguments& arguments) {
 }
 
 void addDcc(CLI::App& parent, Run& run) {
-  const auto arguments = std::make_shared<DccArguments>();
+  const auto arguments = std::make_shared<IdentifiedArguments>();
   CLI::App* command =
       parent.add_subcommand("dcc", "Digital Calibration Certificate (PTB's schema 3.3.0) of the joint stiffnesses");
   command->footer(
       "What it has to say besides results stands in the element certificate of campaign.xml; what is missing\n"
       "there is listed, and nothing is written. It is not signed: that is the laboratory's.");
-  command->add_option("CAMPAIGN", arguments->campaign, "campaign folder or its campaign.xml")->required();
-  command->add_option("--out", arguments->out, "file to write")->required();
-  command->add_option("--method", arguments->method, "cp, pp or dpp; without it the one that identify shows first");
-  command->add_option("--step", arguments->step, "load step to identify from");
-  addModelOptions(*command, arguments->model);
-  addRawOption(*command, arguments->raw);
-  command->add_option("--json", arguments->json, "write what was exported to this file, - for standard output");
+  addIdentifiedOptions(*command, *arguments);
   command->callback([arguments, &run] { run = [arguments] { return exportDcc(*arguments); }; });
 }
 

@@ -41,8 +41,8 @@ std::string only(const std::string& xml, const std::string& element) {
 TEST(Dcc, HoldsTheStiffnessesAsOneList) {
   const ScratchFolder scratch;
   const fs::path folder = day(scratch, kCertificate), out = scratch.path() / "dcc.xml";
-  const Ran ran = runProgram("export dcc '" + folder.string() + "' --springs-only --method pp --out '" + out.string() + "'",
-                             scratch.path());
+  const Ran ran = runProgram(
+      "export dcc '" + folder.string() + "' --springs-only --method pp --out '" + out.string() + "'", scratch.path());
   ASSERT_EQ(ran.status, 0) << ran.err;
   EXPECT_EQ(ran.err.find("unknown"), std::string::npos) << ran.err;
   const std::string xml = contentsOf(out);
@@ -58,7 +58,8 @@ TEST(Dcc, HoldsTheStiffnessesAsOneList) {
   EXPECT_NE(xml.find("k1 is not identifiable"), std::string::npos);
   EXPECT_NE(xml.find("No agreed vocabulary"), std::string::npos);
   // The numbers are those of identify.
-  const Ran identified = runProgram("identify '" + folder.string() + "' --springs-only --method pp --json -", scratch.path());
+  const Ran identified =
+      runProgram("identify '" + folder.string() + "' --springs-only --method pp --json -", scratch.path());
   const nlohmann::json method = nlohmann::json::parse(identified.out)["methods"]["pp"];
   std::istringstream values(only(xml, "si:valueXMLList")), expanded(only(xml, "si:valueExpandedMUXMLList")),
       factors(only(xml, "si:coverageFactorXMLList"));
@@ -81,12 +82,12 @@ TEST(Dcc, HoldsTheStiffnessesAsOneList) {
 TEST(Dcc, RefusesWithTheListOfWhatIsMissing) {
   const ScratchFolder scratch;
   const fs::path out = scratch.path() / "dcc.xml";
-  const Ran ran = runProgram("export dcc '" STIFFSCOPE_SOURCE_DIR "/samples/active' --out '" + out.string() + "'",
-                             scratch.path());
+  const Ran ran =
+      runProgram("export dcc '" STIFFSCOPE_SOURCE_DIR "/samples/active' --out '" + out.string() + "'", scratch.path());
   EXPECT_EQ(ran.status, 2);
   for (const char* missing : {"certificate number", "certificate country", "certificate languages", "certificate place",
-                              "certificate/laboratory name", "certificate/customer name", "certificate/responsible name",
-                              "certificate/item serial"})
+                              "certificate/laboratory name", "certificate/customer name",
+                              "certificate/responsible name", "certificate/item serial"})
     EXPECT_NE(ran.err.find(missing), std::string::npos) << missing << " in " << ran.err;
   EXPECT_EQ(ran.err.find("certificate begin"), std::string::npos) << "the campaign's date stands for it";
   EXPECT_FALSE(fs::exists(out));
@@ -97,7 +98,8 @@ TEST(Dcc, RefusesWhatIsNoCountryLanguageDateOrPlace) {
       {"country=\"DE\" languages", "country: 'Germany': expected a country of ISO 3166-1"},
       {"languages=\"de en\"", "languages: 'German': expected languages of ISO 639-1"},
       {"begin=\"2026-11-20\"", "begin: '20.11.2026': expected a date such as 2026-11-21"},
-      {"place=\"customer\"", "place: 'customr': expected laboratory, customer, laboratoryBranch, customerBranch or other"}};
+      {"place=\"customer\"",
+       "place: 'customr': expected laboratory, customer, laboratoryBranch, customerBranch or other"}};
   const std::vector<std::string> by{"country=\"Germany\" languages", "languages=\"German\"", "begin=\"20.11.2026\"",
                                     "place=\"customr\""};
   for (std::size_t i = 0; i < spoilt.size(); ++i) {
@@ -119,9 +121,10 @@ TEST(Dcc, IsValidByTheSchema) {
   if (std::system("command -v xmllint >/dev/null") != 0) GTEST_SKIP() << "no xmllint (libxml2-utils)";
   const ScratchFolder scratch;
   const fs::path folder = day(scratch, kCertificate), out = scratch.path() / "dcc.xml";
-  ASSERT_EQ(runProgram("export dcc '" + folder.string() + "' --springs-only --out '" + out.string() + "'", scratch.path())
-                .status,
-            0);
+  ASSERT_EQ(
+      runProgram("export dcc '" + folder.string() + "' --springs-only --out '" + out.string() + "'", scratch.path())
+          .status,
+      0);
   const std::string command = "xmllint --nonet --noout --schema '" + std::string(schema) + "' '" + out.string() + "'";
   EXPECT_EQ(std::system(command.c_str()), 0);
 }
