@@ -71,7 +71,8 @@ class FigureList {
 
   void addWorkspace() {
     add("workspace", describeStiffnessSlice(one_), stiffnessSliceChart(one_), kScene);
-    add("workspace", describePostureStiffness(one_), postureStiffnessChart(one_));
+    const render::IntervalChart by_posture = postureStiffnessChart(one_);
+    if (!by_posture.series.empty()) add("workspace", describePostureStiffness(one_), by_posture);
   }
 
   /// Of a day without a load: before and after, over the workspace and over the day.

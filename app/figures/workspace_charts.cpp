@@ -1,6 +1,7 @@
 #include "app/figures/figures.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -155,6 +156,11 @@ reports::Figure describeStiffnessSlice(const reports::ReportCampaign& one) {
       reports::significant(least, 2), reports::significant(most, 2), found.slice.places.size());
   if (!found.held.empty())
     figure.caption += " Grey outlines are of the joint springs alone: what lies outside them is what else gives.";
+  // What joint 1 moves is at right angles to the plane.
+  std::vector<std::string> rigid;
+  for (const int joint : found.unknown)
+    if (joint > 0) rigid.push_back(reports::jointName(joint));
+  if (!rigid.empty()) figure.caption += fmt::format(" Not known, and counted as rigid: {}.", fmt::join(rigid, ", "));
   figure.alt = "Outlines of the compliance on a grid of places in a vertical plane, with the arm.";
   return figure;
 }
