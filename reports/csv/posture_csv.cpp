@@ -36,6 +36,7 @@ DataTable postureTable(const ReportCampaign& one) {
       const std::vector<DataCell> posture{one.campaign.pose_ids[static_cast<std::size_t>(load_case.pose)],
                                           static_cast<double>(load_case.step)};
       const auto add = [&](const std::string& point, const identification::CaseEquations& rows, std::size_t at) {
+        if (rows.right.size() < static_cast<Eigen::Index>(3 * (at + 1))) return;
         std::vector<DataCell> which = posture;
         which.emplace_back(point);
         addPoint(which, rows, static_cast<Eigen::Index>(at), method, own.estimate.compliance, table);
