@@ -22,6 +22,7 @@ std::unique_ptr<CLI::App> commandLine(Run& run) {
   addIdentify(app, run);
   addCalibrate(app, run);
   addCompensate(app, run);
+  addStiffness(app, run);
   addExport(app, run);
   addCompare(app, run);
   addPlan(app, run);

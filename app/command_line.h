@@ -22,6 +22,7 @@ void addFrames(CLI::App& app, Run& run);
 void addIdentify(CLI::App& app, Run& run);
 void addCompensate(CLI::App& app, Run& run);
 void addCalibrate(CLI::App& app, Run& run);
+void addStiffness(CLI::App& app, Run& run);
 void addExport(CLI::App& app, Run& run);
 void addCompare(CLI::App& app, Run& run);
 void addPlan(CLI::App& app, Run& run);

@@ -65,14 +65,31 @@ struct CalibrateRequest {
 };
 int calibrateCampaign(CalibrateRequest request, const CampaignSource& source, const Outlet& outlet);
 
-/// `compensate`; the campaign's own postures where none are given.
-struct CompensateRequest {
+/// What a prediction is made by.
+struct PredictionRequest {
   std::string method, step;
   ModelChoice model;
-  std::string postures_file;
+  std::optional<double> load_sd_percent;  ///< of the loads' size; empty: that of the load cell's scale
+};
+
+/// `compensate`; the campaign's own postures where none are given.
+struct CompensateRequest {
+  PredictionRequest prediction;
+  std::string postures_file, out;
   std::optional<std::vector<compensation::PostureToCompensate>> postures;  ///< in place of the file
 };
 int compensateCampaign(const CompensateRequest& request, const CampaignSource& source, const Outlet& outlet);
+
+/// `compensate` of a robot's program, and of a path of the tool.
+struct MotionRequest {
+  PredictionRequest prediction;
+  std::string program, path, out, picture, wrenches, wrench_axes;
+  std::vector<double> wrench, tool, workpiece, start;
+  std::vector<std::string> cutting;
+  bool turn_free = false;
+};
+int compensateProgram(const MotionRequest& request, const CampaignSource& source, const Outlet& outlet);
+int compensatePath(const MotionRequest& request, const CampaignSource& source, const Outlet& outlet);
 
 /// `compare`
 struct CompareRequest {

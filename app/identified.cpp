@@ -5,7 +5,9 @@
 
 #include "app/options.h"
 #include "app/prepared.h"
+#include "core/extended_model/effect_deflection.h"
 #include "core/identification/identify.h"
+#include "core/identification/known_stiffness.h"
 #include "core/io/input_error.h"
 #include "reports/words/names.h"
 #include "reports/words/remark_words.h"
@@ -41,6 +43,29 @@ Identified identifiedBy(const preparation::PreparedCampaign& prepared, const std
                              " is unavailable here: " + reports::words(found.of_method().reason));
   }
   return found;
+}
+
+PredictedArm::PredictedArm(const campaign::Campaign& campaign, std::optional<extended_model::ExtendedModel>& improved,
+                           identification::Identification& result, identification::Method method,
+                           std::optional<double> load_sd) {
+  identification::MethodResult& own = result.methods[static_cast<std::size_t>(method)];
+  estimates_.push_back(&own.estimate);
+  if (improved) estimates_.push_back(&improved->without.methods[static_cast<std::size_t>(method)].estimate);
+  for (identification::StiffnessEstimate* estimate : estimates_) {
+    of_the_day_.push_back(*estimate);
+    known_ = identification::completeByKnown(campaign.known_stiffness, *estimate);
+  }
+  const double by = load_sd.value_or(campaign.load_cell->gain_sigma);
+  certainty_ =
+      improved ? compensation::certaintyOf(*improved, method, by) : compensation::certaintyOf(result, method, by);
+  if (improved && extended_model::deflectsByEffects(improved->effects))
+    with_ = extended_model::effectDeflection(*improved, method);
+  arm_.emplace(compensation::DeflectingArm{campaign, own.geometry, own.estimate, result.frames.tcp_in_flange,
+                                           with_ ? &*with_ : nullptr, &*certainty_});
+}
+
+PredictedArm::~PredictedArm() {
+  for (std::size_t i = 0; i < estimates_.size(); ++i) *estimates_[i] = of_the_day_[i];
 }
 
 }  // namespace stiffscope::app

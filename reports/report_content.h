@@ -14,6 +14,7 @@
 #include "core/extended_model/extended_model.h"
 #include "core/identification/identify.h"
 #include "core/preparation/prepare.h"
+#include "core/workspace/workspace_stiffness.h"
 
 namespace stiffscope::reports {
 
@@ -30,8 +31,9 @@ struct ReportCampaign {
   const diagnosis::Diagnosis* diagnosis = nullptr;
   const extended_model::ExtendedModel* improved =
       nullptr;  ///< effects were asked for: `campaign` and `identification` are of it
-  const accuracy::AccuracyDiagnosis* accuracy = nullptr;  ///< of a day without a load; the calibration is in it
-  calibration::CalibrationOptions calibrated_by = {};     ///< how that was held out
+  const accuracy::AccuracyDiagnosis* accuracy = nullptr;     ///< of a day without a load; the calibration is in it
+  calibration::CalibrationOptions calibrated_by = {};        ///< how that was held out
+  const workspace::WorkspaceStiffness* workspace = nullptr;  ///< of a loaded day
 };
 
 /// What a day can say: stiffness under loads, accuracy in unloaded postures, or the geometry by sweeps alone.
@@ -77,8 +79,8 @@ struct Figure {
 };
 
 /// The sections that have figures, in the order of the page: figures are counted in it.
-inline constexpr std::array kFigureSections{"accuracy", "station",      "accuracy-gap", "wrist",   "links", "stiffness",
-                                            "subsets",  "compensation", "gap",          "figures", "audit"};
+inline constexpr std::array kFigureSections{"accuracy", "station",   "accuracy-gap", "wrist", "links",   "stiffness",
+                                            "subsets",  "workspace", "compensation", "gap",   "figures", "audit"};
 
 /// The name of its file in a report's folder.
 inline std::string pictureFile(const Figure& figure) { return figure.id + ".png"; }

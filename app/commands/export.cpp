@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
@@ -8,6 +10,7 @@
 #include "app/prepared.h"
 #include "app/urdf.h"
 #include "core/calibration/calibrate.h"
+#include "core/campaign/certificate.h"
 #include "core/effects/all.h"
 #include "core/elastic_model/elastic_model.h"
 #include "core/elastic_model/mjcf.h"
@@ -15,9 +18,12 @@
 #include "core/extended_model/effect_fit.h"
 #include "core/identification/identify.h"
 #include "core/identification/known_stiffness.h"
+#include "core/identification/warnings.h"
+#include "core/io/input_error.h"
 #include "core/io/read_file.h"
 #include "core/io/write_file.h"
 #include "core/robot/body_inertia.h"
+#include "reports/certificate/dcc.h"
 #include "reports/json/campaign_json.h"
 #include "reports/json/export_json.h"
 #include "reports/json/json.h"
@@ -90,13 +96,28 @@ void addUrdf(CLI::App& parent, Run& run) {
   command->callback([arguments, &run] { run = [arguments] { return exportUrdf(*arguments); }; });
 }
 
-using Writer = std::string (*)(const elastic_model::ElasticChain& chain, const std::vector<std::string>& comments);
-
-struct ElasticArguments {
-  std::string campaign, out, json, method, step, format;
-  Writer write = nullptr;
+/// What is exported of an identified day.
+struct IdentifiedArguments {
+  std::string campaign, out, json, method, step;
   bool raw = false;
   ModelChoice model;
+};
+
+void addIdentifiedOptions(CLI::App& command, IdentifiedArguments& arguments) {
+  command.add_option("CAMPAIGN", arguments.campaign, "campaign folder or its campaign.xml")->required();
+  command.add_option("--out", arguments.out, "file to write")->required();
+  command.add_option("--method", arguments.method, "cp, pp or dpp; without it the one that identify shows first");
+  command.add_option("--step", arguments.step, "load step to identify from");
+  addModelOptions(command, arguments.model);
+  addRawOption(command, arguments.raw);
+  command.add_option("--json", arguments.json, "write what was exported to this file, - for standard output");
+}
+
+using Writer = std::string (*)(const elastic_model::ElasticChain& chain, const std::vector<std::string>& comments);
+
+struct ElasticArguments : IdentifiedArguments {
+  std::string format;
+  Writer write = nullptr;
 };
 
 int exportElastic(const ElasticArguments& arguments) {
@@ -142,24 +163,58 @@ void addElastic(CLI::App& parent, Run& run, const std::string& format, const std
   arguments->format = format;
   arguments->write = write;
   CLI::App* command = parent.add_subcommand(format, "The arm as bodies, drives and springs in series, for " + program);
-  command->add_option("CAMPAIGN", arguments->campaign, "campaign folder or its campaign.xml")->required();
-  command->add_option("--out", arguments->out, "file to write")->required();
-  command->add_option("--method", arguments->method, "cp, pp or dpp; without it the one that identify shows first");
-  command->add_option("--step", arguments->step, "load step to identify from");
-  addModelOptions(*command, arguments->model);
-  addRawOption(*command, arguments->raw);
-  command->add_option("--json", arguments->json, "write what was exported to this file, - for standard output");
+  addIdentifiedOptions(*command, *arguments);
   command->callback([arguments, &run] { run = [arguments] { return exportElastic(*arguments); }; });
+}
+
+int exportDcc(const IdentifiedArguments& arguments) {
+  const MethodAndStep choice = methodAndStep(arguments.method, arguments.step);
+  requireTwoFiles(arguments.out, arguments.json);
+  const preparation::PreparedCampaign prepared = openPrepared(arguments.campaign, arguments.raw);
+  std::vector<std::string> warnings;
+  const campaign::Certificate certificate = campaign::readCertificate(prepared.campaign, warnings);
+  printWarnings(warnings);
+  const std::vector<std::string> missing = certificate.missing();
+  if (!missing.empty()) {
+    throw io::InputError(
+        {(prepared.campaign.folder / prepared.campaign.inputs.front().name).string(), 0, "certificate"}, "",
+        fmt::format("expected what a certificate has to say; missing: {}", fmt::join(missing, ", ")));
+  }
+  Identified found = identifiedBy(prepared, arguments.campaign, arguments.model, choice);
+  const campaign::Campaign& campaign = found.campaign(prepared);
+  const reports::DccContent content{
+      campaign,          certificate, found.result(), found.method, found.improved ? &*found.improved : nullptr,
+      STIFFSCOPE_VERSION};
+  io::requireNotRead(arguments.out);
+  io::writeFileWhole(arguments.out, reports::dccXml(content));
+  deliver(
+      [&] { return reports::withPreparation(reports::dccExportJson(content, arguments.out), prepared.preparation); },
+      [&] { return reports::dccExportText(content, arguments.out) + reports::preparationText(prepared.preparation); },
+      arguments.json);
+  return identification::anyUsable(found.result(), {found.method}) ? kDone : kNotUsable;
+}
+
+void addDcc(CLI::App& parent, Run& run) {
+  const auto arguments = std::make_shared<IdentifiedArguments>();
+  CLI::App* command =
+      parent.add_subcommand("dcc", "Digital Calibration Certificate (PTB's schema 3.3.0) of the joint stiffnesses");
+  command->footer(
+      "What it has to say besides results stands in the element certificate of campaign.xml; what is missing\n"
+      "there is listed, and nothing is written. It is not signed: that is the laboratory's.");
+  addIdentifiedOptions(*command, *arguments);
+  command->callback([arguments, &run] { run = [arguments] { return exportDcc(*arguments); }; });
 }
 
 }  // namespace
 
 void addExport(CLI::App& app, Run& run) {
-  CLI::App* command = app.add_subcommand("export", "The machine for other programs: URDF, MuJoCo, SDFormat");
+  CLI::App* command =
+      app.add_subcommand("export", "For other programs: URDF, MuJoCo, SDFormat, calibration certificate");
   command->require_subcommand(1);
   addUrdf(*command, run);
   addElastic(*command, run, "mjcf", "MuJoCo", &elastic_model::mjcf);
   addElastic(*command, run, "sdf", "Gazebo and what else reads SDFormat", &elastic_model::sdf);
+  addDcc(*command, run);
 }
 
 }  // namespace stiffscope::app

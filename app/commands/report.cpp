@@ -18,6 +18,7 @@
 
 #include "app/command_line.h"
 #include "app/figures/figures.h"
+#include "app/identified.h"
 #include "app/model.h"
 #include "app/options.h"
 #include "app/output.h"
@@ -146,9 +147,10 @@ struct Result {
   preparation::PreparedCampaign prepared;
   audit::AuditReport audited;
   std::optional<diagnosis::Diagnosis> diagnosis;
-  std::optional<extended_model::ExtendedModel> improved;  ///< effects were asked for
-  std::optional<accuracy::AccuracyDiagnosis> accuracy;    ///< of a day without a load
-  identification::Identification own;                     ///< without any
+  std::optional<extended_model::ExtendedModel> improved;   ///< effects were asked for
+  std::optional<accuracy::AccuracyDiagnosis> accuracy;     ///< of a day without a load
+  identification::Identification own;                      ///< without any
+  std::optional<workspace::WorkspaceStiffness> workspace;  ///< of a loaded day with stiffnesses
   bool loaded = false;
 
   const campaign::Campaign& campaign() const { return improved ? improved->campaign : prepared.campaign; }
@@ -165,10 +167,19 @@ struct Result {
       own = loaded ? identification::identify(prepared.campaign, options)
                    : identification::framesAlone(prepared.campaign);
     }
+    addWorkspace();
     audited = arguments.raw ? audit::audit(prepared.campaign) : audit::audit(prepared);
     if (diagnosis) audit::addSeparableEffects(*diagnosis, audited);
     withoutLoadReadings(prepared.campaign);
     if (improved) withoutLoadReadings(improved->campaign);
+  }
+
+  void addWorkspace() {
+    identification::Identification& result = improved ? improved->with : own;
+    const identification::Method method = identification::bestMethod(result);
+    if (result.cases.empty() || !result.of(method).available) return;
+    const PredictedArm predicted(campaign(), improved, result, method);
+    workspace = workspace::workspaceStiffness(predicted.arm(), result, improved ? &*improved : nullptr, method);
   }
 
   /// Of loads, stiffnesses are the purpose; without, accuracy; of a day of sweeps alone, the frames.
@@ -234,9 +245,16 @@ int writeReport(const ReportArguments& arguments) {
   reports::ReportContent content;
   for (const std::string& folder : arguments.campaigns) {
     const Result& one = results.emplace_back(folder, arguments, options);
-    content.campaigns.push_back({one.campaign(), one.identification(), &one.audited, &one.prepared.preparation,
-                                 &one.prepared.drift.rounds, one.diagnosis ? &*one.diagnosis : nullptr,
-                                 one.improved ? &*one.improved : nullptr, one.accuracy ? &*one.accuracy : nullptr});
+    content.campaigns.push_back({one.campaign(),
+                                 one.identification(),
+                                 &one.audited,
+                                 &one.prepared.preparation,
+                                 &one.prepared.drift.rounds,
+                                 one.diagnosis ? &*one.diagnosis : nullptr,
+                                 one.improved ? &*one.improved : nullptr,
+                                 one.accuracy ? &*one.accuracy : nullptr,
+                                 {},
+                                 one.workspace ? &*one.workspace : nullptr});
   }
   content.avoided = reports::avoidedByEncoders(content.campaigns);
   content.compare_with_paper = arguments.paper;

@@ -80,6 +80,18 @@ std::optional<render::GroupedBarChart> gapBars(const reports::ReportCampaign& on
 
 reports::Figure describeGapBars(const reports::ReportCampaign& one);
 
+/// Compliance ellipses in the slice's plane: how far P_TCP moves under a force of one size in each direction of the
+/// plane, to scale; by the whole model in colours of the softest stiffness there, by joint springs alone (K_x) in grey
+/// where the model has more. The arm stands in the slice's posture.
+render::PointChart stiffnessSliceChart(const campaign::Campaign& campaign, const frames::Frames& frames,
+                                       const workspace::WorkspaceStiffness& found);
+render::PointChart stiffnessSliceChart(const reports::ReportCampaign& one);
+reports::Figure describeStiffnessSlice(const reports::ReportCampaign& one);
+
+/// Principal stiffnesses of the whole model at P_TCP by posture with their 95 % intervals, N/um, logarithmic.
+render::IntervalChart postureStiffnessChart(const reports::ReportCampaign& one);
+reports::Figure describePostureStiffness(const reports::ReportCampaign& one);
+
 /// The sweeps' readings as the frames of the identification were fitted to: the own weight's sag taken off
 /// where it was taken off there.
 frames::RigidPoints rigidSweeps(const reports::ReportCampaign& one);

@@ -69,6 +69,12 @@ class FigureList {
     if (!intervals.series.empty()) add("stiffness", describeStiffnessIntervals(one_), intervals);
   }
 
+  void addWorkspace() {
+    add("workspace", describeStiffnessSlice(one_), stiffnessSliceChart(one_), kScene);
+    const render::IntervalChart by_posture = postureStiffnessChart(one_);
+    if (!by_posture.series.empty()) add("workspace", describePostureStiffness(one_), by_posture);
+  }
+
   /// Of a day without a load: before and after, over the workspace and over the day.
   void addAccuracy() {
     if (!one_.accuracy->calibration.reason.empty()) return;
@@ -106,6 +112,7 @@ std::vector<reports::Figure> figuresOf(const reports::ReportCampaign& one, const
   const bool loaded = !one.identification.cases.empty();
   if (loaded) list.addDeflection();
   if (loaded) list.addStiffness(options);
+  if (one.workspace != nullptr) list.addWorkspace();
   if (one.accuracy != nullptr) list.addAccuracy();
   list.addReadings();
   if (loaded) list.addGap();

@@ -80,6 +80,16 @@ struct Certainty {
 Certainty certaintyOf(const identification::Identification& result, identification::Method method, double load_sd);
 Certainty certaintyOf(const extended_model::ExtendedModel& model, identification::Method method, double load_sd);
 
+/// An identified arm as predictions are made of it. Refers to all of these.
+struct DeflectingArm {
+  const campaign::Campaign& campaign;
+  const frames::LoadingGeometry& geometry;
+  const identification::StiffnessEstimate& estimate;  ///< with what is known from elsewhere (known_stiffness.h)
+  Eigen::Vector3d tcp_in_flange = Eigen::Vector3d::Zero();
+  const effects::EffectDeflection* with = nullptr;  ///< effects of the machine in the model; null: joint springs alone
+  const Certainty* certainty = nullptr;             ///< null: what is predicted has no uncertainty but the stiffnesses'
+};
+
 /// For each posture: the nonlinear model (finite rotations, own weight and load on the moved arm) gives the
 /// loaded pose; Newton steps on the commands bring the loaded flange back onto the pose that the unloaded arm
 /// has at q. The wrench is taken into R0 at the unloaded flange and keeps its direction. No commands, with

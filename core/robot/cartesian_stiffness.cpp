@@ -1,6 +1,7 @@
 #include "core/robot/cartesian_stiffness.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <limits>
 
 #include "metrology/linear_algebra.h"
@@ -9,16 +10,17 @@ namespace stiffscope::robot {
 
 namespace {
 
-std::array<PrincipalStiffness, 3> principalStiffness(const Eigen::Matrix3d& compliance) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> own(0.5 * (compliance + compliance.transpose()));
+template <class Matrix>
+std::vector<PrincipalStiffness> principalStiffness(const Matrix& compliance, const Eigen::Matrix3Xd& basis) {
+  const Eigen::SelfAdjointEigenSolver<Matrix> own(compliance);
   constexpr double kRounding = 1e-14;  // of the largest: the point cannot move that way
   const double least = kRounding * own.eigenvalues().cwiseAbs().maxCoeff();
-  std::array<PrincipalStiffness, 3> principal;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto place = static_cast<Eigen::Index>(2 - k);  // ascending compliance: softest is last
+  std::vector<PrincipalStiffness> principal(static_cast<std::size_t>(basis.cols()));
+  for (std::size_t k = 0; k < principal.size(); ++k) {
+    const auto place = basis.cols() - 1 - static_cast<Eigen::Index>(k);  // ascending compliance: softest is last
     const double value = own.eigenvalues()[place];
     principal[k].stiffness = std::abs(value) <= least ? std::numeric_limits<double>::infinity() : 1.0 / value;
-    principal[k].direction = own.eigenvectors().col(place);
+    principal[k].direction = basis * own.eigenvectors().col(place);
     Eigen::Index largest = 0;
     principal[k].direction.cwiseAbs().maxCoeff(&largest);
     if (principal[k].direction[largest] < 0.0) principal[k].direction *= -1.0;
@@ -28,6 +30,13 @@ std::array<PrincipalStiffness, 3> principalStiffness(const Eigen::Matrix3d& comp
 
 }  // namespace
 
+std::vector<PrincipalStiffness> principalStiffnessWithin(const Eigen::Matrix3d& compliance,
+                                                         const Eigen::Matrix3Xd& basis) {
+  if (basis.cols() == 0) return {};
+  const Eigen::MatrixXd within = basis.transpose() * (0.5 * (compliance + compliance.transpose())) * basis;
+  return basis.cols() == 3 ? principalStiffness(Eigen::Matrix3d(within), basis) : principalStiffness(within, basis);
+}
+
 CartesianStiffness cartesianStiffness(const Eigen::Vector3d& point, const Matrix6d& jacobian,
                                       const Vector6d& compliance, const Matrix6d& geometric) {
   CartesianStiffness result;
@@ -36,7 +45,9 @@ CartesianStiffness cartesianStiffness(const Eigen::Vector3d& point, const Matrix
   const Matrix6d joints =
       solveLu(Matrix6d::Identity() - compliance.asDiagonal() * geometric, Matrix6d(compliance.asDiagonal()));
   result.compliance = jacobian * joints * jacobian.transpose();
-  result.principal = principalStiffness(result.compliance.topLeftCorner<3, 3>());
+  const std::vector<PrincipalStiffness> principal =
+      principalStiffnessWithin(result.compliance.topLeftCorner<3, 3>(), Eigen::Matrix3d::Identity());
+  std::copy(principal.begin(), principal.end(), result.principal.begin());
   const Eigen::FullPivLU<Matrix6d> jacobian_lu(jacobian);
   result.invertible = jacobian_lu.isInvertible() && (compliance.array() != 0.0).all();
   if (result.invertible) {

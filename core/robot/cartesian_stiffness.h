@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "core/robot/kinematics.h"
 
@@ -32,6 +33,11 @@ struct CartesianStiffness {
 /// little. The principal directions are those of the symmetric part.
 CartesianStiffness cartesianStiffness(const Eigen::Vector3d& point, const Matrix6d& jacobian,
                                       const Vector6d& compliance, const Matrix6d& geometric = Matrix6d::Zero());
+
+/// Principal stiffnesses of a translational compliance (m/N, its symmetric part) within the span of orthonormal
+/// columns: the stationary values of 1 / (d^T C d) over unit d there, softest first, as many as there are columns.
+std::vector<PrincipalStiffness> principalStiffnessWithin(const Eigen::Matrix3d& compliance,
+                                                         const Eigen::Matrix3Xd& basis);
 
 /// By how much K_c changes the springs at the point: the Frobenius norm of the change of C_x's translational
 /// block, over that of the block without K_c. Dumas et al. place the robot where this may be neglected.

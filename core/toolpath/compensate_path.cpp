@@ -14,7 +14,7 @@ namespace {
 
 /// Joint angles at which the unloaded arm, bent by its own weight, holds the tool; empty where it does not come to rest
 /// or the steps do not end. The rigid arm is sent to the pose less the sag found before: a contraction of a hundredth.
-std::optional<Vector6d> bentSolution(const PathArm& arm, const Eigen::Isometry3d& flange_from_tool,
+std::optional<Vector6d> bentSolution(const compensation::DeflectingArm& arm, const Eigen::Isometry3d& flange_from_tool,
                                      const Eigen::Isometry3d& r0_from_tool, const Vector6d& rigid) {
   constexpr int kMostSteps = 20;
   constexpr double kClose = 1e-9;  // m and rad
@@ -36,8 +36,8 @@ std::optional<Vector6d> bentSolution(const PathArm& arm, const Eigen::Isometry3d
   return std::nullopt;
 }
 
-SmallMotion offsetOf(const PathArm& arm, const PathJob& job, const Eigen::Matrix3d& workpiece_from_r0,
-                     const compensation::CompensatedPosture& found) {
+SmallMotion offsetOf(const compensation::DeflectingArm& arm, const PathJob& job,
+                     const Eigen::Matrix3d& workpiece_from_r0, const compensation::CompensatedPosture& found) {
   const auto toolAt = [&](const Vector6d& q) {
     return robot::flangeAt(arm.geometry.arm, robot::postureAt(arm.geometry.arm, q)) * job.flange_from_tool;
   };
@@ -47,7 +47,7 @@ SmallMotion offsetOf(const PathArm& arm, const PathJob& job, const Eigen::Matrix
 }
 
 /// The postures of the day, from which branches are looked for, and their range, which is preferred.
-JointPathOptions jointOptions(const PathArm& arm, const PathJob& job) {
+JointPathOptions jointOptions(const compensation::DeflectingArm& arm, const PathJob& job) {
   JointPathOptions options = job.joints;
   if (arm.campaign.states) {
     for (const campaign::State& state : arm.campaign.states->rows) {
@@ -81,7 +81,7 @@ std::vector<compensation::CompensatedPosture> CompensatedPath::postures() const 
   return all;
 }
 
-CompensatedPath compensatePath(const PathArm& arm, const PathJob& job) {
+CompensatedPath compensatePath(const compensation::DeflectingArm& arm, const PathJob& job) {
   const Eigen::Isometry3d r0_from_workpiece = arm.geometry.r0_from_base_link * job.base_from_workpiece;
   const Eigen::Matrix3d &to_r0 = r0_from_workpiece.linear(), from_r0 = to_r0.transpose();
   std::vector<Eigen::Isometry3d> wanted;
@@ -123,9 +123,8 @@ CompensatedPath compensatePath(const PathArm& arm, const PathJob& job) {
     asked.push_back(result.poses[i].compensated.posture);
     places.push_back(i);
   }
-  const std::vector<compensation::CompensatedPosture> compensated =
-      compensation::compensate(arm.campaign, arm.geometry, arm.estimate, job.flange_from_tool.translation(), asked, {},
-                               arm.with, arm.certainty);
+  const std::vector<compensation::CompensatedPosture> compensated = compensation::compensate(
+      arm.campaign, arm.geometry, arm.estimate, job.flange_from_tool.translation(), asked, {}, arm.with, arm.certainty);
   for (std::size_t k = 0; k < places.size(); ++k) {
     CompensatedPathPose& pose = result.poses[places[k]];
     pose.compensated = compensated[k];

@@ -1,6 +1,9 @@
 #include "reports/csv/csv_table.h"
 
+#include <fmt/format.h>
 #include <algorithm>
+#include <cmath>
+#include <stdexcept>
 
 #include "reports/words/rich_text.h"
 
@@ -82,15 +85,42 @@ std::string csvField(const std::string& field) {
   return '"' + text + '"';
 }
 
-std::string csvTable(const Table& table) {
-  std::vector<Line> lines = linesOf(table);
-  splitUncertainties(lines);
+namespace {
+
+std::string csvOf(const std::vector<Line>& lines) {
   std::string csv;
   for (const Line& line : lines) {
     for (std::size_t i = 0; i < line.size(); ++i) csv += (i > 0 ? "," : "") + csvField(line[i]);
     csv += "\r\n";
   }
   return csv;
+}
+
+std::string dataText(const DataCell& cell) {
+  if (const double* number = std::get_if<double>(&cell))
+    return std::isfinite(*number) ? fmt::format("{:.10g}", *number) : std::string();
+  const std::string* text = std::get_if<std::string>(&cell);
+  return text != nullptr ? *text : std::string();
+}
+
+}  // namespace
+
+std::string csvTable(const DataTable& table) {
+  std::vector<Line> lines{table.columns};
+  for (const std::vector<DataCell>& row : table.rows) {
+    if (row.size() != table.columns.size())
+      throw std::invalid_argument(fmt::format("a row of {} cells under {} columns", row.size(), table.columns.size()));
+    Line& line = lines.emplace_back();
+    for (const DataCell& cell : row) line.push_back(dataText(cell));
+  }
+  return csvOf(lines);
+}
+
+std::string csvTable(const Table& table) {
+  if (table.data) return csvTable(*table.data);
+  std::vector<Line> lines = linesOf(table);
+  splitUncertainties(lines);
+  return csvOf(lines);
 }
 
 }  // namespace stiffscope::reports

@@ -66,9 +66,9 @@ Json axisJson(const campaign::Campaign& campaign, const frames::Frames& frames, 
   for (const metrology::AxisCircle& circle : axis.fit.circles) arc = std::max(arc, circle.arc);
   json["arc_deg"] = arc / io::kDegree;
   json["rms_um"] = axis.fit.rms / io::kMicrometre;
-  // One number a kind: the root of the mean of the two variances across the axis, at the fit's own point.
-  json["sd_point_um"] = std::sqrt(axis.at_zero.covariance.topLeftCorner<2, 2>().trace() / 2.0) / io::kMicrometre;
-  json["sd_direction_deg"] = std::sqrt(axis.at_zero.covariance.bottomRightCorner<2, 2>().trace() / 2.0) / io::kDegree;
+  const AxisSd sd = sdAcross(axis);
+  json["sd_point_um"] = sd.point / io::kMicrometre;
+  json["sd_direction_deg"] = sd.direction / io::kDegree;
   json["chi2_per_dof"] = number(axis.fit.chi2_per_dof);
   json["circles"] = circlesJson(campaign, axis);
   return json;

@@ -66,6 +66,9 @@ namespace stiffscope::validation {
 struct BlindOptions;
 struct BlindResult;
 }  // namespace stiffscope::validation
+namespace stiffscope::workspace {
+struct WorkspaceStiffness;
+}
 
 namespace stiffscope::reports {
 
@@ -117,6 +120,11 @@ Json pathJson(const campaign::Campaign& campaign, identification::Method method,
 /// (lines of targets that were left).
 Json withProgram(Json json, const interchange::TaughtProgram& program, const std::string& out,
                  const std::vector<compensation::CompensatedPosture>& targets, double rounding);
+
+/// The result of `stiffness`: method, model_holds_besides_joints (effects by id), unknown_joints, notes, postures and
+/// slice.places (each: q_deg, tcp_m, conditioning, k_x and model: principal stiffnesses, softest first, with interval
+/// and direction; both compliances), placement (where a force was given: force_n, best, now, offsets). R0.
+Json workspaceJson(const workspace::WorkspaceStiffness& found);
 
 /// The result of `diagnose`. `verdict` is a list of lists of effect ids: the outer names all that is present,
 /// an inner one what this data cannot tell apart; [["none"]], or ["unknown"] among them.

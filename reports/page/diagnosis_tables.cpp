@@ -40,6 +40,24 @@ reports::Table whereTable(const std::string& caption, const std::string& heading
   const bool more = !beside.tables.empty();
   if (more) table.columns.push_back(beside.heading);
   if (more && beside.noise) table.columns.emplace_back("Noise (µm)");
+  reports::DataTable& data = table.data.emplace();
+  data.columns = {"by", "part", "rms_um", "noise_um", "share_percent", "above_noise_sd"};
+  if (more) data.columns.emplace_back("beside_rms_um");
+  if (more && beside.noise) data.columns.emplace_back("beside_noise_um");
+  for (const diagnosis::WhereTable& one : where) {
+    for (const diagnosis::WhereRow& row : one.rows) {
+      std::vector<reports::DataCell> cells{
+          one.by,          row.name, row.rms / io::kMicrometre, row.noise / io::kMicrometre, 100.0 * row.share,
+          row.significance};
+      const diagnosis::WhereRow* other = more ? rowOf(beside.tables, one.by, row.name) : nullptr;
+      const auto beside_cell = [&](double diagnosis::WhereRow::*member) {
+        return other ? reports::DataCell(other->*member / io::kMicrometre) : reports::DataCell();
+      };
+      if (more) cells.push_back(beside_cell(&diagnosis::WhereRow::rms));
+      if (more && beside.noise) cells.push_back(beside_cell(&diagnosis::WhereRow::noise));
+      data.rows.push_back(std::move(cells));
+    }
+  }
   for (const diagnosis::WhereTable& one : where) {
     if (one.by == "posture") continue;  // a figure, and results.json
     reports::RowGroup group{one.by, {}};
@@ -100,15 +118,19 @@ reports::Row parameterRow(const extended_model::EffectParameter& parameter, int 
 reports::Table effectParametersTable(const std::string& caption) {
   reports::Table table{caption, {"Effect", "Parameter", "Value ± U", "Unit"}, {}};
   table.id = "effects";
+  table.data = reports::DataTable{{"effect", "parameter", "value", "u", "unit"}, {}};
   return table;
 }
 
-reports::RowGroup parameterGroup(const std::string& effect,
-                                 const std::vector<extended_model::EffectParameter>& parameters) {
+void addParameters(const std::string& effect, const std::vector<extended_model::EffectParameter>& parameters,
+                   reports::Table& table) {
   reports::RowGroup group{effect, {}};
-  for (const extended_model::EffectParameter& parameter : parameters)
+  for (const extended_model::EffectParameter& parameter : parameters) {
     group.rows.push_back(parameterRow(parameter, powerFor(parameters, parameter.unit)));
-  return group;
+    table.data->rows.push_back({effect, parameter.name.empty() ? std::string("size") : parameter.name, parameter.value,
+                                reports::expanded(parameter.sd), parameter.unit});
+  }
+  table.groups.push_back(std::move(group));
 }
 
 }  // namespace stiffscope::page

@@ -29,7 +29,19 @@ reports::Table classesTable(const std::vector<Class>& classes, std::string (*fal
                        {{}},
                        false,
                        "diagnosis"};
+  reports::DataTable& data = table.data.emplace();
+  data.columns = {"effects",
+                  "detail",
+                  "in_verdict",
+                  "score",
+                  "shrink_percent",
+                  "shrink_low_percent",
+                  "shrink_high_percent",
+                  "explained_percent"};
   for (const Class& one : classes) {
+    data.rows.push_back({reports::effectNames(one.effects), reports::shortDetail(one.detail),
+                         one.in_verdict ? 1.0 : 0.0, one.score, 100.0 * one.shrink.value, 100.0 * one.shrink.low,
+                         100.0 * one.shrink.high, 100.0 * one.explained});
     table.groups.front().rows.push_back(
         {reports::Cell(reports::effectNames(one.effects), reports::asIs(reports::shortDetail(one.detail))),
          one.in_verdict ? "yes" : "no", fall_of(one), shareOf(one.shrink.value, 1), interval(one.shrink),
@@ -86,9 +98,10 @@ void writeNotTestable(Html& html, const std::vector<Untestable>& not_testable) {
   html.list(missing);
 }
 
-/// Effect, parameter, value ± U, unit: a group an effect. Sizes of one unit have one power of ten.
+/// Effect, parameter, value ± U, unit: a group an effect. Sizes of one unit have one power of ten; of its file none.
 reports::Table effectParametersTable(const std::string& caption);
-reports::RowGroup parameterGroup(const std::string& effect,
-                                 const std::vector<extended_model::EffectParameter>& parameters);
+/// Adds the parameters of an effect to it.
+void addParameters(const std::string& effect, const std::vector<extended_model::EffectParameter>& parameters,
+                   reports::Table& table);
 
 }  // namespace stiffscope::page

@@ -50,6 +50,7 @@ std::vector<Section> sectionsOf(const reports::ReportContent& content) {
           {"stiffness", "Stiffness", writeStiffness, any(isLoaded)},
           {"transmission", "Gears", writeTransmission, anySecondEncoders(content)},
           {"subsets", "Spread", writeSubsets, loads},
+          {"workspace", "Stiffness over the workspace", writeWorkspace, any(hasWorkspace)},
           {"compensation", "Compensation", writeCompensation, loads},
           {"effects", "Effects in the model", writeExtendedModel, improved},
           {"gap", "What the model misses", writeGap, diagnosed},

@@ -31,6 +31,17 @@ reports::Table gearTable(const identification::Identification& result) {
                        {"Joint", "Gear", "States", "Residual (10⁻⁶\u00a0rad)", "Held under load"},
                        {{}}};
   table.id = "transmission";
+  reports::DataTable& data = table.data.emplace();
+  data.columns = {"joint",
+                  "gear_nm_per_rad",
+                  "u_gear_nm_per_rad",
+                  "states",
+                  "residual_rad",
+                  "held_under_load",
+                  "structure_low_nm_per_rad",
+                  "structure_high_nm_per_rad",
+                  "gear_share_percent",
+                  "agreement"};
   if (shown) {
     table.columns.push_back(fmt::format("Structure, {}, 95\u00a0%", reports::shortName(*shown)));
     table.columns.emplace_back("Gear's share");
@@ -46,12 +57,25 @@ reports::Table gearTable(const identification::Identification& result) {
         reports::Cell(reports::withUncertainty(gears.stiffness(joint) / reports::kMega, expanded / reports::kMega),
                       reports::words(gears.mark(joint))),
         std::to_string(gear.states), reports::significant(1e6 * gear.rms_residual, 3), reports::wordsOf(gear.held)};
+    std::vector<reports::DataCell> cells{joint + 1.0,       gears.stiffness(joint),
+                                         expanded,          static_cast<double>(gear.states),
+                                         gear.rms_residual, std::string(reports::wordsOf(gear.held))};
+    cells.resize(data.columns.size());
     if (shown) {
       const auto apart = identification::gearAndStructure(transmission, result.of(*shown).estimate, joint);
       row.emplace_back(apart ? intervalCell(apart->interval) : "–");
       row.emplace_back(apart ? reports::percent(apart->gear_share, 0) : "–");
       row.emplace_back(apart ? reports::wordsOf(apart->agreement) : "–");
     }
+    if (const auto apart =
+            shown ? identification::gearAndStructure(transmission, result.of(*shown).estimate, joint) : std::nullopt) {
+      const identification::CoverageInterval structure = identification::stiffnessInterval(apart->interval);
+      cells[6] = structure.low;
+      cells[7] = structure.high;
+      cells[8] = 100.0 * apart->gear_share;
+      cells[9] = std::string(reports::wordsOf(apart->agreement));
+    }
+    data.rows.push_back(std::move(cells));
     table.groups.front().rows.push_back(std::move(row));
   }
   return table;
@@ -59,12 +83,10 @@ reports::Table gearTable(const identification::Identification& result) {
 
 /// Every state of every joint: too many for the page, kept as a file beside it.
 std::string pointsCsv(const campaign::Campaign& campaign, const identification::Transmission& transmission) {
-  reports::Table table{"", {"pose", "step", "joint", "torque_nm", "torsion_rad", "residual_rad", "used"}, {{}}};
+  reports::DataTable table{{"pose", "step", "joint", "torque_nm", "torsion_rad", "residual_rad", "used"}, {}};
   for (const identification::TorsionPoint& point : transmission.points) {
-    table.groups.front().rows.push_back({reports::asIs(campaign.pose_ids[static_cast<std::size_t>(point.pose)]),
-                                         std::to_string(point.step), std::to_string(point.joint + 1),
-                                         fmt::format("{:.6g}", point.torque), fmt::format("{:.6g}", point.torsion),
-                                         fmt::format("{:.6g}", point.residual), point.used ? "1" : "0"});
+    table.rows.push_back({campaign.pose_ids[static_cast<std::size_t>(point.pose)], static_cast<double>(point.step),
+                          point.joint + 1.0, point.torque, point.torsion, point.residual, point.used ? 1.0 : 0.0});
   }
   return reports::csvTable(table);
 }

@@ -17,6 +17,7 @@ void writeStiffness(Html& html, const reports::ReportContent& content);   ///< b
 bool anySecondEncoders(const reports::ReportContent& content);
 void writeTransmission(Html& html, const reports::ReportContent& content);  ///< gears by two encoders; nothing without
 void writeSubsets(Html& html, const reports::ReportContent& content);       ///< Table II
+void writeWorkspace(Html& html, const reports::ReportContent& content);     ///< Cartesian stiffness at P_TCP
 void writeCompensation(Html& html, const reports::ReportContent& content);  ///< compensated and avoided shares
 void writeExtendedModel(Html& html,
                         const reports::ReportContent& content);    ///< effects in the model: without and with them
@@ -44,6 +45,7 @@ using About = bool (*)(const reports::ReportCampaign&);
 bool isAny(const reports::ReportCampaign& one);
 bool isLoaded(const reports::ReportCampaign& one);
 bool isCalibrated(const reports::ReportCampaign& one);  ///< a day without a load that could be
+bool hasWorkspace(const reports::ReportCampaign& one);  ///< loaded, with stiffnesses
 bool hasActions(const reports::ReportCampaign& one);    ///< calibrated, with something to do
 bool hasStation(const reports::ReportCampaign& one);    ///< without a load, with something to say of its course
 bool hasAxes(const reports::ReportCampaign& one);       ///< loaded, or with circle sweeps

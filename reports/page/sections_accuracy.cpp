@@ -28,6 +28,9 @@ reports::Table modelsTable(const calibration::Calibration& calibration,
                        {{}},
                        false,
                        "accuracy"};
+  reports::DataTable& data = table.data.emplace();
+  data.columns = {"model",      "rms_held_out_mm", "median_mm", "quantile_95_mm",
+                  "largest_mm", "rms_fitted_mm",   "parameters"};
   for (const calibration::ModelResult& model : calibration.models) {
     const std::vector<double> lengths = calibration::errorLengths(errors, model.model);
     if (lengths.empty()) continue;
@@ -37,6 +40,10 @@ reports::Table modelsTable(const calibration::Calibration& calibration,
         {reports::capitalised(reports::modelWords(model.model)), held_out ? inMm(model.held_out.rms) : "–",
          inMm(numerics::quantile(lengths, 0.5)), inMm(numerics::quantile(lengths, kMost)), inMm(lengths.back()),
          inMm(model.fitted.rms), fmt::format("{}", model.fit.parameters)});
+    const auto cell = [](double metres) { return reports::DataCell(metres / io::kMillimetre); };
+    data.rows.push_back({reports::modelWords(model.model), held_out ? cell(model.held_out.rms) : reports::DataCell(),
+                         cell(numerics::quantile(lengths, 0.5)), cell(numerics::quantile(lengths, kMost)),
+                         cell(lengths.back()), cell(model.fitted.rms), static_cast<double>(model.fit.parameters)});
   }
   return table;
 }
@@ -61,6 +68,10 @@ reports::Table worstTable(const calibration::Calibration& calibration,
                        false,
                        "worst-postures"};
   if (reflectors) table.columns.emplace_back("Reflector");
+  reports::DataTable& data = table.data.emplace();
+  data.columns = {"pose",       "reflector",  "nominal_mm", "calibrated_mm", "with_effects_mm",
+                  "error_x_mm", "error_y_mm", "error_z_mm", "q1_deg",        "q2_deg",
+                  "q3_deg",     "q4_deg",     "q5_deg",     "q6_deg"};
   for (const char* column : {"Nominal", "Calibrated"}) table.columns.emplace_back(column);
   if (effects) table.columns.emplace_back("With effects");
   for (const char* column : {"x", "y", "z", "Joint angles (°)"}) table.columns.emplace_back(column);
@@ -74,6 +85,14 @@ reports::Table worstTable(const calibration::Calibration& calibration,
     if (effects) row.emplace_back(inMm(error.of(last).norm()));
     for (int k = 0; k < 3; ++k) row.emplace_back(inMm(error.of(last)[k]));
     row.emplace_back("", anglesOf(posture.q));
+    std::vector<reports::DataCell> cells{calibration.day.pose_ids[static_cast<std::size_t>(posture.pose)],
+                                         calibration.day.targets[static_cast<std::size_t>(error.target)]};
+    for (const CalibratedModel model : {CalibratedModel::nominal, CalibratedModel::geometry})
+      cells.emplace_back(error.of(model).norm() / io::kMillimetre);
+    cells.push_back(effects ? reports::DataCell(error.of(last).norm() / io::kMillimetre) : reports::DataCell());
+    for (const double part : error.of(last)) cells.emplace_back(part / io::kMillimetre);
+    for (const double q : posture.q) cells.emplace_back(q / io::kDegree);
+    data.rows.push_back(std::move(cells));
     table.groups.front().rows.push_back(std::move(row));
   }
   return table;

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <cmath>
 
+#include "reports/csv/posture_csv.h"
 #include "reports/page/html.h"
 #include "reports/page/sections.h"
 #include "reports/words/names.h"
@@ -30,12 +31,39 @@ reports::Row shareRow(const reports::ReportContent& content, const reports::Repo
   return row;
 }
 
+std::vector<reports::DataCell> shareData(const reports::ReportContent& content, const reports::ReportCampaign& campaign,
+                                         identification::Method method, bool at_wrist) {
+  const identification::MethodResult& one = campaign.identification.of(method);
+  const identification::Compensation& compensation = *reports::compensationAt(one, at_wrist);
+  std::vector<reports::DataCell> row{std::string(at_wrist ? "P_wrist" : "reflectors"),
+                                     std::string(reports::namesOf(method).key), 100.0 * compensation.all_postures};
+  if (one.subsets.compliances.empty()) {
+    row.resize(row.size() + 3);
+  } else {
+    for (const double share : {compensation.subsets.used, compensation.subsets.held_out, compensation.subsets.all})
+      row.emplace_back(100.0 * share);
+  }
+  const bool paper =
+      content.compare_with_paper && at_wrist && campaign.campaign.double_encoder == campaign::DoubleEncoder::active;
+  row.push_back(paper ? reports::DataCell(100.0 * reports::kPaperCompensated[static_cast<std::size_t>(method)])
+                      : reports::DataCell());
+  return row;
+}
+
 reports::Table shareTable(const reports::ReportContent& content, const reports::ReportCampaign& one) {
   reports::Table table{
       "Share of the deflection compensated",
       {"At", "Method", "All postures: fitted and judged", "Subsets: used", "Subsets: held out", "Subsets: all"},
       {}};
   table.id = "compensation";
+  reports::DataTable& data = table.data.emplace();
+  data.columns = {"at",
+                  "method",
+                  "all_postures_percent",
+                  "subsets_used_percent",
+                  "subsets_held_out_percent",
+                  "subsets_all_percent",
+                  "paper_all_percent"};
   if (content.compare_with_paper) table.columns.emplace_back("Paper: all");
   for (const bool at_wrist : {true, false}) {
     reports::RowGroup group{at_wrist ? "P_{wrist}" : "Reflectors", {}};
@@ -43,6 +71,7 @@ reports::Table shareTable(const reports::ReportContent& content, const reports::
       const identification::MethodResult& result = one.identification.of(method);
       if (result.available && reports::compensationAt(result, at_wrist)) {
         group.rows.push_back(shareRow(content, one, method, at_wrist));
+        data.rows.push_back(shareData(content, one, method, at_wrist));
       }
     }
     table.groups.push_back(std::move(group));
@@ -56,17 +85,24 @@ reports::Table heldOutTable(const identification::Identification& result) {
                        {"Method", "At the reflectors", "sd at the reflectors", "At P_{wrist}", "sd at P_{wrist}"},
                        {{}}};
   table.id = "held-out";
+  reports::DataTable& data = table.data.emplace();
+  data.columns = {"method", "at_reflectors_percent", "sd_at_reflectors_percent", "at_wrist_percent",
+                  "sd_at_wrist_percent"};
   for (const identification::Method method : identification::kMethods) {
     const identification::MethodResult& one = result.of(method);
     if (!one.available || one.subsets.compliances.empty()) continue;
     reports::Row row{reports::shortName(method)};
+    std::vector<reports::DataCell> cells{std::string(reports::namesOf(method).key)};
     for (const bool at_wrist : {false, true}) {
       const auto& share = reports::compensationAt(one, at_wrist);
       row.emplace_back(share ? reports::fixed(100.0 * share->subsets.held_out, 2) : "–");
       row.emplace_back(share && std::isfinite(share->held_out_sd) ? reports::fixed(100.0 * share->held_out_sd, 2)
                                                                   : "–");
+      cells.push_back(share ? reports::DataCell(100.0 * share->subsets.held_out) : reports::DataCell());
+      cells.push_back(share ? reports::DataCell(100.0 * share->held_out_sd) : reports::DataCell());
     }
     table.groups.front().rows.push_back(std::move(row));
+    data.rows.push_back(std::move(cells));
   }
   return table;
 }
@@ -105,12 +141,24 @@ reports::Table takenTable(const reports::AvoidedByEncoders& avoided) {
                         "Of the deflection at the reflectors, %", "p (Holm)"},
                        {{}}};
   table.id = "taken-away";
+  reports::DataTable& data = table.data.emplace();
+  data.columns = {"joint",
+                  "compliance_rad_per_nm",
+                  "u_rad_per_nm",
+                  "share_percent",
+                  "u_share_percent",
+                  "deflection_at_reflectors_percent",
+                  "u_deflection_at_reflectors_percent",
+                  "p_value_holm"};
   for (std::size_t j = 0; j < 6; ++j) {
     const comparison::JointChange& joint = avoided.by_joint.joints[j];
     if (!joint.comparable) continue;
     const comparison::Uncertain gone{-joint.difference.value, joint.difference.sd, joint.difference.dof};
     table.groups.front().rows.push_back({fmt::format("1/{}", reports::jointName(static_cast<int>(j))), withU(gone, 1e9),
                                          withU(joint.taken, 100.0), withU(joint.avoided, 100.0), pWords(joint.p_holm)});
+    data.rows.push_back({static_cast<double>(j + 1), gone.value, gone.expanded(), 100.0 * joint.taken.value,
+                         100.0 * joint.taken.expanded(), 100.0 * joint.avoided.value, 100.0 * joint.avoided.expanded(),
+                         joint.p_holm});
   }
   return table;
 }
@@ -175,6 +223,7 @@ void writeCompensation(Html& html, const reports::ReportContent& content) {
     if (const reports::Table held_out = heldOutTable(one.identification); !held_out.groups.front().rows.empty())
       writeTable(html, held_out);
     writeTable(html, shareTable(content, one));
+    html.keepTable("postures", reports::csvTable(reports::postureTable(one)));
     if (one.identification.wrist_displacement.empty()) {
       html.paragraph("P_{wrist} is not measured in the load states: shares are given at the reflectors.");
     }

@@ -124,6 +124,9 @@ reports::Table linkTable(const frames::Frames& frames, Notes& notes) {
       {"Axes", "Distance (mm)", "Nominal (mm)", "Difference (mm)", "Angle (°)", "Nominal (°)", "Difference (°)"},
       {{}}};
   table.id = "links";
+  reports::DataTable& data = table.data.emplace();
+  data.columns = {"Axes",      "Distance (mm)",  "± of Distance (mm)", "Nominal (mm)",   "Difference (mm)",
+                  "Angle (°)", "± of Angle (°)", "Nominal (°)",        "Difference (°)", "near_parallel"};
   for (std::size_t i = 0; i < frames.links.size(); ++i) {
     const frames::LinkGeometry& link = frames.links[i];
     reports::Row row{reports::Cell(
@@ -132,7 +135,13 @@ reports::Table linkTable(const frames::Frames& frames, Notes& notes) {
                                         "first axis, at the foot on it of the common perpendicular with the axis "
                                         "before (Hayati).")
                            : "")};
+    std::vector<reports::DataCell> cells{fmt::format("{} and {}", i + 1, i + 2)};
     const auto add = [&](double value, const std::optional<double>& sd, double nominal, double unit) {
+      const auto cell = [&](double number) { return sd ? reports::DataCell(number / unit) : reports::DataCell(); };
+      cells.push_back(cell(value));
+      cells.push_back(cell(sd ? reports::expanded(*sd) : 0.0));
+      cells.emplace_back(nominal / unit);
+      cells.push_back(cell(value - nominal));
       row.emplace_back(sd ? reports::withUncertainty(value / unit, reports::expanded(*sd) / unit) : "not measured");
       row.emplace_back(reports::fixed(nominal / unit, 3));
       row.emplace_back(sd ? reports::fixed((value - nominal) / unit, 3) : "–");
@@ -140,6 +149,8 @@ reports::Table linkTable(const frames::Frames& frames, Notes& notes) {
     add(link.distance, link.distance_sd, link.nominal_distance, io::kMillimetre);
     add(link.angle, link.angle_sd, link.nominal_angle, io::kDegree);
     table.groups.front().rows.push_back(std::move(row));
+    cells.emplace_back(link.near_parallel ? 1.0 : 0.0);
+    data.rows.push_back(std::move(cells));
   }
   return table;
 }
@@ -147,6 +158,12 @@ reports::Table linkTable(const frames::Frames& frames, Notes& notes) {
 reports::Table axisTable(const frames::Frames& frames) {
   reports::Table table{"Circle-point: the sweeps of each axis", {"Axis", "Arc (°)", "Circles", "rms (µm)"}, {{}}};
   table.id = "axes";
+  // In the file besides: where the axes run, in R0 with all joints at zero.
+  reports::DataTable& data = table.data.emplace();
+  data.columns = {"Axis", "Arc (°)", "Circles", "rms (µm)"};
+  for (const char* column : {"point_x_mm", "point_y_mm", "point_z_mm", "direction_x", "direction_y", "direction_z",
+                             "sd_point_um", "sd_direction_deg"})
+    data.columns.emplace_back(column);
   for (std::size_t i = 0; i < frames.axes.size(); ++i) {
     const frames::MeasuredAxis& axis = frames.axes[i];
     if (!axis.measured) continue;
@@ -155,6 +172,15 @@ reports::Table axisTable(const frames::Frames& frames) {
     table.groups.front().rows.push_back({std::to_string(i + 1), reports::fixed(arc / io::kDegree, 0),
                                          std::to_string(axis.fit.circles.size()),
                                          reports::fixed(axis.fit.rms / io::kMicrometre, 1)});
+    data.rows.push_back({static_cast<double>(i + 1), arc / io::kDegree, static_cast<double>(axis.fit.circles.size()),
+                         axis.fit.rms / io::kMicrometre});
+    const metrology::Line& line = frames.arm.arm.axes_in_base_at_zero[i];
+    std::vector<reports::DataCell>& row = data.rows.back();
+    for (const double part : line.point) row.emplace_back(part / io::kMillimetre);
+    for (const double part : line.direction) row.emplace_back(part);
+    const reports::AxisSd sd = reports::sdAcross(axis);
+    row.emplace_back(sd.point / io::kMicrometre);
+    row.emplace_back(sd.direction / io::kDegree);
   }
   return table;
 }

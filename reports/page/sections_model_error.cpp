@@ -113,6 +113,9 @@ reports::Table stiffnessTable(const diagnosis::Diagnosis& diagnosis) {
       {},
       false,
       "diagnosis-stiffness"};
+  reports::DataTable& data = table.data.emplace();
+  data.columns = {"joint", "alone_nm_per_rad", "with_effects_nm_per_rad",
+                  stated ? "u_expanded_nm_per_rad" : "u_standard_nm_per_rad"};
   reports::RowGroup group;
   for (int j = 0; j < 6; ++j) {
     if (!diagnosis.identifiable[static_cast<std::size_t>(j)]) continue;
@@ -120,6 +123,7 @@ reports::Table stiffnessTable(const diagnosis::Diagnosis& diagnosis) {
     group.rows.push_back({reports::jointName(j),
                           reports::toPlaceOf(kPerMega * diagnosis.stiffness_before[j], plus_minus),
                           reports::withUncertainty(kPerMega * diagnosis.stiffness_after[j], plus_minus)});
+    data.rows.push_back({j + 1.0, diagnosis.stiffness_before[j], diagnosis.stiffness_after[j], plus_minus / kPerMega});
   }
   table.groups.push_back(std::move(group));
   return table;
@@ -168,7 +172,7 @@ namespace {
 reports::Table parametersTable(const extended_model::EffectFit& effects) {
   reports::Table table = effectParametersTable("Effects in the model, fitted jointly with the stiffnesses");
   for (const extended_model::AddedEffect& one : effects.added)
-    table.groups.push_back(parameterGroup(reports::effectName(one.effect), one.parameters));
+    addParameters(reports::effectName(one.effect), one.parameters, table);
   return table;
 }
 
@@ -186,12 +190,24 @@ reports::Table stiffnessWithEffectsTable(const extended_model::ExtendedModel& mo
   reports::Table table{
       "Stiffness k ± U without and with the effects, 10⁶\u00a0Nm/rad", {"Joint", "Method", "Without", "With"}, {}};
   table.id = "effects-stiffness";
+  reports::DataTable& data = table.data.emplace();
+  data.columns = {"joint",           "method",           "without_nm_per_rad", "u_without_nm_per_rad",
+                  "with_nm_per_rad", "u_with_nm_per_rad"};
   for (int joint = 0; joint < 6; ++joint) {
     reports::RowGroup group{reports::jointName(joint), {}};
     for (const identification::Method method : identification::kMethods) {
       const identification::MethodResult &without = model.without.of(method), &with = model.with.of(method);
-      if (seen(without, joint) || seen(with, joint))
+      if (seen(without, joint) || seen(with, joint)) {
         group.rows.push_back({reports::shortName(method), stiffnessOf(without, joint), stiffnessOf(with, joint)});
+        std::vector<reports::DataCell>& row = data.rows.emplace_back();
+        row = {joint + 1.0, std::string(reports::namesOf(method).key)};
+        for (const identification::MethodResult* one : {&without, &with}) {
+          const bool there = seen(*one, joint);
+          row.push_back(there ? reports::DataCell(one->estimate.stiffness(joint)) : reports::DataCell());
+          row.push_back(there ? reports::DataCell(identification::expandedUncertainty(one->estimate, joint))
+                              : reports::DataCell());
+        }
+      }
     }
     if (!group.rows.empty()) table.groups.push_back(std::move(group));
   }
@@ -204,6 +220,18 @@ reports::Table residualTable(const extended_model::ExtendedModel& model) {
                         "with, held out", "At P_{wrist} without, held out", "At P_{wrist} with, held out"},
                        {{}}};
   table.id = "effects-residuals";
+  reports::DataTable& data = table.data.emplace();
+  data.columns = {"method",
+                  "rms_without_um",
+                  "rms_with_um",
+                  "held_out_at_reflectors_without_percent",
+                  "held_out_at_reflectors_with_percent",
+                  "held_out_at_wrist_without_percent",
+                  "held_out_at_wrist_with_percent"};
+  const auto cell = [](const identification::MethodResult& method, bool at_wrist) {
+    const auto held_out = reports::heldOut(method, at_wrist);
+    return held_out ? reports::DataCell(100.0 * *held_out) : reports::DataCell();
+  };
   const auto share = [](const identification::MethodResult& method, bool at_wrist) {
     const auto held_out = reports::heldOut(method, at_wrist);
     return held_out ? reports::percent(*held_out) : std::string("–");
@@ -215,6 +243,9 @@ reports::Table residualTable(const extended_model::ExtendedModel& model) {
         {reports::longName(method), reports::fixed(without.estimate.rms_residual / io::kMicrometre, 1),
          reports::fixed(with.estimate.rms_residual / io::kMicrometre, 1), share(without, false), share(with, false),
          share(without, true), share(with, true)});
+    data.rows.push_back({std::string(reports::namesOf(method).key), without.estimate.rms_residual / io::kMicrometre,
+                         with.estimate.rms_residual / io::kMicrometre, cell(without, false), cell(with, false),
+                         cell(without, true), cell(with, true)});
   }
   return table;
 }
@@ -228,11 +259,15 @@ reports::Table budgetTable(const extended_model::ExtendedModel& model) {
       {"Source"},
       {{}}};
   table.id = "budget";
+  reports::DataTable& data = table.data.emplace();
+  data.columns = {"source", "shown_on_page"};
+  for (int j = 0; j < 6; ++j) data.columns.push_back(fmt::format("u_k{}_percent", j + 1));
   for (int j = 0; j < 6; ++j) {
     if (estimate.identifiable[static_cast<std::size_t>(j)]) table.columns.push_back(reports::jointName(j));
   }
   const auto add = [&](const std::string& name, const Vector6d& variance, bool always) {
     reports::Row row{name};
+    std::vector<reports::DataCell> cells(6);
     constexpr double kShown = 0.05 * 0.05;  // a twentieth of the whole
     bool shown = always;
     for (int j = 0; j < 6; ++j) {
@@ -240,8 +275,11 @@ reports::Table budgetTable(const extended_model::ExtendedModel& model) {
       shown = shown || std::abs(variance[j]) > kShown * estimate.covariance(j, j);
       const double share = 100.0 * std::sqrt(std::abs(variance[j])) / std::abs(estimate.compliance[j]);
       row.emplace_back(reports::fixed(variance[j] < 0.0 ? -share : share, 2));
+      cells[static_cast<std::size_t>(j)] = variance[j] < 0.0 ? -share : share;
     }
     if (shown) table.groups.front().rows.push_back(std::move(row));
+    cells.insert(cells.begin(), {name, shown ? 1.0 : 0.0});
+    data.rows.push_back(std::move(cells));
   };
   for (const extended_model::BudgetLine& line : model.hidden->budget[static_cast<std::size_t>(which)])
     add(reports::budgetWords(line), line.variance, line.in_model);

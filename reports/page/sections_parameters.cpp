@@ -41,15 +41,37 @@ reports::Table axesTable(const calibration::Calibration& calibration) {
       {{}},
       false,
       "calibrated-axes"};
+  reports::DataTable& data = table.data.emplace();
+  data.columns = {"axis",
+                  "u_x",
+                  "u_y",
+                  "u_z",
+                  "v_x",
+                  "v_y",
+                  "v_z",
+                  "moved_u_mm",
+                  "sd_moved_u_mm",
+                  "moved_v_mm",
+                  "sd_moved_v_mm",
+                  "tilted_u_mdeg",
+                  "sd_tilted_u_mdeg",
+                  "tilted_v_mdeg",
+                  "sd_tilted_v_mdeg"};
   for (int j = 0; j < 6; ++j) {
     const metrology::MeasuredLine& start = fit.start[static_cast<std::size_t>(j)];
     reports::Row row{fmt::format("{}", j + 1), directionWords(start.across_u), directionWords(start.across_v)};
+    std::vector<reports::DataCell> cells{j + 1.0};
+    for (const Eigen::Vector3d& across : {start.across_u, start.across_v})
+      for (const double part : across) cells.emplace_back(part);
     for (int k = 0; k < 4; ++k) {
       const int at = 4 * j + k;
       const double unit = k < 2 ? io::kMillimetre : kMillidegree, sd = fit.sd(at);
       row.emplace_back(sd > 0.0 ? reports::withUncertainty(fit.steps[at] / unit, sd / unit) : "–");
+      cells.push_back(sd > 0.0 ? reports::DataCell(fit.steps[at] / unit) : reports::DataCell());
+      cells.push_back(sd > 0.0 ? reports::DataCell(sd / unit) : reports::DataCell());
     }
     table.groups.front().rows.push_back(std::move(row));
+    data.rows.push_back(std::move(cells));
   }
   return table;
 }
@@ -64,6 +86,17 @@ reports::Table linksTable(const calibration::Calibration& calibration) {
                        {{}},
                        false,
                        "denavit-hartenberg"};
+  reports::DataTable& data = table.data.emplace();
+  data.columns = {"axis_from", "axis_to",        "theta_deg", "d_mm",      "a_mm",           "alpha_deg",
+                  "beta_deg",  "urdf_theta_deg", "urdf_d_mm", "urdf_a_mm", "urdf_alpha_deg", "urdf_beta_deg"};
+  // Of nearly parallel axes there is no d but Hayati's beta.
+  const auto addCells = [](const calibration::LinkParameters& link, bool hayati, std::vector<reports::DataCell>& row) {
+    row.emplace_back(link.theta / io::kDegree);
+    row.push_back(hayati ? reports::DataCell() : reports::DataCell(link.d / io::kMillimetre));
+    row.emplace_back(link.a / io::kMillimetre);
+    row.emplace_back(link.alpha / io::kDegree);
+    row.push_back(hayati ? reports::DataCell(link.beta / io::kDegree) : reports::DataCell());
+  };
   const auto both = [](double value, double urdf) {
     constexpr int kPlaces = 4, kOfUrdf = 3;
     return reports::Cell(reports::fixed(reports::unsignedZero(value, kPlaces), kPlaces),
@@ -71,6 +104,10 @@ reports::Table linksTable(const calibration::Calibration& calibration) {
   };
   for (std::size_t i = 0; i < now.links.size(); ++i) {
     const calibration::LinkParameters &link = now.links[i], &as_built = built.links[i];
+    std::vector<reports::DataCell>& cells = data.rows.emplace_back();
+    cells = {static_cast<double>(i + 1), static_cast<double>(i + 2)};
+    addCells(link, link.hayati, cells);
+    addCells(as_built, link.hayati, cells);
     table.groups.front().rows.push_back(
         {reports::Cell(fmt::format("{} and {}", i + 1, i + 2), link.hayati ? "β: Hayati" : ""),
          both(link.theta / io::kDegree, as_built.theta / io::kDegree),
@@ -100,14 +137,34 @@ reports::Table placesTable(const calibration::Calibration& calibration) {
                        {{}},
                        false,
                        "places"};
+  reports::DataTable& data = table.data.emplace();
+  data.columns = {"what",       "name",          "x_mm",          "y_mm",         "z_mm",
+                  "sd_x_mm",    "sd_y_mm",       "sd_z_mm",       "turn_x_deg",   "turn_y_deg",
+                  "turn_z_deg", "sd_turn_x_deg", "sd_turn_y_deg", "sd_turn_z_deg"};
+  const auto addData = [&data](const std::string& what, const std::string& name,
+                               const calibration::UncertainPoint& place, const calibration::UncertainPoint* turn) {
+    std::vector<reports::DataCell> row{what, name};
+    const auto add = [&row](const calibration::UncertainPoint* point, double unit) {
+      for (int k = 0; k < 3; ++k)
+        row.push_back(point ? reports::DataCell(point->value[k] / unit) : reports::DataCell());
+      for (int k = 0; k < 3; ++k)
+        row.push_back(point && point->sd[k] > 0.0 ? reports::DataCell(point->sd[k] / unit) : reports::DataCell());
+    };
+    add(&place, io::kMillimetre);
+    add(turn, io::kDegree);
+    data.rows.push_back(std::move(row));
+  };
+  const calibration::UncertainPoint turn = calibration::turnOfStation(fit);
+  addData("tracker_in_base_link", "", calibration::stationInBase(calibration.day, fit), &turn);
   reports::RowGroup& group = table.groups.front();
   group.rows.push_back(
       pointRow("Tracker in base_link (mm)", calibration::stationInBase(calibration.day, fit), io::kMillimetre));
-  group.rows.push_back(pointRow("Turn of its axes, rotation vector (°)", calibration::turnOfStation(fit), io::kDegree));
+  group.rows.push_back(pointRow("Turn of its axes, rotation vector (°)", turn, io::kDegree));
   const std::vector<calibration::UncertainPoint> targets = calibration::targetsInFlange(calibration.day, fit);
   for (std::size_t t = 0; t < targets.size(); ++t) {
     group.rows.push_back(pointRow(fmt::format("{} in the flange (mm)", reports::pointName(calibration.day.targets[t])),
                                   targets[t], io::kMillimetre));
+    addData("reflector_in_flange", calibration.day.targets[t], targets[t], nullptr);
   }
   return table;
 }
@@ -119,13 +176,17 @@ reports::Table stiffnessTable(const calibration::Calibration& calibration) {
                        {{}},
                        false,
                        "own-weight-stiffness"};
+  reports::DataTable& data = table.data.emplace();
+  data.columns = {"joint", "stiffness_nm_per_rad", "sd_nm_per_rad"};
   if (!calibration.day.masses_known) return table;
   const std::vector<reports::JointStiffness> joints = reports::stiffnessOf(calibration.best().fit);
   for (std::size_t j = 0; j < joints.size(); ++j) {
-    if (joints[j].value > 0.0)
+    if (joints[j].value > 0.0) {
+      data.rows.push_back({static_cast<double>(j + 1), joints[j].value, joints[j].sd});
       table.groups.front().rows.push_back(
           {reports::jointName(static_cast<int>(j)),
            reports::withUncertainty(joints[j].value / reports::kMega, joints[j].sd / reports::kMega)});
+    }
   }
   return table;
 }

@@ -5,6 +5,7 @@
 
 #include "core/audit/remarks.h"
 #include "core/preparation/finding.h"
+#include "reports/json/json.h"
 #include "reports/page/html.h"
 #include "reports/page/sections.h"
 #include "reports/words/audit_figures.h"
@@ -50,6 +51,24 @@ reports::Row findingRow(const preparation::AuditCheck& check) {
                         source.empty() ? "" : fmt::format("Limit: {}.", source))};
 }
 
+/// A row a check, by its id.
+reports::DataTable checksData(const audit::AuditReport& report,
+                              const std::vector<preparation::AuditVerdict>& verdicts) {
+  reports::DataTable data{{"check", "verdict", "value", "limit", "unit", "where", "message", "limit_by"}, {}};
+  for (const preparation::AuditVerdict verdict : verdicts) {
+    for (const preparation::AuditCheck& check : report.checks) {
+      if (check.verdict != verdict) continue;
+      const reports::AuditFigures figures = reports::figuresOf(check);
+      data.rows.push_back({std::string(check.id), std::string(reports::nameOf(check.verdict)),
+                           figures.value ? reports::DataCell(*figures.value) : reports::DataCell(),
+                           figures.limit ? reports::DataCell(*figures.limit) : reports::DataCell(), figures.unit,
+                           reports::words(check.where), reports::words(check.message),
+                           reports::words(check.limit_source)});
+    }
+  }
+  return data;
+}
+
 /// Worst first: a reader looks for what is wrong.
 reports::Table findingsTable(const audit::AuditReport& report) {
   reports::Table table{"Findings",
@@ -57,6 +76,7 @@ reports::Table findingsTable(const audit::AuditReport& report) {
                        {},
                        true,
                        "audit-findings"};
+  table.data = checksData(report, {preparation::AuditVerdict::fail, preparation::AuditVerdict::warn});
   for (const preparation::AuditVerdict verdict : {preparation::AuditVerdict::fail, preparation::AuditVerdict::warn}) {
     reports::RowGroup group;
     for (const preparation::AuditCheck& check : report.checks) {
@@ -81,6 +101,7 @@ std::string rangeOf(const std::vector<const preparation::AuditCheck*>& same) {
 /// What passes, in a line each; checks of one name with one limit share it.
 reports::Table passedTable(const audit::AuditReport& report) {
   reports::Table table{"Checks that pass", {"Check", "Found", "Limit", "Limit by"}, {{}}, true, "audit-passed"};
+  table.data = checksData(report, {preparation::AuditVerdict::pass});
   std::vector<std::vector<const preparation::AuditCheck*>> lines;
   for (const preparation::AuditCheck& check : report.checks) {
     if (check.verdict != preparation::AuditVerdict::pass) continue;

@@ -46,9 +46,36 @@ reports::Cell stiffnessCell(const identification::Identification& result, identi
                       : reports::Cell(value, fmt::format("{} {}", reports::words(mark), notes.mark(markNote(mark))));
 }
 
+/// A row a joint and method; what is not identifiable has no numbers but its reason.
+reports::DataTable stiffnessData(const identification::Identification& result) {
+  reports::DataTable data{{"joint", "method", "identifiable", "stiffness_nm_per_rad", "u_nm_per_rad", "low_nm_per_rad",
+                           "high_nm_per_rad", "mark", "reason"},
+                          {}};
+  for (int joint = 0; joint < 6; ++joint) {
+    for (const identification::Method method : identification::kMethods) {
+      const identification::MethodResult& one = result.of(method);
+      const bool there = one.available && one.estimate.identifiable[static_cast<std::size_t>(joint)];
+      std::vector<reports::DataCell> row{joint + 1.0, std::string(reports::namesOf(method).key), there ? 1.0 : 0.0};
+      if (there) {
+        const identification::CoverageInterval interval = identification::stiffnessInterval(one.estimate, joint);
+        row.insert(row.end(), {one.estimate.stiffness(joint), identification::expandedUncertainty(one.estimate, joint),
+                               interval.low, interval.high, reports::words(one.estimate.mark(joint)), std::string()});
+      } else {
+        row.resize(row.size() + 5);
+        row.emplace_back(one.available
+                             ? reports::words(result.identifiability.joints[static_cast<std::size_t>(joint)].reason)
+                             : reports::words(one.reason));
+      }
+      data.rows.push_back(std::move(row));
+    }
+  }
+  return data;
+}
+
 reports::Table stiffnessTable(const identification::Identification& result, Notes& notes) {
   reports::Table table{"Joint stiffness k ± U, 10⁶\u00a0Nm/rad, from all postures", {"Joint"}, {{}}};
   table.id = "stiffness";
+  table.data = stiffnessData(result);
   for (const identification::Method method : identification::kMethods)
     table.columns.push_back(reports::longName(method));
   for (int joint = 0; joint < 6; ++joint) {
@@ -64,6 +91,8 @@ reports::Table stiffnessTable(const identification::Identification& result, Note
 reports::Table complianceTable(const identification::Identification& result) {
   reports::Table table{"Joint compliance c ± U, 10⁻⁹\u00a0rad/Nm", {"Joint"}, {{}}};
   table.id = "compliance";
+  reports::DataTable& data = table.data.emplace();
+  data.columns = {"joint", "method", "compliance_rad_per_nm", "u_rad_per_nm", "low_rad_per_nm", "high_rad_per_nm"};
   for (const identification::Method method : identification::kMethods) {
     if (result.of(method).available) table.columns.push_back(reports::longName(method));
   }
@@ -75,7 +104,10 @@ reports::Table complianceTable(const identification::Identification& result) {
       if (!result.of(method).available) continue;
       const identification::CoverageInterval interval = identification::complianceInterval(estimate, joint);
       const double c = estimate.compliance[joint];
-      row.emplace_back(reports::withUncertainty(1e9 * c, 1e9 * std::max(interval.high - c, c - interval.low)));
+      const double expanded = std::max(interval.high - c, c - interval.low);
+      row.emplace_back(reports::withUncertainty(1e9 * c, 1e9 * expanded));
+      data.rows.push_back(
+          {joint + 1.0, std::string(reports::namesOf(method).key), c, expanded, interval.low, interval.high});
     }
     table.groups.front().rows.push_back(std::move(row));
   }
@@ -104,6 +136,12 @@ reports::Table lengthTable(const identification::Identification& result) {
       {"L (m)", "Condition"},
       {{}}};
   table.id = "characteristic-length";
+  reports::DataTable& data = table.data.emplace();
+  data.columns = {"length_m", "jacobian_condition"};
+  for (int joint = 0; joint < 6; ++joint) data.columns.push_back(fmt::format("k{}_nm_per_rad", joint + 1));
+  for (const char* column : {"held_out_at_wrist_percent", "sd_at_wrist_percent", "held_out_at_reflectors_percent",
+                             "sd_at_reflectors_percent", "chosen_by"})
+    data.columns.emplace_back(column);
   const identification::MethodResult& own = result.of(identification::Method::complete_pose);
   const auto& seen = result.of(identification::Method::complete_pose).estimate.identifiable;
   for (int joint = 0; joint < 6; ++joint) {
@@ -122,6 +160,17 @@ reports::Table lengthTable(const identification::Identification& result) {
     }
     for (const auto& cell : {share(at.at_wrist), share(at.at_targets), std::string(chosen_by)}) row.emplace_back(cell);
     table.groups.front().rows.push_back(std::move(row));
+    std::vector<reports::DataCell> cells{at.length, at.condition};
+    for (int joint = 0; joint < 6; ++joint)
+      cells.push_back(seen[static_cast<std::size_t>(joint)] ? reports::DataCell(1.0 / at.compliance[joint])
+                                                            : reports::DataCell());
+    for (const auto& judged : {at.at_wrist, at.at_targets}) {
+      const bool there = judged && std::isfinite(judged->held_out_sd);
+      cells.push_back(there ? reports::DataCell(100.0 * judged->subsets.held_out) : reports::DataCell());
+      cells.push_back(there ? reports::DataCell(100.0 * judged->held_out_sd) : reports::DataCell());
+    }
+    cells.emplace_back(std::string(chosen_by));
+    data.rows.push_back(std::move(cells));
   };
   constexpr std::size_t kEvery = 2;  // a dozen rows would say no more
   for (std::size_t i = 0; i < result.length_sensitivity.size(); i += kEvery) add(result.length_sensitivity[i], "");
@@ -252,6 +301,10 @@ reports::Table tableTwo(const reports::ReportContent& content, const reports::Re
                        {"Joint", "Method", "Mean ± sd", "Median", "5 to 95\u00a0%", "Negative"},
                        {}};
   table.id = "subsets";
+  reports::DataTable& data = table.data.emplace();
+  data.columns = {
+      "joint",          "method",          "mean_nm_per_rad",  "sd_nm_per_rad",         "median_nm_per_rad",
+      "low_nm_per_rad", "high_nm_per_rad", "negative_percent", "paper_mean_nm_per_rad", "paper_sd_nm_per_rad"};
   if (content.compare_with_paper) table.columns.emplace_back("Paper, mean & sd");
   for (int joint = 0; joint < 6; ++joint) {
     reports::RowGroup group{reports::jointName(joint), {}};
@@ -259,7 +312,16 @@ reports::Table tableTwo(const reports::ReportContent& content, const reports::Re
       const identification::MethodResult& result = one.identification.of(method);
       const bool there = result.available && result.estimate.identifiable[static_cast<std::size_t>(joint)] &&
                          !result.subsets.compliances.empty();
-      if (there) group.rows.push_back(spreadRow(content, one, method, joint));
+      if (!there) continue;
+      group.rows.push_back(spreadRow(content, one, method, joint));
+      const identification::StiffnessSpread spread = identification::spreadOf(result.subsets, joint);
+      const auto paper = content.compare_with_paper
+                             ? reports::paperStiffness(one.campaign.double_encoder, method, joint)
+                             : std::nullopt;
+      data.rows.push_back({joint + 1.0, std::string(reports::namesOf(method).key), spread.mean, spread.sd,
+                           spread.median, spread.low, spread.high, 100.0 * spread.share_negative,
+                           paper ? reports::DataCell(reports::kMega * paper->mean) : reports::DataCell(),
+                           paper ? reports::DataCell(reports::kMega * paper->sd) : reports::DataCell()});
     }
     table.groups.push_back(std::move(group));
   }

@@ -38,7 +38,7 @@ reports::Table effectsTable(const calibration::ArmFit& fit) {
       ++k;
     }
     if (!parameters.empty() && table.groups.size() < kMostParts)
-      table.groups.push_back(parameterGroup(reports::partName(part), parameters));
+      addParameters(reports::partName(part), parameters, table);
   }
   return table;
 }

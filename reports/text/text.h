@@ -61,6 +61,9 @@ struct PathJob;
 namespace stiffscope::validation {
 struct BlindResult;
 }
+namespace stiffscope::workspace {
+struct WorkspaceStiffness;
+}
 
 namespace stiffscope::reports {
 
@@ -98,8 +101,8 @@ std::string compensationText(const campaign::Campaign& campaign, identification:
                              const std::vector<campaign::KnownStiffness>& known,
                              const std::vector<std::string>& cautions);
 
-/// The result of `compensate --path`: joints, deflection of the tool's tip along the path without and with compensation,
-/// why poses are refused, and what to know.
+/// The result of `compensate --path`: joints, deflection of the tool's tip along the path without and with
+/// compensation, why poses are refused, and what to know.
 std::string pathText(const campaign::Campaign& campaign, identification::Method method, const toolpath::PathJob& job,
                      const toolpath::CompensatedPath& path, const std::vector<campaign::KnownStiffness>& known,
                      const std::vector<std::string>& cautions);
@@ -159,6 +162,10 @@ std::string transmissionText(const identification::Identification& result,
 /// Conditioning, softest and stiffest direction at P_TCP, and what neglecting K_c costs, a line a posture.
 std::string posturesText(const campaign::Campaign& campaign, const identification::Identification& result,
                          identification::Method method);
+
+/// The result of `stiffness` for a terminal: softest and stiffest direction by posture, the slice, the placement, and
+/// what the numbers hold.
+std::string workspaceText(const campaign::Campaign& campaign, const workspace::WorkspaceStiffness& found);
 
 /// The result of `plan` for a terminal.
 std::string planText(const campaign::Campaign& campaign, const planning::Plan& plan);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <numeric>
 
 #include "reports/words/remark_words.h"
@@ -17,6 +18,12 @@ const char* sourceOf(const frames::Frames& frames, std::initializer_list<std::si
       std::count_if(axes.begin(), axes.end(), [&](std::size_t axis) { return frames.axes[axis].measured; }));
   if (measured == axes.size()) return "sweeps";
   return measured == 0 ? "nominal" : "partly nominal";
+}
+
+AxisSd sdAcross(const frames::MeasuredAxis& axis) {
+  const auto& covariance = axis.at_zero.covariance;
+  return {std::sqrt(covariance.topLeftCorner<2, 2>().trace() / 2.0),
+          std::sqrt(covariance.bottomRightCorner<2, 2>().trace() / 2.0)};
 }
 
 std::string sourceMark(const frames::Frames& frames, std::initializer_list<std::size_t> axes) {

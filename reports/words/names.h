@@ -21,6 +21,14 @@ const char* sourceOf(const frames::Frames& frames, std::initializer_list<std::si
 /// The same as a mark behind a value for people: empty for "sweeps", else " (nominal)".
 std::string sourceMark(const frames::Frames& frames, std::initializer_list<std::size_t> axes);
 
+/// Standard uncertainty of a measured axis across itself, one number a kind: the root of the mean of the two variances,
+/// at the fit's own point, all joints at zero.
+struct AxisSd {
+  double point = 0.0;      ///< m
+  double direction = 0.0;  ///< rad
+};
+AxisSd sdAcross(const frames::MeasuredAxis& axis);
+
 /// A method's names: `dpp` as a key, `DPP` in tables, `Decoupled Partial Pose` in words.
 struct MethodNames {
   const char* key;

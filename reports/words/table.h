@@ -1,7 +1,9 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace stiffscope::reports {
@@ -23,13 +25,23 @@ struct RowGroup {
   std::vector<Row> rows;
 };
 
-/// A table as data. Every text is rich.
+/// A cell of a file: nothing, a number, or a plain text. A number that is not finite is nothing.
+using DataCell = std::variant<std::monostate, double, std::string>;
+
+/// What programs read: one quantity a column, the unit in its name ("stiffness_nm_per_rad"), numbers in full.
+struct DataTable {
+  std::vector<std::string> columns;
+  std::vector<std::vector<DataCell>> rows;  ///< each as wide as the columns
+};
+
+/// A table of the page. Every text is rich.
 struct Table {
   std::string caption;
   std::vector<std::string> columns;  ///< headers; one more than a row is wide where groups have headers
   std::vector<RowGroup> groups;
-  bool words = false;   ///< cells hold words, set flush left, not numbers
-  std::string id = {};  ///< of its file beside the page, without ".csv"; empty: by its number
+  bool words = false;                  ///< cells hold words, set flush left, not numbers
+  std::string id = {};                 ///< of its file beside the page, without ".csv"; empty: by its number
+  std::optional<DataTable> data = {};  ///< of its file, where cells for people are more than a number each
 };
 
 }  // namespace stiffscope::reports

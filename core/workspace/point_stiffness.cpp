@@ -1,0 +1,142 @@
+#include "core/workspace/point_stiffness.h"
+
+#include <Eigen/Dense>
+#include <limits>
+
+#include "core/robot/cartesian_stiffness.h"
+#include "core/robot/kinematics.h"
+#include "metrology/linear_algebra.h"
+
+namespace stiffscope::workspace {
+
+namespace {
+
+constexpr double kProbe = 500.0;  // N: a robot's usual load; the model is straight to a thousandth over it
+constexpr double kNoMove = 1e-9;  // m per rad: no joint of an arm in a laboratory moves a point by so little
+
+/// Where P_TCP stands under a force there, R0; empty where the arm does not come to rest.
+std::optional<Eigen::Vector3d> loadedPoint(const effects::RestingFlange& flange, const DeflectingArm& arm,
+                                           const Vector6d& q, const Eigen::Vector3d& force) {
+  const auto resting = flange(q, {arm.tcp_in_flange, force, Eigen::Vector3d::Zero()});
+  return resting ? std::optional<Eigen::Vector3d>(*resting * arm.tcp_in_flange) : std::nullopt;
+}
+
+/// Half the difference of the deflections under a force and its opposite, over the force: one column of the compliance.
+std::optional<Eigen::Vector3d> probed(const effects::RestingFlange& flange, const DeflectingArm& arm, const Vector6d& q,
+                                      const Eigen::Vector3d& direction) {
+  const auto there = loadedPoint(flange, arm, q, kProbe * direction),
+             back = loadedPoint(flange, arm, q, -kProbe * direction);
+  if (!there || !back) return std::nullopt;
+  return (*there - *back) / (2.0 * kProbe);
+}
+
+/// Orthonormal columns at right angles to what the joints move.
+Eigen::Matrix3Xd unmovedBy(const Matrix36d& jacobian, const std::vector<int>& joints) {
+  if (joints.empty()) return Eigen::Matrix3d::Identity();
+  Eigen::Matrix3Xd moved(3, static_cast<Eigen::Index>(joints.size()));
+  for (std::size_t k = 0; k < joints.size(); ++k)
+    moved.col(static_cast<Eigen::Index>(k)) = jacobian.col(joints[k]).normalized();
+  const Eigen::FullPivLU<Eigen::MatrixXd> lu(moved.transpose());
+  if (lu.dimensionOfKernel() == 0) return Eigen::Matrix3Xd(3, 0);
+  const Eigen::MatrixXd kernel = lu.kernel();
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(kernel);
+  return qr.householderQ() * Eigen::MatrixXd::Identity(3, kernel.cols());
+}
+
+/// Displacement of P_TCP by a unit force with a unit of each uncertain parameter of what gives besides joint springs.
+Eigen::MatrixXd byParameters(const DeflectingArm& arm, const Vector6d& q, const Eigen::Vector3d& tcp,
+                             const Eigen::Vector3d& direction, const Eigen::Vector3d& as_it_is) {
+  const compensation::DeflectionDraws& draws = arm.certainty->draws;
+  Eigen::MatrixXd by = Eigen::MatrixXd::Zero(3, draws.parameters.rows());
+  if (by.cols() == 0) return by;
+  if (draws.by) {
+    by = draws.by(q, {arm.tcp_in_flange, direction, Eigen::Vector3d::Zero()}, {tcp});
+  } else if (arm.with != nullptr) {
+    for (std::size_t v = 0; v < arm.with->varied.size(); ++v) {
+      const auto varied = probed(arm.with->varied[v], arm, q, direction);
+      if (varied) by.col(static_cast<Eigen::Index>(v)) = *varied - as_it_is;
+    }
+  }
+  return by;
+}
+
+/// `by`: of the effects' parameters along the direction; no columns: joint springs alone.
+DirectionalCompliance withInterval(const DeflectingArm& arm, const Matrix36d& jacobian,
+                                   const Eigen::Vector3d& direction, double compliance, const Eigen::RowVectorXd& by) {
+  const compensation::DeflectionDraws& draws = arm.certainty->draws;
+  const Vector6d moves = jacobian.transpose() * direction;
+  Eigen::Matrix3Xd errors = Eigen::Matrix3Xd::Zero(3, draws.size());
+  errors.row(0) = moves.cwiseAbs2().transpose() * draws.compliance;
+  if (by.cols() > 0) errors.row(0) += by * draws.parameters;
+  for (std::size_t d = 0; d < draws.springs_alone.size(); ++d) {
+    if (draws.springs_alone[d]) errors(0, static_cast<Eigen::Index>(d)) -= compliance;
+  }
+  const identification::CoverageInterval off = compensation::spreadOf(errors).interval[0];
+  return {direction, compliance, {compliance + off.low, compliance + off.high}};
+}
+
+struct LinearArm {
+  robot::ArmPosture posture;
+  Eigen::Vector3d tcp;
+  Matrix6d jacobian;
+};
+
+LinearArm linearArm(const DeflectingArm& arm, const Vector6d& q) {
+  LinearArm at{robot::postureAt(arm.geometry.arm, arm.geometry.sagged(q)), {}, {}};
+  at.tcp = robot::flangeAt(arm.geometry.arm, at.posture) * arm.tcp_in_flange;
+  at.jacobian = robot::jacobianAt(arm.geometry.arm, at.posture, at.tcp);
+  return at;
+}
+
+}  // namespace
+
+bool hasUsableStiffness(const identification::StiffnessEstimate& estimate, int joint) {
+  return estimate.identifiable[static_cast<std::size_t>(joint)] && estimate.compliance[joint] >= 0.0;
+}
+
+identification::CoverageInterval DirectionalCompliance::stiffnessInterval() const {
+  return identification::stiffnessInterval(interval);
+}
+
+std::optional<PointStiffness> pointStiffness(const DeflectingArm& arm, const Vector6d& q) {
+  const LinearArm at = linearArm(arm, q);
+  PointStiffness place;
+  place.q = q;
+  place.tcp = at.tcp;
+  const Vector6d singular = singularValues(at.jacobian);
+  place.conditioning = singular[5] / singular[0];
+  Vector6d compliance = arm.estimate.compliance;
+  const Matrix36d moves = at.jacobian.topRows<3>();
+  for (int joint = 0; joint < 6; ++joint) {
+    if (hasUsableStiffness(arm.estimate, joint)) continue;
+    compliance[joint] = 0.0;
+    if (moves.col(joint).norm() > kNoMove) place.unknown.push_back(joint);
+  }
+  place.springs = robot::cartesianStiffness(at.tcp, at.jacobian, compliance).compliance.topLeftCorner<3, 3>();
+  place.model = place.springs;
+  if (arm.with != nullptr) {
+    for (int k = 0; k < 3; ++k) {
+      const auto column = probed(arm.with->flange, arm, q, Eigen::Vector3d::Unit(k));
+      if (!column) return std::nullopt;
+      place.model.col(k) = *column;
+    }
+    place.model = 0.5 * (place.model + place.model.transpose()).eval();
+  }
+  const Eigen::Matrix3Xd known = unmovedBy(moves, place.unknown);
+  const compensation::DeflectionDraws& draws = arm.certainty->draws;
+  for (const robot::PrincipalStiffness& one : robot::principalStiffnessWithin(place.springs, known))
+    place.of_springs.push_back(
+        withInterval(arm, moves, one.direction, one.direction.dot(place.springs * one.direction), {}));
+  if (arm.with == nullptr && draws.parameters.rows() == 0) {
+    place.of_model = place.of_springs;
+    return place;
+  }
+  for (const robot::PrincipalStiffness& one : robot::principalStiffnessWithin(place.model, known)) {
+    const Eigen::Vector3d move = place.model * one.direction;
+    const Eigen::RowVectorXd by = one.direction.transpose() * byParameters(arm, q, at.tcp, one.direction, move);
+    place.of_model.push_back(withInterval(arm, moves, one.direction, one.direction.dot(move), by));
+  }
+  return place;
+}
+
+}  // namespace stiffscope::workspace

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "core/workspace/workspace_stiffness.h"
+#include "reports/words/table.h"
+
+namespace stiffscope::reports {
+
+/// A row a posture, then a row a place of the slice: joint angles, P_TCP in R0, and in each the softest, middle and
+/// stiffest direction of K_x and of the whole model with the ends of their intervals. `postures`, `slice`: which of
+/// them.
+DataTable stiffnessPlaces(const workspace::WorkspaceStiffness& found, bool postures, bool slice);
+
+/// A row an offset of the workpiece.
+DataTable placementTable(const workspace::PlacementStudy& study);
+
+}  // namespace stiffscope::reports

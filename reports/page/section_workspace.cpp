@@ -1,0 +1,66 @@
+#include <fmt/format.h>
+#include <cmath>
+
+#include "core/io/units.h"
+#include "reports/csv/workspace_csv.h"
+#include "reports/page/html.h"
+#include "reports/page/sections.h"
+#include "reports/words/names.h"
+#include "reports/words/numbers.h"
+#include "reports/words/workspace_words.h"
+
+namespace stiffscope::page {
+
+namespace {
+
+/// "2.31 (2.20 to 2.44)", N/µm.
+std::string principalCell(const std::vector<workspace::DirectionalCompliance>& found, bool softest) {
+  if (found.empty() || (!softest && found.size() < 2)) return "–";
+  const workspace::DirectionalCompliance& one = softest ? found.front() : found.back();
+  const identification::CoverageInterval interval = one.stiffnessInterval();
+  const auto number = [](double stiffness) { return reports::significant(stiffness * io::kMicrometre, 3); };
+  return fmt::format("{} ({} to {})", number(one.stiffness()), number(interval.low),
+                     std::isfinite(interval.high) ? number(interval.high) : "open");
+}
+
+std::string directionCell(const std::vector<workspace::DirectionalCompliance>& found) {
+  if (found.empty()) return "–";
+  const Eigen::Vector3d& d = found.front().direction;
+  return fmt::format("{}, {}, {}", reports::fixed(d.x(), 2), reports::fixed(d.y(), 2), reports::fixed(d.z(), 2));
+}
+
+reports::Table placesTable(const workspace::WorkspaceStiffness& found) {
+  reports::Table table{"Stiffness at P_{TCP} in the postures, N/µm (95\u00a0% interval)",
+                       {"Posture", "Softest", "in direction (R_{0})", "Stiffest", "K_{x} alone, softest"},
+                       {{}}};
+  table.id = "posture-stiffness";
+  constexpr bool kPostures = true, kSlice = true;
+  table.data = reports::stiffnessPlaces(found, kPostures, !kSlice);
+  for (const workspace::PointStiffness& one : found.postures)
+    table.groups.front().rows.push_back(
+        {reports::asIs(one.pose), principalCell(one.of_model, true), directionCell(one.of_model),
+         principalCell(one.of_model, false),
+         one.of_springs.empty() ? "–" : reports::significant(one.of_springs.front().stiffness() * io::kMicrometre, 3)});
+  return table;
+}
+
+}  // namespace
+
+bool hasWorkspace(const reports::ReportCampaign& one) { return one.workspace != nullptr; }
+
+void writeWorkspace(Html& html, const reports::ReportContent& content) {
+  writeForEach(html, content, "workspace", "Stiffness over the workspace", hasWorkspace,
+               [&](const reports::ReportCampaign& one) {
+                 const workspace::WorkspaceStiffness& found = *one.workspace;
+                 for (const std::string& note : reports::workspaceNotes(found)) html.paragraph(reports::asIs(note));
+                 writeTable(html, placesTable(found));
+                 constexpr bool kPostures = true, kSlice = true;
+                 html.keepTable("stiffness-slice",
+                                reports::csvTable(reports::stiffnessPlaces(found, !kPostures, kSlice)));
+                 html.paragraph(fmt::format("By {}; the slice is in {}.", reports::longName(found.method),
+                                            reports::asIs(reports::sliceWords(found.slice))),
+                                "faint");
+               });
+}
+
+}  // namespace stiffscope::page

@@ -1,0 +1,144 @@
+"""Every JSON that a command writes is what docs/results.schema.json says, and the schema sees a wrong one.
+
+schema_test.py PROGRAM: validates the recorded results of tests/golden, which the golden tests hold against today's program,
+and what PROGRAM writes now of the commands that have no record. Ends with 77 (skipped) without python3-jsonschema.
+"""
+
+import copy
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+try:
+    import jsonschema
+except ImportError:
+    print("skipped: no python3-jsonschema")
+    sys.exit(77)
+
+SOURCE = pathlib.Path(__file__).resolve().parent.parent
+SCHEMA = json.loads((SOURCE / "docs" / "results.schema.json").read_text(encoding="utf-8"))
+SAMPLES = SOURCE / "samples"
+
+# Of the recorded cases which definition they are of, by the name of the case.
+RECORDED = {
+    "audit": "audit", "frames": "frames", "identify-json": "identify", "diagnose": "diagnose", "compensate": "compensate",
+    "compensate-postures": "compensate", "compensate-with": "compensate", "plan": "plan", "compare": "compare",
+    "report": "report", "stiffness": "stiffness"}
+
+# Commands without a record: definition, words; JSON goes to the file named last.
+LIVE = [
+    ("audit", "audit {samples}/unloaded"),
+    ("frames", "frames {samples}/unloaded"),
+    ("calibrate", "calibrate {samples}/unloaded"),
+    ("diagnose_unloaded", "diagnose {samples}/unloaded"),
+    ("plan_unloaded", "plan --unloaded {samples}/unloaded --postures 12"),
+    ("compare_unloaded", "compare {samples}/unloaded {samples}/unloaded"),
+    ("identify", "identify {samples}/active --springs-only --method pp --step all --bootstrap 20"),
+    ("export_urdf", "export urdf {samples}/unloaded --out {out}/arm.urdf"),
+    ("export_elastic", "export mjcf {samples}/active --springs-only --out {out}/arm.xml"),
+    ("export_dcc", "export dcc {out}/certified --springs-only --out {out}/dcc.xml"),
+    ("stiffness", "stiffness {samples}/active --springs-only --spacing 500 --force 0,0,-1000"),
+    ("import_points", "import points {source}/tests/fuzz/corpus/point_file/sa.txt"),
+    ("import_points", "import points {source}/tests/fuzz/corpus/point_file/leica.csv"),
+]
+
+CERTIFICATE = (
+    '<certificate number="1" country="DE" languages="en" place="laboratory"><laboratory name="L" city="C"/>'
+    '<customer name="K" city="C"/><responsible name="R"/><item serial="S"/></certificate>')
+
+
+def validator(definition):
+    """Of one definition of the schema."""
+    schema = {"$schema": SCHEMA["$schema"], "$ref": "#/$defs/" + definition, "$defs": SCHEMA["$defs"]}
+    return jsonschema.Draft202012Validator(schema)
+
+
+def errors_of(definition, value):
+    """The first few contradictions, each with its place."""
+    found = sorted(validator(definition).iter_errors(value), key=lambda error: list(map(str, error.absolute_path)))
+    return ["{}: {}: {}".format(definition, "/".join(map(str, error.absolute_path)), error.message[:200])
+            for error in found[:5]]
+
+
+def recorded():
+    for file in sorted((SOURCE / "tests" / "golden").rglob("*.json")):
+        case = file.relative_to(SOURCE / "tests" / "golden").parts
+        definition = "fit" if case[0] == "fit" else RECORDED.get(case[1])
+        if definition is None:
+            yield case, None, None
+        else:
+            yield case, definition, json.loads(file.read_text(encoding="utf-8"))
+
+
+def live(program):
+    with tempfile.TemporaryDirectory() as folder:
+        out = pathlib.Path(folder)
+        certified = out / "certified"
+        certified.mkdir()
+        for file in (SAMPLES / "active").iterdir():
+            (certified / file.name).write_bytes(file.read_bytes())
+        xml = (certified / "campaign.xml").read_text(encoding="utf-8")
+        (certified / "campaign.xml").write_text(xml.replace("<tracker", CERTIFICATE + "<tracker", 1), encoding="utf-8")
+        for definition, words in LIVE:
+            words = words.format(samples=SAMPLES, out=out, source=SOURCE).split()
+            ran = subprocess.run([program, *words, "--json", "-"], capture_output=True, check=False)
+            if ran.returncode not in (0, 1):
+                raise AssertionError("{}: {}".format(" ".join(words), ran.stderr.decode()))
+            yield words, definition, json.loads(ran.stdout)
+        for spec in ("active", "unloaded"):
+            folder = out / spec
+            subprocess.run([program, "simulate", str(SAMPLES / (spec + ".xml")), "--out", str(folder)],
+                           capture_output=True, check=True)
+            yield ["simulate", spec], "truth", json.loads((folder / "truth.json").read_text(encoding="utf-8"))
+
+
+def spoilt(value):
+    """The value with a key too many, and with its first number as a text: the schema must see both."""
+    more = copy.deepcopy(value)
+    more["no_such_key"] = 1
+    yield "a key too many", more
+    less = copy.deepcopy(value)
+    less.pop(next(iter(value)))
+    yield "the first key left out", less
+    words = copy.deepcopy(value)
+
+    def change(node):
+        items = node.items() if isinstance(node, dict) else enumerate(node)
+        for key, one in list(items):
+            if isinstance(one, bool):
+                continue
+            if isinstance(one, (int, float)):
+                node[key] = "79.8 %"
+                return True
+            if isinstance(one, (dict, list)) and change(one):
+                return True
+        return False
+
+    if change(words):
+        yield "a number as a text", words
+
+
+def main():
+    jsonschema.Draft202012Validator.check_schema(SCHEMA)
+    failures, count, seen = [], 0, {}
+    for source in (recorded(), live(sys.argv[1])):
+        for case, definition, value in source:
+            if definition is None:
+                failures.append("{}: no definition for it".format("/".join(case)))
+                continue
+            count += 1
+            failures += ["{}: {}".format(" ".join(case), error) for error in errors_of(definition, value)]
+            seen.setdefault(definition, value)
+    for definition, value in seen.items():
+        for what, wrong in spoilt(value):
+            if not errors_of(definition, wrong):
+                failures.append("{}: {} is not seen".format(definition, what))
+    print("\n".join(failures))
+    print("{} results against {} definitions: {} contradictions".format(count, len(seen), len(failures)))
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
