@@ -49,7 +49,7 @@ void addPoints(CLI::App& import, Run& run) {
   command->add_option("--format", arguments->format,
                       "sa, leica, openindy, xyz or columns; without it what the file shows");
   command->add_option("--encoding", arguments->encoding,
-                      "utf-8, utf-16le, utf-16be or cp1252; without it what the file shows");
+                      "utf-8, utf-16le, utf-16be, cp1252 or cp932; without it what the file shows");
   command->add_option("--columns", options.columns, "of format columns: names from left to right, - for one not read");
   command->add_option("--separator", options.separator, "of format columns: a character, tab or blank");
   command->add_flag("--decimal-comma", options.decimal_comma, "numbers have a decimal comma");

@@ -51,7 +51,9 @@ const std::map<std::string, Quantity>& numberColumns() {
       add(std::string("u") + axis, kLengthUnits);
       add(std::string("f") + axis, kForceUnits);
       add(std::string("m") + axis, kMomentUnits);
+      add(std::string("p") + axis, kLengthUnits);
     }
+    for (const char* turn : {"pw", "pp", "pr"}) add(turn, kAngleUnits);
     for (const char kind : {'q', 'c', 'm'}) {
       for (char joint = '1'; joint <= '6'; ++joint) add({kind, joint}, kAngleUnits);
     }

@@ -195,6 +195,7 @@ class DayImport {
     row.q = q;
     row.time_s = timeOf(*readings[state.readings.front()].point);
     row.temperature_c = sample.temperature_c;
+    row.tool_pose = meanToolPose(files_.logs[log].content.samples, state.first, state.last);
     row.line = table->rows.size() + 2;
     if (sample.wrench) row.wrench_in_cell = *sample.wrench;
     if (!files_.loads.empty()) {

@@ -27,6 +27,7 @@ struct JointSample {
   Vector6d figures = Vector6d::Zero();  ///< as the controller states them, rad
   std::optional<Vector6d> wrench;       ///< force (N), moment (Nm), where the table has them
   double temperature_c = campaign::kNotGiven;
+  campaign::StatedPose tool_pose = {};  ///< as the controller states it
   std::size_t line = 0;
 };
 

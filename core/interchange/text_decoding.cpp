@@ -20,10 +20,11 @@ struct EncodingName {
   const char* name;  ///< iconv knows them by the same
 };
 
-constexpr std::array<EncodingName, 4> kEncodings{{{Encoding::utf8, "utf-8"},
+constexpr std::array<EncodingName, 5> kEncodings{{{Encoding::utf8, "utf-8"},
                                                   {Encoding::utf16_le, "utf-16le"},
                                                   {Encoding::utf16_be, "utf-16be"},
-                                                  {Encoding::cp1252, "cp1252"}}};
+                                                  {Encoding::cp1252, "cp1252"},
+                                                  {Encoding::cp932, "cp932"}}};
 
 constexpr std::string_view kUtf8Mark = "\xEF\xBB\xBF", kLittleMark = "\xFF\xFE", kBigMark = "\xFE\xFF";
 
@@ -39,13 +40,18 @@ class Converter {
 
   /// What the bytes stand for; `rest` is what is left of them from the first that stands for nothing.
   std::string converted(std::string_view bytes, std::string_view& rest) const {
-    constexpr std::size_t kMostBytesOfOne = 4;
-    std::string text(bytes.size() * kMostBytesOfOne, '\0');
+    std::string text;
+    std::array<char, 1 << 16> part{};
     char* in = const_cast<char*>(bytes.data());
-    char* out = text.data();
-    std::size_t in_left = bytes.size(), out_left = text.size();
-    ::iconv(handle_, &in, &in_left, &out, &out_left);
-    text.resize(text.size() - out_left);
+    std::size_t in_left = bytes.size();
+    while (in_left > 0) {
+      char* out = part.data();
+      std::size_t out_left = part.size();
+      const std::size_t before = in_left;
+      const bool full = ::iconv(handle_, &in, &in_left, &out, &out_left) == static_cast<std::size_t>(-1) && errno == E2BIG;
+      text.append(part.data(), part.size() - out_left);
+      if (!full || in_left == before) break;
+    }
     rest = bytes.substr(bytes.size() - in_left);
     return text;
   }
@@ -92,12 +98,22 @@ std::optional<Encoding> shownEncoding(std::string_view bytes) {
   return io::findNotUtf8(bytes) == std::string_view::npos ? std::optional(Encoding::utf8) : std::nullopt;
 }
 
+/// Bytes that CP1252 has no character for start characters of CP932, among them its punctuation and most signs.
+bool isJapanese(std::string_view bytes) {
+  constexpr std::string_view kNotWestern = "\x81\x8D\x8F\x90\x9D";
+  if (bytes.find_first_of(kNotWestern) == std::string_view::npos) return false;
+  std::string_view rest;
+  Converter(Encoding::cp932).converted(bytes, rest);
+  return rest.empty();
+}
+
 Encoding encodingOf(const std::string& file, std::string_view bytes, std::optional<Encoding> wanted) {
   const std::optional<Encoding> shown = shownEncoding(bytes);
   const std::size_t utf8_at = findUtf8Character(bytes), other_at = io::findNotUtf8(bytes);
-  // ASCII alone is the same in UTF-8 and CP1252.
+  // ASCII alone is the same in UTF-8 and the code pages.
   const bool plain = shown == Encoding::utf8 && utf8_at == std::string_view::npos;
-  if (wanted && shown && *wanted != *shown && !(plain && *wanted == Encoding::cp1252)) {
+  const bool bytewise = wanted == Encoding::cp1252 || wanted == Encoding::cp932;
+  if (wanted && shown && *wanted != *shown && !(plain && bytewise)) {
     throw io::InputError({file, 0, "encoding"}, nameOf(*wanted),
                          fmt::format("expected {}, which the bytes of this file show", nameOf(*shown)));
   }
@@ -105,13 +121,16 @@ Encoding encodingOf(const std::string& file, std::string_view bytes, std::option
     refuse(file, bytes, other_at, "expected UTF-8; this byte is none of it, the file may be cp1252");
   if (wanted && (*wanted == Encoding::utf16_le || *wanted == Encoding::utf16_be) && !shown)
     refuse(file, bytes, other_at, "expected UTF-16, which has a byte-order mark or a zero in every second byte");
+  // Pairs of Japanese bytes may look like characters of UTF-8.
+  if (!shown && (!wanted || wanted == Encoding::cp932) && isJapanese(bytes)) return Encoding::cp932;
   if (!shown && utf8_at != std::string_view::npos) {
     refuse(file, bytes, other_at,
            fmt::format("expected one encoding; this byte is no UTF-8, and line {} has a character of it: two files put "
                        "together?",
                        io::lineOf(bytes, utf8_at)));
   }
-  return shown ? (wanted ? *wanted : *shown) : Encoding::cp1252;
+  if (wanted) return *wanted;
+  return shown ? *shown : Encoding::cp1252;
 }
 
 std::string_view withoutMark(std::string_view bytes) {

@@ -66,6 +66,7 @@ enum class RemarkId {
   // What shows it.
   misses_arm,        ///< rms before, after, m
   group_misses_arm,  ///< the same of one posture or sweep
+  stated_pose_misses,  ///< poses of the controller: rms before, after, m
   loads_left,        ///< share left before, after
   off_gravity,       ///< rad before, after
   sag_against_load,  ///< factor before, after
