@@ -72,9 +72,9 @@ int importCampaign(const DayArguments& arguments) {
   printWarnings(day.warnings);
   // What was measured is never written over, wherever DAY.xml stands.
   for (const auto& file : std::filesystem::directory_iterator(arguments.out, none)) io::requireNotRead(file.path());
-  const reports::Json origins = reports::importJson(day);
-  campaign::writeCampaign(day.campaign, day.urdf, arguments.out, {{"import.json", origins.dump(1) + '\n'}});
-  deliver([&] { return origins; },
+  const io::ByteSource origins = [&day](const io::ByteSink& sink) { writeJson(reports::importJson(day), sink); };
+  campaign::writeCampaign(day.campaign, day.urdf, arguments.out, {{"import.json", origins}});
+  deliver([&] { return reports::importJson(day); },
           [&] { return reports::importText(day) + arguments.out + ": campaign written, with import.json\n"; },
           arguments.json);
   return kDone;

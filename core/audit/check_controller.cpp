@@ -73,8 +73,8 @@ Findings checkControllerPoses(const AuditInput& input) {
   const std::string id = "controller_poses";
   if (poses.postures == 0) return {preparation::notTestable(id, Remark(MissingId::no_controller_poses))};
   if (!poses.miss)
-    return {preparation::notTestable(id, Remark(MissingId::few_controller_poses, poses.postures,
-                                                mistakes::ControllerAgreement::kFewest))};
+    return {preparation::notTestable(
+        id, Remark(MissingId::few_controller_poses, poses.postures, mistakes::ControllerAgreement::kFewest))};
   preparation::AuditCheck check;
   check.id = id;
   check.value = *poses.miss;

@@ -136,6 +136,8 @@ JoinBy readJoin(const io::XmlNode& root, ClockOptions& clock, std::vector<std::s
   // Encoders' digits and noise stay below; a robot leaves it within some milliseconds of a motion.
   constexpr double kBandDeg = 0.02;
   clock.standstill.band = kBandDeg * io::kDegree;
+  // A log alone, or points alone, have nothing to be joined with.
+  if (!root.child("join") && (root.children("points").empty() || root.children("log").empty())) return JoinBy::order;
   const io::XmlNode node = root.requiredChild("join");
   io::warnOfUnknown(node, {"by", "still_deg", "shortest_s", "offset_s"}, {}, warnings);
   if (node.has("still_deg")) clock.standstill.band = positive(node, "still_deg", 1e-6, 5.0) * io::kDegree;
@@ -167,7 +169,8 @@ DayDescription parseDayDescription(const std::string& file, std::string_view byt
     if (!day.target_names.emplace(from, node.requiredName("to")).second)
       node.refuse("from", from, "expected a name that does not repeat");
   }
-  if (day.points.empty()) root.refuse("points", "", "expected this element, a file of points");
+  if (day.points.empty() && day.logs.empty())
+    root.refuse("points", "", "expected this element, a file of points, or log, the robot's joints");
   return day;
 }
 

@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include "core/interchange/column_table.h"
+#include "core/interchange/day_files.h"
 #include "core/interchange/log_formats.h"
 #include "core/io/input_error.h"
+#include "core/io/read_file.h"
 #include "core/io/units.h"
 
 namespace stiffscope::interchange {
@@ -57,8 +59,8 @@ std::optional<double> timeUnit(const std::string& name, LogFormat format) {
   return std::nullopt;
 }
 
-/// Where X Y Z and W P R stand, all of them: FANUC's pose of the tool in the user frame, mm and degrees. W, P and R turn
-/// about fixed x, y and z, in this order.
+/// Where X Y Z and W P R stand, all of them: FANUC's pose of the tool in the user frame, mm and degrees. W, P and R
+/// turn about fixed x, y and z, in this order.
 std::optional<std::array<std::size_t, 6>> poseColumns(const std::vector<std::string>& cells) {
   std::array<std::size_t, 6> places{};
   constexpr std::array<const char*, 6> kNames{"x", "y", "z", "w", "p", "r"};
@@ -134,6 +136,8 @@ RobotLog readJointTable(const LogText& text, LogFormat format) {
   const double angle = format == LogFormat::fanuc_karel ? io::kDegree : 1.0;
   RobotLog log;
   log.format = format;
+  // A cell and what parts it from the next are a byte each at least.
+  log.samples.reserve(std::min(io::linesIn(text.text), text.text.size() / (2 * header.cells - 1) + 1));
   for (const TextLine& line : linesOf(text.text)) {
     if (line.number <= header.line || trimmed(line.text).empty()) continue;
     const std::vector<std::string_view> cells = logCells(line.text, header.separator);
@@ -171,12 +175,15 @@ RobotLog readJointColumns(const LogText& text) {
   RobotLog log;
   log.format = LogFormat::columns;
   log.warnings = table.warnings();
-  for (const ColumnTable::Row& row : table.rows()) {
+  log.samples.reserve(table.mostRows());
+  table.forEachRow([&](const ColumnTable::Row& row) {
     JointSample sample;
     sample.line = row.line;
     sample.name = table.text(row, table.has("pose") ? "pose" : table.has("index") ? "index" : "name");
-    sample.step = table.text(row, "step");
-    sample.axis = table.text(row, "axis");
+    if (const std::string step = table.text(row, "step"); !step.empty())
+      sample.step = wholeStep(text.file, row.line, step);
+    if (const std::string axis = table.text(row, "axis"); !axis.empty())
+      sample.axis = wholeStep(text.file, row.line, axis);
     for (int j = 0; j < 6; ++j) sample.figures[j] = table.number(row, fmt::format("q{}", j + 1));
     if (const auto time = table.time(row)) sample.time_s = time->seconds;
     if (position)
@@ -184,13 +191,11 @@ RobotLog readJointColumns(const LogText& text) {
     if (turn) sample.tool_pose.rpy = {table.number(row, "pw"), table.number(row, "pp"), table.number(row, "pr")};
     if (table.hasNumber("temperature")) sample.temperature_c = table.number(row, "temperature");
     if (wrench) {
-      Vector6d values;
-      values << table.number(row, "fx"), table.number(row, "fy"), table.number(row, "fz"), table.number(row, "mx"),
-          table.number(row, "my"), table.number(row, "mz");
-      sample.wrench = values;
+      sample.wrench << table.number(row, "fx"), table.number(row, "fy"), table.number(row, "fz"),
+          table.number(row, "mx"), table.number(row, "my"), table.number(row, "mz");
     }
     log.samples.push_back(std::move(sample));
-  }
+  });
   return log;
 }
 

@@ -46,7 +46,8 @@ struct SaHeader {
   double coverage = 0.0;             ///< k; 0: not said
 };
 
-/// Marks of other scripts as ASCII has them: full-width letters, brackets and blanks, ideographic commas, quotation marks.
+/// Marks of other scripts as ASCII has them: full-width letters, brackets and blanks, ideographic commas, quotation
+/// marks.
 std::string plainMarks(std::string_view comment) {
   struct Mark {
     std::string_view mark;
@@ -67,8 +68,8 @@ std::string plainMarks(std::string_view comment) {
                                          {"\xC2\xB4", '\''}}};
   std::string plain;
   while (!comment.empty()) {
-    const auto mark = std::find_if(kMarks.begin(), kMarks.end(),
-                                   [&](const Mark& one) { return comment.starts_with(one.mark); });
+    const auto mark =
+        std::find_if(kMarks.begin(), kMarks.end(), [&](const Mark& one) { return comment.starts_with(one.mark); });
     if (mark != kMarks.end()) {
       plain += mark->plain;
       comment.remove_prefix(mark->mark.size());
@@ -194,8 +195,9 @@ void readSaComment(const FileText& text, const TextLine& line, std::string_view 
     throw io::InputError({text.file, line.number, "frame"}, frame,
                          fmt::format("expected points in one frame; those above are in {}", header.frame));
   if (coverage > 0.0 && header.coverage > 0.0 && coverage != header.coverage)
-    throw io::InputError({text.file, line.number, "coverage"}, fmt::format("k = {:g}", coverage),
-                         fmt::format("expected uncertainties of one coverage; those above have k = {:g}", header.coverage));
+    throw io::InputError(
+        {text.file, line.number, "coverage"}, fmt::format("k = {:g}", coverage),
+        fmt::format("expected uncertainties of one coverage; those above have k = {:g}", header.coverage));
   if (header.frame.empty()) header.frame = frame;
   if (header.coverage == 0.0) header.coverage = coverage;
   const std::vector<std::string> words = wordsOf(comment);
@@ -230,8 +232,8 @@ void readSaComment(const FileText& text, const TextLine& line, std::string_view 
   }
 }
 
-/// Cuts date and time, or a lone time, out of the cells at `at`, which is the last of them. A time without its day, if it
-/// is not the 00:00:00 of a point that nobody measured, is said to be there: no clock can use it.
+/// Cuts date and time, or a lone time, out of the cells at `at`, which is the last of them. A time without its day, if
+/// it is not the 00:00:00 of a point that nobody measured, is said to be there: no clock can use it.
 bool cutTimeAt(std::size_t at, SaRow& row) {
   std::vector<std::string_view>& cells = row.cells;
   const auto erase = [&](std::size_t from) {
@@ -411,10 +413,11 @@ class PossibleNames {
     if (text.decimalSign() == DecimalSign::point && looksLikeDecimalComma(row.cells[i]))
       decimal(row.cells[i], DecimalSign::point, text.file, row.line, "");
   }
-  throw io::InputError({text.file, row.line, ""}, fmt::format("{}", fmt::join(row.cells, " | ")),
-                       std::string("expected up to three names, x y z with the same decimals, and behind them cells as in "
-                                   "the other rows, and a time") +
-                           (cut ? "; the file ends in the middle of this line" : ""));
+  throw io::InputError(
+      {text.file, row.line, ""}, fmt::format("{}", fmt::join(row.cells, " | ")),
+      std::string("expected up to three names, x y z with the same decimals, and behind them cells as in "
+                  "the other rows, and a time") +
+          (cut ? "; the file ends in the middle of this line" : ""));
 }
 
 /// Metres in the unit of the axes. A unit that the comments name elsewhere, or another than the user's, is no unit to
@@ -512,9 +515,8 @@ class SaSurvey {
 
   /// Columns of another kind are there from the start: one row among plain ones is torn.
   void requireOthers(std::size_t names) const {
-    const auto plain = std::count_if(start_.begin(), start_.end(), [&](const SaRow& row) {
-      return fitsNames(row, names, sign_, Behind::known);
-    });
+    const auto plain = std::count_if(start_.begin(), start_.end(),
+                                     [&](const SaRow& row) { return fitsNames(row, names, sign_, Behind::known); });
     const bool torn = known_.misfit->line == last_.line && !last_.ended;
     if (torn || 2 * plain > static_cast<std::ptrdiff_t>(start_.size())) refuseRow(text_, *known_.misfit);
   }
@@ -541,8 +543,8 @@ class SaSurvey {
   std::size_t most_ = 0;
 };
 
-/// Of cells of several kinds behind x y z the four that are uncertainties: numbers whose fourth is the root of the sum of
-/// the others' squares, at one place in all rows and not zero in all. Without it none is read.
+/// Of cells of several kinds behind x y z the four that are uncertainties: numbers whose fourth is the root of the sum
+/// of the others' squares, at one place in all rows and not zero in all. Without it none is read.
 void findUncertainties(const FileText& text, const SaSeparator& separator, std::size_t most, SaColumns& columns) {
   constexpr std::size_t kCells = 4;
   struct Window {
@@ -565,14 +567,14 @@ void findUncertainties(const FileText& text, const SaSeparator& separator, std::
   columns.of_them = kCells;
 }
 
-PointReading saPointOf(const SaRow& row, const SaColumns& columns, double unit, double coverage, DecimalSign sign) {
+PointReading saPointOf(const SaRow& row, const SaColumns& columns, double unit, double coverage, DecimalSign sign,
+                       PointGroups& groups) {
   PointReading point;
   point.line = row.line;
   point.time = row.time;
   const std::size_t names = columns.names;
   if (names >= 1) point.name = row.cells[names - 1];
-  if (names >= 2) point.group = row.cells[names - 2];
-  if (names >= 3) point.collection = row.cells[0];
+  if (names >= 2) point.of = groups.of(names >= 3 ? row.cells[0] : std::string_view(), row.cells[names - 2]);
   const auto number = [&](std::size_t at) { return decimalOrNan(row.cells[at], sign); };
   for (std::size_t k = 0; k < 3; ++k) point.point[static_cast<Eigen::Index>(k)] = number(names + k) * unit;
   if (!columns.uncertainties || row.cells.size() < names + 3 + *columns.uncertainties + 3) return point;
@@ -590,12 +592,11 @@ void warnOfColumns(const FileText& text, const SaHeader& header, const SaSurvey&
   const auto warn = [&](std::size_t line, const char* why) {
     warnings.push_back(io::inputMessage({text.file, line, ""}, "", why));
   };
-  if (columns.offsets)
-    warn(survey.first().line, "two numbers behind x y z are taken for target offsets and not read");
+  if (columns.offsets) warn(survey.first().line, "two numbers behind x y z are taken for target offsets and not read");
   if (columns.others)
-    warn(survey.first().line,
-         columns.uncertainties ? "cells behind x y z that are no uncertainties are not read"
-                               : "cells behind x y z are not read: among them are no four uncertainties");
+    warn(survey.first().line, columns.uncertainties
+                                  ? "cells behind x y z that are no uncertainties are not read"
+                                  : "cells behind x y z are not read: among them are no four uncertainties");
   if (columns.of_them == 3 && header.uncertainties.value_or(0) < 3)
     warn(survey.first().line, "three numbers behind x y z are taken for their uncertainties");
   if (columns.uncertainties && header.coverage == 0.0)
@@ -649,13 +650,14 @@ PointFile readSpatialAnalyzer(const FileText& text) {
   survey.requireWhole();
   const double unit = saUnitOf(text, header, points.warnings);
   if (!header.uncertainties)
-    points.warnings.push_back(io::inputMessage({text.file, 0, ""}, "",
-                                               "no comment names the axes: Cartesian x y z are taken"));
+    points.warnings.push_back(
+        io::inputMessage({text.file, 0, ""}, "", "no comment names the axes: Cartesian x y z are taken"));
   warnOfColumns(text, header, survey, columns, points.warnings);
   points.points.reserve(survey.rows);
+  PointGroups groups;
   forEachRow(text, separator, [&](const SaRow& row) {
     points.points.push_back(
-        saPointOf(row, columns, unit, header.coverage == 0.0 ? 1.0 : header.coverage, text.decimalSign()));
+        saPointOf(row, columns, unit, header.coverage == 0.0 ? 1.0 : header.coverage, text.decimalSign(), groups));
   });
   return points;
 }

@@ -48,7 +48,8 @@ class Converter {
       char* out = part.data();
       std::size_t out_left = part.size();
       const std::size_t before = in_left;
-      const bool full = ::iconv(handle_, &in, &in_left, &out, &out_left) == static_cast<std::size_t>(-1) && errno == E2BIG;
+      const bool full =
+          ::iconv(handle_, &in, &in_left, &out, &out_left) == static_cast<std::size_t>(-1) && errno == E2BIG;
       text.append(part.data(), part.size() - out_left);
       if (!full || in_left == before) break;
     }
@@ -163,22 +164,21 @@ Encoding encodingNamed(const std::string& name, const std::string& option) {
 }
 
 DecodedText decodeText(const std::string& file, std::string_view bytes, std::optional<Encoding> wanted) {
-  DecodedText decoded{{}, encodingOf(file, bytes, wanted)};
-  const std::string_view body = withoutMark(bytes);
-  if (decoded.encoding == Encoding::utf8) {
-    decoded.text = std::string(body);
-  } else {
+  DecodedText decoded;
+  decoded.encoding = encodingOf(file, bytes, wanted);
+  decoded.own = withoutMark(bytes);
+  if (decoded.encoding != Encoding::utf8) {
     std::string_view rest;
-    decoded.text = Converter(decoded.encoding).converted(body, rest);
+    decoded.converted = Converter(decoded.encoding).converted(decoded.own, rest);
     if (!rest.empty()) {
-      throw io::InputError({file, io::lineOf(decoded.text, decoded.text.size()), ""},
+      throw io::InputError({file, io::lineOf(decoded.converted, decoded.converted.size()), ""},
                            fmt::format("byte 0x{:02X}", static_cast<unsigned char>(rest.front())),
                            fmt::format("expected {}; nothing is written so there", nameOf(decoded.encoding)));
     }
   }
-  const std::size_t zero = decoded.text.find('\0');
-  if (zero != std::string::npos)
-    throw io::InputError({file, io::lineOf(decoded.text, zero), ""}, "", "expected text; this file holds a byte 0");
+  const std::size_t zero = decoded.text().find('\0');
+  if (zero != std::string_view::npos)
+    throw io::InputError({file, io::lineOf(decoded.text(), zero), ""}, "", "expected text; this file holds a byte 0");
   return decoded;
 }
 

@@ -17,7 +17,7 @@ inline constexpr double kSuspicious = 5e-3;
 /// From where on a search looks, m. Readings of a tracker carry what a machine is off its drawing; figures that a
 /// controller computes do not.
 struct SearchLimits {
-  double suspicious = kSuspicious;                              ///< misfit below which nothing is looked for
+  double suspicious = kSuspicious;                             ///< misfit below which nothing is looked for
   double least_shift = 0.5 * identification::kMissedGeometry;  ///< of a joint's origin in the URDF
 };
 

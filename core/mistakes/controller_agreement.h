@@ -13,9 +13,9 @@ namespace stiffscope::mistakes {
 ///
 ///   p_i = B G(q_i) T,
 ///
-/// with its base frame B and its tool T constant and fitted, as nobody says where they are. Distances in m are root mean
-/// squares over the tool's point and, where turns are stated, three points kLever from it along the tool's axes. No
-/// reading enters: what is left is of the URDF, of how the joints are stated, or of the controller's own model.
+/// with its base frame B and its tool T constant and fitted, as nobody says where they are. Distances in m are root
+/// mean squares over the tool's point and, where turns are stated, three points kLever from it along the tool's axes.
+/// No reading enters: what is left is of the URDF, of how the joints are stated, or of the controller's own model.
 struct ControllerAgreement {
   static constexpr double kLever = 0.1;  ///< m
   static constexpr std::size_t kFewest = 6;

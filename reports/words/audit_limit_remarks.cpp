@@ -83,7 +83,8 @@ std::string auditLimitWords(audit::LimitId id, const RemarkValues& values) {
       return fmt::format("half of the displacements; simulated machines with every effect leave {:.0f} % at most",
                          100.0 * values.number(0));
     case audit::LimitId::controllers_compute:
-      return "a controller computes its poses from the joints beside them; 0.2 mm, to which identification trusts places";
+      return "a controller computes its poses from the joints beside them; 0.2 mm, to which identification trusts "
+             "places";
   }
   return {};
 }

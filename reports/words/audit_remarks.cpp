@@ -412,7 +412,8 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
                          100.0 * values.number(0), mending(values.count(1)));
     case audit::RemarkId::controller_states:
       return fmt::format(
-          "the poses that the controller states in {} postures miss the URDF's by {:.3f} mm rms, at most {:.3f} mm, its "
+          "the poses that the controller states in {} postures miss the URDF's by {:.3f} mm rms, at most {:.3f} mm, "
+          "its "
           "tool and base frame fitted{}",
           values.count(0), 1e3 * values.number(1), 1e3 * values.number(2), more(values, 3));
     case audit::RemarkId::poses_mended:
@@ -421,13 +422,15 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
                          : fmt::format("{} mistakes would each explain it (suspected)", values.count(0)));
     case audit::RemarkId::turns_otherwise:
       return fmt::format(
-          ": their points agree to {:.3f} mm, so pw_deg, pp_deg and pr_deg are no turns about the fixed x, y and z axes "
+          ": their points agree to {:.3f} mm, so pw_deg, pp_deg and pr_deg are no turns about the fixed x, y and z "
+          "axes "
           "in this order",
           1e3 * values.number(0));
     case audit::RemarkId::poses_of_other_geometry:
-      return fmt::format("; with axes elsewhere than in the URDF it is {:.3f} mm: the controller computes with another "
-                         "geometry",
-                         1e3 * values.number(0));
+      return fmt::format(
+          "; with axes elsewhere than in the URDF it is {:.3f} mm: the controller computes with another "
+          "geometry",
+          1e3 * values.number(0));
     case audit::RemarkId::poses_sag:
       return fmt::format(
           "; with axes elsewhere and joints that give way under the arm's own weight it is {:.3f} mm: the controller's "

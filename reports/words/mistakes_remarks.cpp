@@ -282,8 +282,9 @@ std::string mistakesWords(mistakes::RemarkId id, const RemarkValues& values) {
       return fmt::format("its readings then miss the URDF's arm by {:.2f} mm rms instead of {:.4g} mm",
                          millimetresOf(values.number(1)), millimetresOf(values.number(0)));
     case RemarkId::stated_pose_misses:
-      return fmt::format("the poses that the controller states then miss the URDF's by {:.3f} mm rms instead of {:.4g} mm",
-                         millimetresOf(values.number(1)), millimetresOf(values.number(0)));
+      return fmt::format(
+          "the poses that the controller states then miss the URDF's by {:.3f} mm rms instead of {:.4g} mm",
+          millimetresOf(values.number(1)), millimetresOf(values.number(0)));
     case RemarkId::loads_left:
       return fmt::format("joint springs then leave {:.1f} % of the displacements instead of {:.1f} %",
                          100.0 * values.number(1), 100.0 * values.number(0));

@@ -53,7 +53,7 @@ TEST(DelimitedText, NumbersWithEitherDecimalSign) {
 }
 
 TEST(TextDecoding, EveryByteOfTheWesternCodePage) {
-  EXPECT_EQ(decodeText("f", "\x80\xB5\xFC", Encoding::cp1252).text, "\xE2\x82\xAC\xC2\xB5\xC3\xBC");
+  EXPECT_EQ(decodeText("f", "\x80\xB5\xFC", Encoding::cp1252).text(), "\xE2\x82\xAC\xC2\xB5\xC3\xBC");
   // Five bytes stand for nothing.
   for (const char* undefined : {"\x81", "\x8D", "\x8F", "\x90", "\x9D"})
     expectSays(refusalOf([&] { decodeText("f", std::string("a\nb") + undefined, Encoding::cp1252); }),
@@ -62,8 +62,8 @@ TEST(TextDecoding, EveryByteOfTheWesternCodePage) {
 
 TEST(TextDecoding, Utf16OfBothOrdersWithCharactersBeyondTheFirstPlane) {
   const std::string big("\xFE\xFF\x00x\x00\n\xD8\x3D\xDE\x00", 10), little("\xFF\xFEx\x00\n\x00\x3D\xD8\x00\xDE", 10);
-  EXPECT_EQ(decodeText("f", big).text, "x\n\xF0\x9F\x98\x80");
-  EXPECT_EQ(decodeText("f", little).text, "x\n\xF0\x9F\x98\x80");
+  EXPECT_EQ(decodeText("f", big).text(), "x\n\xF0\x9F\x98\x80");
+  EXPECT_EQ(decodeText("f", little).text(), "x\n\xF0\x9F\x98\x80");
   expectSays(refusalOf([&] { decodeText("f", big.substr(0, 9)); }), {"f:2", "utf-16be"});
   expectSays(refusalOf([&] { decodeText("f", std::string("a\nb\0c", 5)); }), {"f:2", "byte 0"});
 }

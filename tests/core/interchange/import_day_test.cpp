@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <random>
+
 #include "tests/core/interchange/refusal.h"
 #include "tests/fixtures/written_day.h"
 
@@ -70,6 +73,23 @@ const std::string kCoupled = "<joint_reading joint=\"3\" plus=\"2\"/>";
 const std::string kTracker =
     "<points role=\"loading\" file=\"tracker.txt\"/><points role=\"nests\" file=\"tracker.txt\"/>";
 const std::string kByClock = kCoupled + kTracker + "<log file=\"karel.csv\"/><join by=\"clock\"/>";
+
+TEST_F(ImportDay, TheOffsetOfTheClocksLiesWithinItsUncertainty) {
+  // Days of other lengths of stay, by clocks that are apart by anything up to an hour.
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    std::mt19937 draw(seed);
+    std::uniform_real_distribution<double> hour(-3600.0, 3600.0), settle(0.6, 3.0), stay(0.4, 2.5);
+    day_.clock_ahead_s = seed == 1 ? 3.9 : std::round(1000.0 * hour(draw)) / 1000.0;
+    day_.settle_s = settle(draw);
+    day_.stay_s = stay(draw);
+    writeFiles();
+    const ImportedDay made = imported(kByClock);
+    ASSERT_EQ(made.clocks.size(), 1u);
+    EXPECT_LE(std::abs(made.clocks[0].offset_s - day_.clock_ahead_s - day_.firstSecond()), made.clocks[0].uncertainty_s)
+        << seed;
+    EXPECT_EQ(made.campaign.loading->rows.size(), day_.loading.size()) << seed;
+  }
+}
 
 TEST_F(ImportDay, ByTheClockEveryReadingFindsItsJoints) {
   writeFiles();

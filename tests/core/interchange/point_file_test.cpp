@@ -47,8 +47,8 @@ TEST(SpatialAnalyzer, CommasNamesTimesAndFrame) {
   EXPECT_EQ(file.format, PointFormat::sa);
   EXPECT_EQ(file.frame, "Cell::BASE");
   ASSERT_EQ(file.points.size(), 3u);
-  EXPECT_EQ(file.points[1].collection, "Run");
-  EXPECT_EQ(file.points[1].group, "Main");
+  EXPECT_EQ(file.points[1].collection(), "Run");
+  EXPECT_EQ(file.points[1].group(), "Main");
   EXPECT_EQ(file.points[1].name, "2");
   expectNear(file.points[0].point, 1.500123456, -0.0205, 0.30025);
   EXPECT_FALSE(file.points[0].sigma);
@@ -86,8 +86,8 @@ TEST(SpatialAnalyzer, OneSigmaAndInches) {
       "// Relative to 'A::WORLD'\n// 1.0 Sigma (68.3 %)\n// X, Y, Z (Inches), U-x, U-y, U-z, U-mag\n"
       "G,  P1,  10.0000,  20.0000,  30.0000,  0.0010,  0.0010,  0.0010,  0.0017,  01/02/31 10:00:00\n");
   expectNear(file.points[0].point, 0.254, 0.508, 0.762);
-  EXPECT_EQ(file.points[0].group, "G");
-  EXPECT_EQ(file.points[0].collection, "");
+  EXPECT_EQ(file.points[0].group(), "G");
+  EXPECT_EQ(file.points[0].collection(), "");
   EXPECT_NEAR((*file.points[0].sigma)[0], 25.4e-6, 1e-12);
 }
 
@@ -106,7 +106,7 @@ TEST(SpatialAnalyzer, TargetsAloneRepeatOnceAPose) {
 TEST(SpatialAnalyzer, NumericNamesAreNoCoordinates) {
   // Six cells: three names and x y z, not one name, x y z and two target offsets.
   const PointFile file = read("// 'A::B'\n// X, Y, Z (m)\n1,  2,  3,  4.500000,  5.500000,  6.500000\n");
-  EXPECT_EQ(file.points[0].collection, "1");
+  EXPECT_EQ(file.points[0].collection(), "1");
   expectNear(file.points[0].point, 4.5, 5.5, 6.5);
 }
 

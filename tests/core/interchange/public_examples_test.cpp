@@ -90,8 +90,8 @@ TEST(PublicExamples, SpatialAnalyzersExports) {
       EXPECT_EQ(point.line, number);
       EXPECT_EQ(point.name, cells[names - 1]);
       if (header) {
-        EXPECT_EQ(point.collection, cells[0]);
-        EXPECT_EQ(point.group, cells[1]);
+        EXPECT_EQ(point.collection(), cells[0]);
+        EXPECT_EQ(point.group(), cells[1]);
       }
       for (std::size_t k = 0; k < 3; ++k)
         EXPECT_NEAR(point.point[static_cast<Eigen::Index>(k)], 1e-3 * std::strtod(cells[names + k].c_str(), nullptr),
@@ -101,8 +101,8 @@ TEST(PublicExamples, SpatialAnalyzersExports) {
       if (!header) continue;
       // "02/12/25 16:38:29": the twelfth of February.
       const std::string& time = cells[6];
-      EXPECT_EQ(isoTime(*point.time), fmt::format("20{}-{}-{}T{}", time.substr(6, 2), time.substr(0, 2),
-                                                  time.substr(3, 2), time.substr(9)));
+      EXPECT_EQ(isoTime(*point.time),
+                fmt::format("20{}-{}-{}T{}", time.substr(6, 2), time.substr(0, 2), time.substr(3, 2), time.substr(9)));
     }
     EXPECT_EQ(at, read.points.size()) << file;
     // Without a header three names repeat, ten times each.
@@ -146,8 +146,8 @@ TEST(PublicExamples, OpenIndysProject) {
     // Along and across the beam, whatever the axes: the sum of variances is that of distance and both arcs.
     const double along = valueOf("distance", "sigma"), by_azimuth = valueOf("azimuth", "sigma"),
                  by_zenith = valueOf("zenith", "sigma");
-    const double sum = along * along + std::pow(distance * by_zenith, 2) +
-                       std::pow(distance * std::sin(zenith) * by_azimuth, 2);
+    const double sum =
+        along * along + std::pow(distance * by_zenith, 2) + std::pow(distance * std::sin(zenith) * by_azimuth, 2);
     if (sum > 0.0)
       EXPECT_NEAR(point.sigma.value().squaredNorm(), sum, 1e-12 * sum);
     else
@@ -255,7 +255,8 @@ TEST(PublicExamples, PointsInTheOrderOfJoints) {
       ASSERT_EQ(row.size(), 15u);
       EXPECT_NEAR(read.points[i].point.z(), 1e-3 * row[2], kExact);
       for (std::size_t j = 0; j < 6; ++j)
-        EXPECT_NEAR(log.samples[i].figures[static_cast<Eigen::Index>(j)], row[9 + j] * std::numbers::pi / 180.0, kExact);
+        EXPECT_NEAR(log.samples[i].figures[static_cast<Eigen::Index>(j)], row[9 + j] * std::numbers::pi / 180.0,
+                    kExact);
     }
   }
 }
@@ -296,9 +297,10 @@ void expectTargets(const RobotLog& log, const std::string& text, const std::rege
   for (auto one = std::sregex_iterator(text.begin(), text.end(), target); one != std::sregex_iterator(); ++one) {
     ASSERT_LT(at, log.samples.size());
     for (int j = 0; j < 6; ++j)
-      EXPECT_NEAR(log.samples[at].figures[j],
-                  std::strtod((*one)[static_cast<std::size_t>(j) + 2].str().c_str(), nullptr) * std::numbers::pi / 180.0,
-                  kExact);
+      EXPECT_NEAR(
+          log.samples[at].figures[j],
+          std::strtod((*one)[static_cast<std::size_t>(j) + 2].str().c_str(), nullptr) * std::numbers::pi / 180.0,
+          kExact);
     EXPECT_NE(log.samples[at].name.find((*one)[1].str()), std::string::npos);
     ++at;
   }
@@ -379,8 +381,7 @@ TEST(PublicExamples, UniversalRobotsAt125Hz) {
       ASSERT_EQ(log.samples.size(), rows.size());
       for (std::size_t i = 0; i < rows.size(); ++i) {
         EXPECT_NEAR(log.samples[i].time_s.value(), static_cast<double>(i) / 125.0, 1e-12);
-        for (std::size_t j = 0; j < 6; ++j)
-          EXPECT_EQ(log.samples[i].figures[static_cast<Eigen::Index>(j)], rows[i][j]);
+        for (std::size_t j = 0; j < 6; ++j) EXPECT_EQ(log.samples[i].figures[static_cast<Eigen::Index>(j)], rows[i][j]);
       }
     } else {
       const PointFile read = readPointFile(file, points);

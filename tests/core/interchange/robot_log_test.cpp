@@ -77,10 +77,10 @@ TEST(LogColumns, NamedByTheUser) {
   EXPECT_EQ(log.format, LogFormat::columns);
   expectDegrees(log.samples[0].figures, {1.5, 2, 3, 4, 5, 6});
   EXPECT_EQ(log.samples[1].name, "A");
-  EXPECT_EQ(log.samples[1].step, "1");
+  EXPECT_EQ(log.samples[1].step, 1);
   EXPECT_DOUBLE_EQ(log.samples[1].temperature_c, 21.5);
   EXPECT_FALSE(log.samples[1].time_s);
-  EXPECT_FALSE(log.samples[1].wrench);
+  EXPECT_FALSE(log.samples[1].wrench.allFinite());
   options.table.columns = "pose q1_deg q2_deg q3_deg q4_deg q5_deg -";
   expectSays(refusal("A;1;2;3;4;5;6\n", options), {"q1 to q6"});
   options.table.columns = "q1_deg q2_deg q3_deg q4_deg q5_deg q6_deg fx_n fy_n";
