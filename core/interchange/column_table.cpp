@@ -8,6 +8,7 @@
 #include <set>
 
 #include "core/io/input_error.h"
+#include "core/io/csv.h"
 #include "core/io/units.h"
 
 namespace stiffscope::interchange {

@@ -113,7 +113,8 @@ PointsSource readPointsSource(const io::XmlNode& node, JoinBy by, std::vector<st
 
 LogSource readLogSource(const io::XmlNode& node, std::vector<std::string>& warnings) {
   io::warnOfUnknown(
-      node, {"role", "file", "format", "encoding", "columns", "separator", "decimal_comma", "skip", "names", "rate_hz"},
+      node, {"role", "file", "format", "encoding", "columns", "separator", "decimal_comma", "skip", "names", "rate_hz",
+       "every_s"},
       {}, warnings);
   LogSource source{.names = NamePattern(node, "names", node.attribute("names").value_or("{pose}"))};
   source.line = node.line();
@@ -123,6 +124,8 @@ LogSource readLogSource(const io::XmlNode& node, std::vector<std::string>& warni
   if (const auto format = node.attribute("format"))
     source.options.format = static_cast<LogFormat>(named(node, "format", *format, kLogFormatNames));
   constexpr double kSlowest = 1e-3, kFastest = 1e5;
+  constexpr double kShortest = 1e-3, kLongest = 3600.0;
+  if (node.has("every_s")) source.every_s = positive(node, "every_s", kShortest, kLongest);
   if (node.has("rate_hz")) source.options.rate_hz = positive(node, "rate_hz", kSlowest, kFastest);
   return source;
 }
@@ -161,7 +164,12 @@ DayDescription parseDayDescription(const std::string& file, std::string_view byt
   day.xml = campaign::readCampaignElements(root, dayElements(), warnings);
   const JoinBy by = readJoin(root, day.clock, warnings);
   for (const io::XmlNode& node : root.children("points")) day.points.push_back(readPointsSource(node, by, warnings));
-  for (const io::XmlNode& node : root.children("log")) day.logs.push_back(readLogSource(node, warnings));
+  for (const io::XmlNode& node : root.children("log")) {
+    day.logs.push_back(readLogSource(node, warnings));
+    if (day.logs.back().every_s && !day.points.empty())
+      node.refuse("every_s", node.requiredAttribute("every_s"),
+                  "expected no such attribute beside points: readings are joined with standstills");
+  }
   for (const io::XmlNode& node : root.children("loads")) day.loads.push_back(readLoadsSource(node, warnings));
   for (const io::XmlNode& node : root.children("target_name")) {
     io::warnOfUnknown(node, {"from", "to"}, {}, warnings);

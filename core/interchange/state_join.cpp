@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <tuple>
 
@@ -137,15 +138,24 @@ StateJoin posturesOf(const JoinTask& task) {
     join.states.push_back(std::move(state));
     join.stretches.emplace_back(first, last);
   };
+  const std::vector<JointSample>& samples = task.log.samples;
+  if (isTimed(task.log) && task.source.every_s) {
+    double next = *samples.front().time_s;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      if (*samples[i].time_s < next) continue;
+      add(std::to_string(join.states.size() + 1), 0, i, i);
+      next += *task.source.every_s * (std::floor((*samples[i].time_s - next) / *task.source.every_s) + 1.0);
+    }
+    return join;
+  }
   if (isTimed(task.log)) {
     for (const Standstill& still : standstillsOf(task.log.samples, task.day.clock.standstill))
       add(std::to_string(join.states.size() + 1), 0, still.first, still.last);
     if (join.states.empty())
       throw io::InputError({task.day.file, task.source.line, "log"}, task.source.file,
-                           "expected a log in which the joints stand still somewhere (still_deg, shortest_s)");
+                           "expected a log in which the joints stand still somewhere (still_deg, shortest_s), or every_s");
     return join;
   }
-  const std::vector<JointSample>& samples = task.log.samples;
   if (std::all_of(samples.begin(), samples.end(), [](const JointSample& sample) { return sample.name.empty(); })) {
     for (std::size_t i = 0; i < samples.size(); ++i) add(std::to_string(i + 1), 0, i, i);
     return join;
