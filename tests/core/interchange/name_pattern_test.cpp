@@ -45,7 +45,7 @@ TEST(NamePattern, SignsOfExpressionsStandForThemselves) {
 TEST(NamePattern, PartsOfCollectionGroupAndName) {
   const Patterned given;
   interchange::PointReading point;
-  PointGroups groups;
+  interchange::PointGroups groups;
   point.of = groups.of("Day", "step2");
   point.name = "P10";
   EXPECT_EQ(given.of("step{step}::{target}").fieldsIn(point), (Fields{{"step", "2"}, {"target", "P10"}}));

@@ -184,7 +184,7 @@ TEST(SpatialAnalyzer, CommentsOfOtherScripts) {
   const std::string rows = "G,  P1,  10.0000,  20.0000,  30.0000\n";
   // Full-width letters and brackets, ideographic commas, corner brackets.
   const PointFile japanese = read(
-      "// \xE5\xBA\xA7\xE6\xA8\x99\xE7\xB3\xBB \xE3\x80\x8CA::\xE5\x8E\x9F\xE7\x82\xB9\xE3\x80\x8D\n"
+      "// \xE5\xBA\xA7\xE6\xA8\x99\xE7\xB3\xBB \xE3\x80\x8C""A::\xE5\x8E\x9F\xE7\x82\xB9\xE3\x80\x8D\n"
       "// \xE8\xBB\xB8: \xEF\xBC\xB8\xE3\x80\x81\xEF\xBC\xB9\xE3\x80\x81\xEF\xBC\xBA"
       "\xEF\xBC\x88inch\xEF\xBC\x89\n" +
       rows);
@@ -194,10 +194,14 @@ TEST(SpatialAnalyzer, CommentsOfOtherScripts) {
   const PointFile cp932 = read("// \x8D\xC0\x95\x57\x8C\x6E 'A::\x8C\xB4\x93\x5F'\n// X, Y, Z (mm)\n" + rows);
   EXPECT_EQ(cp932.encoding, interchange::Encoding::cp932);
   EXPECT_EQ(cp932.frame, "A::\xE5\x8E\x9F\xE7\x82\xB9");
-  // French quotation marks in the Western code page, and as UTF-16.
+  // French words and quotation marks in the Western code page, and as UTF-16.
   const std::string french = "// Points relatifs au rep\xE8re \xAB Cellule::MONDE \xBB\n// AXES : X, Y, Z (m\xE8tres)\n";
-  expectSays(refusal(french + rows), {":2", "unit", "expected mm, m or inch"});
-  EXPECT_EQ(read("// rep\xE8re \xAB Cellule::MONDE \xBB\n// X, Y, Z (mm)\n" + rows).frame, "Cellule::MONDE");
+  EXPECT_EQ(read(french + rows).frame, "Cellule::MONDE");
+  expectNear(read(french + rows).points[0].point, 10.0, 20.0, 30.0);
+  std::string wide = "\xFF\xFE";
+  for (const char c : french + rows) (wide += c) += '\0';  // of these characters the code page is the first of Unicode
+  EXPECT_EQ(read(wide).encoding, interchange::Encoding::utf16_le);
+  EXPECT_EQ(read(wide).frame, "Cellule::MONDE");
 }
 
 TEST(SpatialAnalyzer, AppendedExportsAgree) {
