@@ -7,8 +7,8 @@
 #include <cmath>
 #include <set>
 
-#include "core/io/input_error.h"
 #include "core/io/csv.h"
+#include "core/io/input_error.h"
 #include "core/io/units.h"
 
 namespace stiffscope::interchange {

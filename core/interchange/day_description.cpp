@@ -112,10 +112,10 @@ PointsSource readPointsSource(const io::XmlNode& node, JoinBy by, std::vector<st
 }
 
 LogSource readLogSource(const io::XmlNode& node, std::vector<std::string>& warnings) {
-  io::warnOfUnknown(
-      node, {"role", "file", "format", "encoding", "columns", "separator", "decimal_comma", "skip", "names", "rate_hz",
-       "every_s"},
-      {}, warnings);
+  io::warnOfUnknown(node,
+                    {"role", "file", "format", "encoding", "columns", "separator", "decimal_comma", "skip", "names",
+                     "rate_hz", "every_s"},
+                    {}, warnings);
   LogSource source{.names = NamePattern(node, "names", node.attribute("names").value_or("{pose}"))};
   source.line = node.line();
   source.file = node.requiredName("file");

@@ -6,8 +6,8 @@
 #include "core/interchange/column_table.h"
 #include "core/interchange/day_files.h"
 #include "core/interchange/log_formats.h"
-#include "core/io/input_error.h"
 #include "core/io/csv.h"
+#include "core/io/input_error.h"
 #include "core/io/units.h"
 
 namespace stiffscope::interchange {

@@ -152,8 +152,9 @@ StateJoin posturesOf(const JoinTask& task) {
     for (const Standstill& still : standstillsOf(task.log.samples, task.day.clock.standstill))
       add(std::to_string(join.states.size() + 1), 0, still.first, still.last);
     if (join.states.empty())
-      throw io::InputError({task.day.file, task.source.line, "log"}, task.source.file,
-                           "expected a log in which the joints stand still somewhere (still_deg, shortest_s), or every_s");
+      throw io::InputError(
+          {task.day.file, task.source.line, "log"}, task.source.file,
+          "expected a log in which the joints stand still somewhere (still_deg, shortest_s), or every_s");
     return join;
   }
   if (std::all_of(samples.begin(), samples.end(), [](const JointSample& sample) { return sample.name.empty(); })) {

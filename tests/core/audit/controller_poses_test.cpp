@@ -29,8 +29,8 @@ struct StatedDay {
   bool sags = false;
   Eigen::Isometry3d user_from_base =
       Eigen::Translation3d(0.3, -1.2, -0.94) * Eigen::AngleAxisd(0.8, Eigen::Vector3d::UnitZ());
-  Eigen::Isometry3d flange_from_tool = Eigen::Translation3d(0.05, -0.12, 0.31) *
-                                       Eigen::AngleAxisd(1.1, Eigen::Vector3d(0.6, 0.0, 0.8));
+  Eigen::Isometry3d flange_from_tool =
+      Eigen::Translation3d(0.05, -0.12, 0.31) * Eigen::AngleAxisd(1.1, Eigen::Vector3d(0.6, 0.0, 0.8));
   campaign::Campaign campaign;
 
   StatedDay() {
@@ -122,7 +122,8 @@ TEST(ControllerPoses, ASignIsNamed) {
     StatedDay day;
     day.state();
     for (campaign::State& row : day.campaign.states->rows) row.q[joint] *= -1.0;
-    EXPECT_TRUE(names(agreementOf(day.campaign).cures, "joint_sign", "q" + std::to_string(joint + 1) + "_deg")) << joint;
+    EXPECT_TRUE(names(agreementOf(day.campaign).cures, "joint_sign", "q" + std::to_string(joint + 1) + "_deg"))
+        << joint;
   }
 }
 

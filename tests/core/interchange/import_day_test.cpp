@@ -380,7 +380,8 @@ TEST_F(ImportDay, ALogAloneIsItsStandstills) {
   const ImportedDay often = imported(kCoupled + "<log file=\"karel.csv\" every_s=\"2\"/>");
   const double seconds = often.campaign.states->rows.back().time_s - often.campaign.states->rows.front().time_s;
   EXPECT_EQ(often.campaign.states->rows.size(), static_cast<std::size_t>(seconds / 2.0 + 1.5));
-  expectSays(refusal(kTracker + "<log file=\"karel.csv\" every_s=\"2\"/><join by=\"clock\"/>"), {"every_s", "beside points"});
+  expectSays(refusal(kTracker + "<log file=\"karel.csv\" every_s=\"2\"/><join by=\"clock\"/>"),
+             {"every_s", "beside points"});
   expectSays(refusal(""), {"points", "or log"});
 }
 

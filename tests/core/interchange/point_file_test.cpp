@@ -135,7 +135,8 @@ std::string rowsOf(const std::vector<std::vector<std::string>>& rows, const std:
 }
 
 TEST(SpatialAnalyzer, EveryDelimiterAndFormOfName) {
-  const std::string header = "// Points Relative to Coordinate Frame 'A::BASE'\r\n// X, Y, Z (mm), U-x, U-y, U-z, U-mag\r\n// 68.3 %\r\n";
+  const std::string header =
+      "// Points Relative to Coordinate Frame 'A::BASE'\r\n// X, Y, Z (mm), U-x, U-y, U-z, U-mag\r\n// 68.3 %\r\n";
   for (const std::string delimiter : {",  ", "   ", "\t"}) {
     for (std::size_t names = 0; names <= 3; ++names) {
       std::vector<std::vector<std::string>> rows;
@@ -184,7 +185,8 @@ TEST(SpatialAnalyzer, CommentsOfOtherScripts) {
   const std::string rows = "G,  P1,  10.0000,  20.0000,  30.0000\n";
   // Full-width letters and brackets, ideographic commas, corner brackets.
   const PointFile japanese = read(
-      "// \xE5\xBA\xA7\xE6\xA8\x99\xE7\xB3\xBB \xE3\x80\x8C""A::\xE5\x8E\x9F\xE7\x82\xB9\xE3\x80\x8D\n"
+      "// \xE5\xBA\xA7\xE6\xA8\x99\xE7\xB3\xBB \xE3\x80\x8C"
+      "A::\xE5\x8E\x9F\xE7\x82\xB9\xE3\x80\x8D\n"
       "// \xE8\xBB\xB8: \xEF\xBC\xB8\xE3\x80\x81\xEF\xBC\xB9\xE3\x80\x81\xEF\xBC\xBA"
       "\xEF\xBC\x88inch\xEF\xBC\x89\n" +
       rows);
@@ -195,7 +197,8 @@ TEST(SpatialAnalyzer, CommentsOfOtherScripts) {
   EXPECT_EQ(cp932.encoding, interchange::Encoding::cp932);
   EXPECT_EQ(cp932.frame, "A::\xE5\x8E\x9F\xE7\x82\xB9");
   // French words and quotation marks in the Western code page, and as UTF-16.
-  const std::string french = "// Points relatifs au rep\xE8re \xAB Cellule::MONDE \xBB\n// AXES : X, Y, Z (m\xE8tres)\n";
+  const std::string french =
+      "// Points relatifs au rep\xE8re \xAB Cellule::MONDE \xBB\n// AXES : X, Y, Z (m\xE8tres)\n";
   EXPECT_EQ(read(french + rows).frame, "Cellule::MONDE");
   expectNear(read(french + rows).points[0].point, 10.0, 20.0, 30.0);
   std::string wide = "\xFF\xFE";
