@@ -49,7 +49,7 @@ void addPoints(CLI::App& import, Run& run) {
   command->add_option("--format", arguments->format,
                       "sa, leica, openindy, xyz or columns; without it what the file shows");
   command->add_option("--encoding", arguments->encoding,
-                      "utf-8, utf-16le, utf-16be or cp1252; without it what the file shows");
+                      "utf-8, utf-16le, utf-16be, cp1252 or cp932; without it what the file shows");
   command->add_option("--columns", options.columns, "of format columns: names from left to right, - for one not read");
   command->add_option("--separator", options.separator, "of format columns: a character, tab or blank");
   command->add_flag("--decimal-comma", options.decimal_comma, "numbers have a decimal comma");
@@ -72,9 +72,9 @@ int importCampaign(const DayArguments& arguments) {
   printWarnings(day.warnings);
   // What was measured is never written over, wherever DAY.xml stands.
   for (const auto& file : std::filesystem::directory_iterator(arguments.out, none)) io::requireNotRead(file.path());
-  const reports::Json origins = reports::importJson(day);
-  campaign::writeCampaign(day.campaign, day.urdf, arguments.out, {{"import.json", origins.dump(1) + '\n'}});
-  deliver([&] { return origins; },
+  const io::ByteSource origins = [&day](const io::ByteSink& sink) { writeJson(reports::importJson(day), sink); };
+  campaign::writeCampaign(day.campaign, day.urdf, arguments.out, {{"import.json", origins}});
+  deliver([&] { return reports::importJson(day); },
           [&] { return reports::importText(day) + arguments.out + ": campaign written, with import.json\n"; },
           arguments.json);
   return kDone;

@@ -24,7 +24,7 @@ struct Check {
 };
 
 /// In the order in which the day goes, which is that of the report.
-constexpr std::array<Check, 19> kAllChecks{{
+constexpr std::array<Check, 20> kAllChecks{{
     {checkTimeOrder, {"time_order"}},
     {checkCompleteness, {"completeness"}},
     {checkRepeatability, {"repeatability_along", "repeatability_across"}},
@@ -44,6 +44,7 @@ constexpr std::array<Check, 19> kAllChecks{{
     {checkLoadSize, {"load_size"}},
     {checkPostureSet, {"posture_set"}},
     {checkModel, {"arm_model", "load_model"}},
+    {checkControllerPoses, {"controller_poses"}},
 }};
 
 /// Whether the functions give the very checks among which the chance of a false finding is shared.
@@ -146,6 +147,12 @@ AuditReport audit(const preparation::PreparedCampaign& prepared) {
   report.suspected = suspectedNoise(input);
   for (const auto* found : {&input.model.arm, &input.model.loads})
     report.suspected.insert(report.suspected.end(), found->begin(), found->end());
+  // What the readings name already is named once.
+  for (const mistakes::Suspected& one : input.controller.cures) {
+    if (std::none_of(input.model.arm.begin(), input.model.arm.end(),
+                     [&](const mistakes::Suspected& other) { return other.remedy == one.remedy; }))
+      report.suspected.push_back(one);
+  }
   report.verdict = verdictOf(report);
   return report;
 }

@@ -1,5 +1,6 @@
 #include "core/audit/audit_input.h"
 
+#include "core/audit/limits.h"
 #include "core/identification/method_solution.h"
 #include "core/preparation/repeatability.h"
 
@@ -30,6 +31,7 @@ AuditInput auditInput(const preparation::PreparedCampaign& prepared) {
   input.rigid = frames::rigidPoints(input.campaign, sagOf(input));
   input.absolute = fitAbsolutePositions(input.campaign, input.frames, input.arm.geometry, input.states, input.noise);
   input.model = mistakes::findMistakes(input.campaign);
+  input.controller = mistakes::controllerAgreement(input.campaign, kControllerDigits);
   return input;
 }
 

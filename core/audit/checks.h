@@ -101,4 +101,9 @@ Findings checkPostureSet(const AuditInput& input);
 /// (core/mistakes/find_mistakes.h). Fail where they contradict it by more than machines do; both then are impossible.
 Findings checkModel(const AuditInput& input);
 
+/// controller_poses: the URDF's forward kinematics against the poses that the controller states
+/// (core/mistakes/controller_agreement.h), and its declared model against what they show. Fails where one mistake
+/// explains the difference or no machine is that far off its drawing, warns of another model than the URDF's.
+Findings checkControllerPoses(const AuditInput& input);
+
 }  // namespace stiffscope::audit

@@ -148,6 +148,20 @@ enum class RemarkId {
   readings_contradict,  ///< median distance m, how many mistakes would mend it
   springs_agree,        ///< share left
   springs_contradict,   ///< share left, how many mistakes would mend it
+
+  // controller_poses.
+  controller_states,        ///< postures, rms m, farthest m, more
+  poses_mended,             ///< how many mistakes would mend it
+  turns_otherwise,          ///< rms of positions alone m
+  poses_of_other_geometry,  ///< rms that fitted axes leave m
+  poses_sag,                ///< rms that axes and compliances leave m
+  poses_unexplained,        ///< rms that fitted axes leave m
+  poses_of_other_arm,
+  accuracy_not_seen,
+  accuracy_as_declared,
+  accuracy_undeclared,
+  declared_nominal,
+  joints_not_compared,  ///< joints
 };
 
 /// Where the limit of a check comes from.
@@ -181,6 +195,7 @@ enum class LimitId {
   condition_practice,
   machines_off_drawing,
   machines_leave,  ///< share that every simulated effect leaves at most
+  controllers_compute,
 };
 
 /// What a check that does not run, or a result that is not there, would need.
@@ -221,6 +236,8 @@ enum class MissingId {
   wrist_axes_not_swept,
   no_readings_of_arm,
   few_loads_of_model,
+  no_controller_poses,
+  few_controller_poses,  ///< how many, how many are needed
 };
 
 }  // namespace stiffscope::audit

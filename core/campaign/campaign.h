@@ -54,6 +54,16 @@ struct LoadingReading {
   std::size_t line = 0;
 };
 
+/// Where a controller states its tool, in a base frame of its own: position (m), and turns about the fixed x, y and z
+/// axes in this order (rad). Not a number where it states none.
+struct StatedPose {
+  Eigen::Vector3d position = Eigen::Vector3d::Constant(kNotGiven);
+  Eigen::Vector3d rpy = Eigen::Vector3d::Constant(kNotGiven);
+
+  bool hasPosition() const { return position.allFinite(); }
+  bool hasTurn() const { return rpy.allFinite(); }
+};
+
 struct State {
   int pose = 0;
   int step = 0;
@@ -64,6 +74,7 @@ struct State {
   Vector6d commanded = Vector6d::Constant(kNotGiven);   ///< joint angles that were commanded, rad
   Vector6d motor_side = Vector6d::Constant(kNotGiven);  ///< motor angles over the gear ratio, rad
   double temperature_c = kNotGiven;                     ///< degrees Celsius
+  StatedPose tool_pose = {};                            ///< by the controller's own kinematics
   /// Of no column: what q was as reported, where it has been referred to the motor's side
   /// (identification/motor_side.h).
   Vector6d link_side = Vector6d::Constant(kNotGiven);

@@ -212,6 +212,19 @@ void warnOfCellWithoutPlace(const Campaign& campaign, std::vector<std::string>& 
                                       "no load_cell in campaign.xml says where these wrenches act"));
 }
 
+// A pose without one of its coordinates is none, and turns alone place nothing.
+void checkToolPosesAreWhole(const Campaign& campaign) {
+  if (!campaign.states) return;
+  for (const State& row : campaign.states->rows) {
+    const Eigen::Vector3d &position = row.tool_pose.position, &rpy = row.tool_pose.rpy;
+    const bool some = !position.array().isNaN().all() || !rpy.array().isNaN().all();
+    const bool whole = row.tool_pose.hasPosition() && (row.tool_pose.hasTurn() || rpy.array().isNaN().all());
+    if (!some || whole) continue;
+    throw io::InputError({shown(campaign, campaign.states->file), row.line, "px_mm..pr_deg"}, "",
+                         "expected px_mm, py_mm and pz_mm, and all or none of pw_deg, pp_deg and pr_deg, or all blank");
+  }
+}
+
 using Check = void (*)(const Campaign&, std::vector<std::string>&);
 
 // In the order of their errors and warnings.
@@ -235,6 +248,7 @@ constexpr Check kChecks[] = {
 
 void checkCampaign(const Campaign& campaign, std::vector<std::string>& warnings) {
   checkStatesCoverReadings(campaign);
+  checkToolPosesAreWhole(campaign);
   for (const Check& check : kChecks) check(campaign, warnings);
 }
 

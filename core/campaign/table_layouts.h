@@ -60,6 +60,24 @@ inline const TableLayout<NestReading>& nestsLayout() {
   return layout;
 }
 
+/// px_mm to pz_mm and pw_deg to pr_deg: where the controller states its tool. Three of a kind are there together.
+inline std::vector<Column<State>> toolPoseColumns() {
+  using Row = State;
+  std::vector<Column<Row>> columns{
+      {"px_mm", CellKind::millimetre, [](Row& row) -> double& { return row.tool_pose.position.x(); }},
+      {"py_mm", CellKind::millimetre, [](Row& row) -> double& { return row.tool_pose.position.y(); }},
+      {"pz_mm", CellKind::millimetre, [](Row& row) -> double& { return row.tool_pose.position.z(); }},
+      {"pw_deg", CellKind::degree, [](Row& row) -> double& { return row.tool_pose.rpy.x(); }},
+      {"pp_deg", CellKind::degree, [](Row& row) -> double& { return row.tool_pose.rpy.y(); }},
+      {"pr_deg", CellKind::degree, [](Row& row) -> double& { return row.tool_pose.rpy.z(); }}};
+  for (Column<Row>& column : columns) {
+    column.required = false;
+    column.may_be_blank = true;
+    column.together = column.kind == CellKind::millimetre ? "tool position" : "tool turn";
+  }
+  return columns;
+}
+
 /// Joint angles and load-cell reading of one load state.
 inline const TableLayout<State>& statesLayout() {
   using Row = State;
@@ -72,7 +90,8 @@ inline const TableLayout<State>& statesLayout() {
            wrenchColumns<Row>(false),
            angleColumns<Row, &Row::commanded>('c', false),
            angleColumns<Row, &Row::motor_side>('m', false),
-           {{"temperature_c", CellKind::celsius, [](Row& row) -> double& { return row.temperature_c; }, false, true}}}),
+           {{"temperature_c", CellKind::celsius, [](Row& row) -> double& { return row.temperature_c; }, false, true}},
+           toolPoseColumns()}),
       {"pose", "step"}};
   return layout;
 }

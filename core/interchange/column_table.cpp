@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "core/io/csv.h"
 #include "core/io/input_error.h"
 #include "core/io/units.h"
 
@@ -51,7 +52,9 @@ const std::map<std::string, Quantity>& numberColumns() {
       add(std::string("u") + axis, kLengthUnits);
       add(std::string("f") + axis, kForceUnits);
       add(std::string("m") + axis, kMomentUnits);
+      add(std::string("p") + axis, kLengthUnits);
     }
+    for (const char* turn : {"pw", "pp", "pr"}) add(turn, kAngleUnits);
     for (const char kind : {'q', 'c', 'm'}) {
       for (char joint = '1'; joint <= '6'; ++joint) add({kind, joint}, kAngleUnits);
     }
@@ -107,15 +110,13 @@ char separatorOf(const FileText& text, const std::vector<TextLine>& lines, std::
 }  // namespace
 
 ColumnTable::ColumnTable(const FileText& text) : text_(text) {
-  std::vector<TextLine> lines;
-  for (const TextLine& line : linesOf(text.text)) {
-    if (line.number > text.options.skip && !trimmed(line.text).empty()) lines.push_back(line);
-  }
-  if (lines.empty()) throw io::InputError({text.file, 0, ""}, "", "expected rows; there are none");
   constexpr std::size_t kLook = 20;
-  const std::vector<TextLine> first(lines.begin(),
-                                    lines.begin() + static_cast<std::ptrdiff_t>(std::min(kLook, lines.size())));
-  std::size_t from = 0;
+  std::vector<TextLine> first;
+  for (const TextLine& line : linesOf(text.text)) {
+    if (line.number > text.options.skip && !trimmed(line.text).empty()) first.push_back(line);
+    if (first.size() == kLook) break;
+  }
+  if (first.empty()) throw io::InputError({text.file, 0, ""}, "", "expected rows; there are none");
   if (!text.options.columns.empty()) {
     const std::vector<std::string> names = wordsBetweenBlanks(text.options.columns);
     separator_ = separatorOf(text, first, names.size());
@@ -129,10 +130,23 @@ ColumnTable::ColumnTable(const FileText& text) : text_(text) {
       if (!known && !cell.empty()) unread_.emplace_back(cell);
     }
     setColumns(names, first.front().number);
-    from = 1;
+    header_ = first.front().number;
+    if (first.size() == 1)
+      throw io::InputError({text.file, 0, ""}, "", "expected rows below the header; there are none");
   }
-  for (std::size_t i = from; i < lines.size(); ++i) addRow(lines[i]);
-  if (rows_.empty()) throw io::InputError({text.file, 0, ""}, "", "expected rows below the header; there are none");
+}
+
+void ColumnTable::forEachRow(const std::function<void(const Row&)>& use) const {
+  for (const TextLine& line : linesOf(text_.text)) {
+    if (line.number <= std::max(text_.options.skip, header_) || trimmed(line.text).empty()) continue;
+    use(rowOf(line));
+  }
+}
+
+std::size_t ColumnTable::mostRows() const {
+  // A cell and what parts it from the next are a byte each at least.
+  const std::size_t fit = text_.text.size() / std::max<std::size_t>(1, 2 * columns_ - 1) + 1;
+  return std::min(fit, io::linesIn(text_.text));
 }
 
 std::vector<std::string_view> ColumnTable::cellsOf(std::string_view line) const {
@@ -161,7 +175,7 @@ void ColumnTable::setColumns(const std::vector<std::string>& names, std::size_t 
   }
 }
 
-void ColumnTable::addRow(const TextLine& line) {
+ColumnTable::Row ColumnTable::rowOf(const TextLine& line) const {
   Row row{cellsOf(line.text), line.number};
   while (row.cells.size() > columns_ && row.cells.back().empty()) row.cells.pop_back();
   if (row.cells.size() != columns_) {
@@ -172,7 +186,7 @@ void ColumnTable::addRow(const TextLine& line) {
     throw io::InputError({text_.file, line.number, ""}, fmt::format("{} cells", row.cells.size()),
                          fmt::format("expected {} cells, one a column{}", columns_, why));
   }
-  rows_.push_back(std::move(row));
+  return row;
 }
 
 double ColumnTable::number(const Row& row, const std::string& quantity) const {
@@ -252,11 +266,15 @@ PointFile readPointColumns(const FileText& text) {
   PointFile points;
   points.format = PointFormat::columns;
   points.warnings = table.warnings();
-  for (const ColumnTable::Row& row : table.rows()) {
+  constexpr std::array<const char*, 5> kDayColumns{"pose", "step", "repeat", "axis", "index"};
+  const bool named =
+      std::any_of(kDayColumns.begin(), kDayColumns.end(), [&](const char* column) { return table.has(column); });
+  PointGroups groups;
+  points.points.reserve(table.mostRows());
+  table.forEachRow([&](const ColumnTable::Row& row) {
     PointReading point;
     point.line = row.line;
-    point.collection = table.text(row, "collection");
-    point.group = table.text(row, "group");
+    point.of = groups.of(table.text(row, "collection"), table.text(row, "group"));
     point.name = table.has("target") ? table.text(row, "target") : table.text(row, table.has("nest") ? "nest" : "name");
     point.point = {table.number(row, "x"), table.number(row, "y"), table.number(row, "z")};
     if (sigmas) {
@@ -267,11 +285,15 @@ PointFile readPointColumns(const FileText& text) {
       if (!sigma.isZero(0.0)) point.sigma = sigma;
     }
     point.time = table.time(row);
-    for (const char* column : {"pose", "step", "repeat", "axis", "index"}) {
-      if (table.has(column)) point.columns[column] = table.text(row, column);
+    if (named) {
+      PointReading::Columns columns;
+      for (const char* column : kDayColumns) {
+        if (table.has(column)) columns[column] = table.text(row, column);
+      }
+      point.columns = std::make_shared<const PointReading::Columns>(std::move(columns));
     }
     points.points.push_back(std::move(point));
-  }
+  });
   return points;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -20,11 +21,14 @@ class ColumnTable {
     std::size_t line = 0;
   };
 
-  /// Throws InputError where a name is none, stands twice, or a row has more or fewer cells than there are columns
-  /// (cells behind the last column that are empty are none).
+  /// Throws InputError where a name is none or stands twice; forEachRow where a row has more or fewer cells than there
+  /// are columns (cells behind the last column that are empty are none).
   explicit ColumnTable(const FileText& text);
 
-  const std::vector<Row>& rows() const { return rows_; }
+  /// Rows are made one after the other: of 100 MB they would be half a gigabyte.
+  void forEachRow(const std::function<void(const Row&)>& use) const;
+  /// As many as there can be.
+  std::size_t mostRows() const;
 
   bool has(const std::string& column) const { return places_.contains(column); }
 
@@ -55,7 +59,7 @@ class ColumnTable {
   };
 
   void setColumns(const std::vector<std::string>& names, std::size_t line);
-  void addRow(const TextLine& line);
+  Row rowOf(const TextLine& line) const;
   std::vector<std::string_view> cellsOf(std::string_view line) const;
 
   const FileText text_;
@@ -63,7 +67,7 @@ class ColumnTable {
   std::size_t columns_ = 0;
   std::map<std::string, std::size_t> places_;    ///< of columns of names, and all by their full name
   std::map<std::string, NumberColumn> numbers_;  ///< by the name without its unit
-  std::vector<Row> rows_;
+  std::size_t header_ = 0;                       ///< line of the header; 0: the user named the columns
   std::vector<std::string> unread_;
 };
 

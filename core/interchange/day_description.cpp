@@ -112,9 +112,10 @@ PointsSource readPointsSource(const io::XmlNode& node, JoinBy by, std::vector<st
 }
 
 LogSource readLogSource(const io::XmlNode& node, std::vector<std::string>& warnings) {
-  io::warnOfUnknown(
-      node, {"role", "file", "format", "encoding", "columns", "separator", "decimal_comma", "skip", "names", "rate_hz"},
-      {}, warnings);
+  io::warnOfUnknown(node,
+                    {"role", "file", "format", "encoding", "columns", "separator", "decimal_comma", "skip", "names",
+                     "rate_hz", "every_s"},
+                    {}, warnings);
   LogSource source{.names = NamePattern(node, "names", node.attribute("names").value_or("{pose}"))};
   source.line = node.line();
   source.file = node.requiredName("file");
@@ -123,6 +124,8 @@ LogSource readLogSource(const io::XmlNode& node, std::vector<std::string>& warni
   if (const auto format = node.attribute("format"))
     source.options.format = static_cast<LogFormat>(named(node, "format", *format, kLogFormatNames));
   constexpr double kSlowest = 1e-3, kFastest = 1e5;
+  constexpr double kShortest = 1e-3, kLongest = 3600.0;
+  if (node.has("every_s")) source.every_s = positive(node, "every_s", kShortest, kLongest);
   if (node.has("rate_hz")) source.options.rate_hz = positive(node, "rate_hz", kSlowest, kFastest);
   return source;
 }
@@ -136,6 +139,8 @@ JoinBy readJoin(const io::XmlNode& root, ClockOptions& clock, std::vector<std::s
   // Encoders' digits and noise stay below; a robot leaves it within some milliseconds of a motion.
   constexpr double kBandDeg = 0.02;
   clock.standstill.band = kBandDeg * io::kDegree;
+  // A log alone, or points alone, have nothing to be joined with.
+  if (!root.child("join") && (root.children("points").empty() || root.children("log").empty())) return JoinBy::order;
   const io::XmlNode node = root.requiredChild("join");
   io::warnOfUnknown(node, {"by", "still_deg", "shortest_s", "offset_s"}, {}, warnings);
   if (node.has("still_deg")) clock.standstill.band = positive(node, "still_deg", 1e-6, 5.0) * io::kDegree;
@@ -159,7 +164,12 @@ DayDescription parseDayDescription(const std::string& file, std::string_view byt
   day.xml = campaign::readCampaignElements(root, dayElements(), warnings);
   const JoinBy by = readJoin(root, day.clock, warnings);
   for (const io::XmlNode& node : root.children("points")) day.points.push_back(readPointsSource(node, by, warnings));
-  for (const io::XmlNode& node : root.children("log")) day.logs.push_back(readLogSource(node, warnings));
+  for (const io::XmlNode& node : root.children("log")) {
+    day.logs.push_back(readLogSource(node, warnings));
+    if (day.logs.back().every_s && !day.points.empty())
+      node.refuse("every_s", node.requiredAttribute("every_s"),
+                  "expected no such attribute beside points: readings are joined with standstills");
+  }
   for (const io::XmlNode& node : root.children("loads")) day.loads.push_back(readLoadsSource(node, warnings));
   for (const io::XmlNode& node : root.children("target_name")) {
     io::warnOfUnknown(node, {"from", "to"}, {}, warnings);
@@ -167,7 +177,8 @@ DayDescription parseDayDescription(const std::string& file, std::string_view byt
     if (!day.target_names.emplace(from, node.requiredName("to")).second)
       node.refuse("from", from, "expected a name that does not repeat");
   }
-  if (day.points.empty()) root.refuse("points", "", "expected this element, a file of points");
+  if (day.points.empty() && day.logs.empty())
+    root.refuse("points", "", "expected this element, a file of points, or log, the robot's joints");
   return day;
 }
 

@@ -44,6 +44,7 @@ struct LogSource {
   std::size_t line = 0;
   LogOptions options;
   NamePattern names;
+  std::optional<double> every_s;  ///< of a log alone: a posture every so many seconds, moving or not
 };
 
 /// Load-cell readings by pose and step.

@@ -96,7 +96,7 @@ class DayReader {
     const DecodedText decoded = decodeText(name, bytes.text(), source.options.encoding);
     result_.files.back().format = nameOf(PointFormat::columns);
     result_.files.back().encoding = nameOf(decoded.encoding);
-    const FileText text{name, decoded.text, source.options};
+    const FileText text{name, decoded.text(), source.options};
     if (!hasColumnHeader(text))
       throw io::InputError({name, 1, "columns"}, "",
                            "expected the names of its columns (columns), or a header line that has them");
@@ -105,7 +105,7 @@ class DayReader {
     if (!table.has("pose") || !table.hasNumbers({"fx", "fy", "fz", "mx", "my", "mz"}))
       throw io::InputError({name, 0, "columns"}, source.options.columns,
                            "expected pose, perhaps step, and fx_n fy_n fz_n mx_nm my_nm mz_nm");
-    for (const ColumnTable::Row& row : table.rows()) {
+    table.forEachRow([&](const ColumnTable::Row& row) {
       StatedLoad load{Vector6d::Zero(), result_.files.size() - 1, row.line};
       load.wrench << table.number(row, "fx"), table.number(row, "fy"), table.number(row, "fz"), table.number(row, "mx"),
           table.number(row, "my"), table.number(row, "mz");
@@ -116,7 +116,7 @@ class DayReader {
         throw io::InputError(
             {name, row.line, "pose"}, pose,
             fmt::format("expected one row of a pose and step; line {} has it first", first->second.line));
-    }
+    });
   }
 
   /// Times of a calendar count from the first second of the day, others as they are.

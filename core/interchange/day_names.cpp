@@ -36,8 +36,7 @@ std::optional<DayReading> DayNames::readingOf(std::size_t source_index, const Po
   if (!fields) return std::nullopt;
   const auto field = [&](const char* name) {
     if (const auto found = fields->find(name); found != fields->end()) return found->second;
-    const auto column = point.columns.find(name);
-    return column == point.columns.end() ? std::string() : column->second;
+    return point.column(name);
   };
   const std::string name = source.target.empty() ? mapped(field("target")) : source.target;
   if (!source.only.empty() && !isAmong(source.only, name)) return std::nullopt;
@@ -74,15 +73,15 @@ std::string DayNames::nestOf(const PointsSource& source, const PointReading& poi
 
 void DayNames::requireEqualOccurrences(std::size_t source_index, const PointFile& points) const {
   const PointsSource& source = day_.points[source_index];
-  const bool posed = !source.pose.empty() || source.names.has("pose") || source.names.has("index") ||
-                     (!points.points.empty() && (points.points.front().columns.contains("pose") ||
-                                                 points.points.front().columns.contains("index")));
+  const bool posed =
+      !source.pose.empty() || source.names.has("pose") || source.names.has("index") ||
+      (!points.points.empty() && (points.points.front().hasColumn("pose") || points.points.front().hasColumn("index")));
   if (posed || source.by == JoinBy::clock || source.role == Role::nests) return;
   using Name = std::tuple<std::string, std::string, std::string>;
   std::map<Name, const PointReading*> last;
   const auto count = [&](const PointReading& point) {
     if (!readingOf(source_index, point)) return;
-    const PointReading*& most = last[Name{point.collection, point.group, point.name}];
+    const PointReading*& most = last[Name{point.collection(), point.group(), point.name}];
     if (most == nullptr || point.occurrence > most->occurrence) most = &point;
   };
   for (const PointReading& point : points.points) count(point);

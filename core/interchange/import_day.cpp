@@ -7,6 +7,8 @@
 
 #include "core/campaign/check_campaign.h"
 #include "core/campaign/joint_reading.h"
+#include "core/campaign/repeated_keys.h"
+#include "core/campaign/table_layouts.h"
 #include "core/interchange/day_names.h"
 #include "core/io/input_error.h"
 #include "core/io/read_file.h"
@@ -34,14 +36,18 @@ class DayImport {
 
   ImportedDay made() {
     for (const Role role : {Role::circle_sweeps, Role::wrist_sweep, Role::loading}) importRole(role);
+    requireNew(Role::circle_sweeps, campaign::circleSweepsLayout(), result_.campaign.circle_sweeps);
+    requireNew(Role::wrist_sweep, campaign::wristSweepLayout(), result_.campaign.wrist_sweep);
+    requireNew(Role::loading, campaign::loadingLayout(), result_.campaign.loading);
     importNests();
+    importLogsAlone();
     for (std::size_t log = 0; log < files_.logs.size(); ++log) skipUnread(log);
     for (const auto& [key, load] : files_.loads) {
       if (!used_loads_.contains(key)) skipped_.emplace_back(load.file, SkippedRow{load.line, Skip::no_readings});
     }
     for (const auto& [file, row] : skipped_) {
       // A file read for two tables has each row in one of them, or is left out once.
-      if (used_.insert(placeOf(file, row.line)).second) result_.skipped.push_back({file, row});
+      if (use(file, row.line)) result_.skipped.push_back({file, row});
     }
     compareUncertainties();
     campaign::checkCampaign(result_.campaign, result_.warnings);
@@ -55,8 +61,13 @@ class DayImport {
     return parseDayDescription(day_xml.string(), bytes.text(), result_.warnings);
   }
 
-  std::pair<std::string, std::size_t> placeOf(std::size_t file, std::size_t line) const {
-    return {result_.files[file].name, line};
+  /// Marks a line of a file as used, or not. Returns whether it was not before.
+  bool use(std::size_t file, std::size_t line, bool used = true) {
+    std::vector<bool>& lines = used_[result_.files[file].name];
+    if (line >= lines.size()) lines.resize(std::max(line + 1, lines.size() * 2));
+    const bool before = lines[line];
+    lines[line] = used;
+    return !before;
   }
 
   std::vector<DayReading> readingsOf(Role role, JoinBy by, std::size_t log) {
@@ -65,11 +76,12 @@ class DayImport {
       const PointsSource& source = day_.points[s];
       if (source.role != role || source.by != by || logOf(source) != log) continue;
       const std::size_t before = readings.size();
+      readings.reserve(before + files_.points[s].content.points.size());
       names_.requireEqualOccurrences(s, files_.points[s].content);
       for (const PointReading& point : files_.points[s].content.points) {
         if (const auto reading = names_.readingOf(s, point)) {
           readings.push_back(*reading);
-          used_.insert(placeOf(files_.points[s].file, point.line));
+          use(files_.points[s].file, point.line);
         } else {
           skipped_.emplace_back(files_.points[s].file, SkippedRow{point.line, Skip::another_point});
         }
@@ -85,8 +97,13 @@ class DayImport {
     return readings;
   }
 
-  /// The log of a file's readings: its role's own, else the one for all.
+  /// Of a day without any log.
+  static constexpr std::size_t kNoLog = static_cast<std::size_t>(-1);
+
+  /// The log of a file's readings: its role's own, else the one for all. A day without logs has loaded and unloaded
+  /// postures all the same; what its joints were is not known.
   std::size_t logOf(const PointsSource& source) const {
+    if (day_.logs.empty() && source.role == Role::loading && source.by != JoinBy::clock) return kNoLog;
     std::size_t common = day_.logs.size();
     for (std::size_t i = 0; i < day_.logs.size(); ++i) {
       if (day_.logs[i].role == source.role) return i;
@@ -105,6 +122,10 @@ class DayImport {
     }
     for (const auto& [by, log] : joins) {
       const std::vector<DayReading> readings = readingsOf(role, by, log);
+      if (log == kNoLog) {
+        addRows(role, log, joinNothing(readings), readings);
+        continue;
+      }
       const JoinTask task{day_, result_.campaign.robot, day_.logs[log], files_.logs[log].content,
                           day_.pathOf(day_.logs[log].file)};
       const StateJoin join = by == JoinBy::name    ? joinByName(task, readings)
@@ -116,10 +137,29 @@ class DayImport {
       for (const auto& [i, reason] : join.left_out) {
         const std::size_t file = files_.points[readings[i].source].file;
         skipped_.emplace_back(file, SkippedRow{readings[i].point->line, reason});
-        used_.erase(placeOf(file, readings[i].point->line));
+        use(file, readings[i].point->line, false);
       }
       judge(task, role, join, readings);
       addRows(role, log, join, readings);
+    }
+  }
+
+  /// Without points of postures the logs are the day: what a controller states of its joints and its tool.
+  void importLogsAlone() {
+    const bool points = std::any_of(day_.points.begin(), day_.points.end(),
+                                    [](const PointsSource& source) { return source.role != Role::nests; });
+    if (points) return;
+    for (std::size_t log = 0; log < day_.logs.size(); ++log) {
+      const JoinTask task{day_, result_.campaign.robot, day_.logs[log], files_.logs[log].content,
+                          day_.pathOf(day_.logs[log].file)};
+      StateJoin join = posturesOf(task);
+      // Of several logs each has its own numbers.
+      for (JoinedState& state : join.states) {
+        if (day_.logs.size() > 1) state.pose = fmt::format("{}.{}", log + 1, state.pose);
+      }
+      stretches_[log].insert(join.stretches.begin(), join.stretches.end());
+      for (const JoinedState& state : join.states) used_samples_[log].insert(state.first);
+      addRows(Role::loading, log, join, {});
     }
   }
 
@@ -162,9 +202,10 @@ class DayImport {
 
   void addRows(Role role, std::size_t log, const StateJoin& join, const std::vector<DayReading>& readings) {
     const campaign::JointConvention convention(day_.xml.campaign.joint_readings);
+    reserve(role, readings);
     for (const JoinedState& state : join.states) {
       const Vector6d q = convention.angles(state.figures);
-      if (role == Role::loading) addState(state, log, q, readings);
+      if (role == Role::loading && log != kNoLog) addState(state, log, q, readings);
       std::map<int, int> counts;
       for (const std::size_t i : state.readings) {
         const DayReading& reading = readings[i];
@@ -176,6 +217,16 @@ class DayImport {
         }
       }
     }
+  }
+
+  /// Room for the rows of a million readings, which doubling would take three times.
+  void reserve(Role role, const std::vector<DayReading>& readings) {
+    if (readings.empty()) return;
+    std::vector<RowOrigin>& origins = result_.rows[nameOf(role)];
+    origins.reserve(origins.size() + readings.size());
+    if (role != Role::loading) return;
+    auto& table = tableOf(result_.campaign.loading, role, day_.points[readings.front().source]);
+    table.rows.reserve(table.rows.size() + readings.size());
   }
 
   int poseNumber(const std::string& pose) {
@@ -193,10 +244,13 @@ class DayImport {
     row.pose = poseNumber(state.pose);
     row.step = state.step;
     row.q = q;
-    row.time_s = timeOf(*readings[state.readings.front()].point);
+    // Times of a log alone are the robot's.
+    row.time_s = state.readings.empty() ? sample.time_s.value_or(campaign::kNoTime)
+                                        : timeOf(*readings[state.readings.front()].point);
     row.temperature_c = sample.temperature_c;
+    row.tool_pose = meanToolPose(files_.logs[log].content.samples, state.first, state.last);
     row.line = table->rows.size() + 2;
-    if (sample.wrench) row.wrench_in_cell = *sample.wrench;
+    if (sample.wrench.allFinite()) row.wrench_in_cell = sample.wrench;
     if (!files_.loads.empty()) {
       const auto load = files_.loads.find({state.pose, state.step});
       if (load == files_.loads.end())
@@ -222,7 +276,6 @@ class DayImport {
     row.time_s = timeOf(*reading.point);
     row.point = reading.point->point;
     row.line = table.rows.size() + 2;
-    requireNew(reading, fmt::format("{}\n{}\n{}\n{}", state.pose, state.step, row.repeat, row.target));
     table.rows.push_back(std::move(row));
     addOrigin(Role::loading, reading);
   }
@@ -230,7 +283,6 @@ class DayImport {
   void addSwept(Role role, const JoinedState& state, const DayReading& reading, const Vector6d& q, int count) {
     // A second reading of a reflector at one stop has a row of its own.
     const std::string index = count == 1 ? state.pose : fmt::format("{}.{}", state.pose, count);
-    requireNew(reading, fmt::format("{}\n{}\n{}\n{}", nameOf(role), state.axis, index, reading.target));
     const PointsSource& source = day_.points[reading.source];
     const auto fill = [&](auto& table) {
       auto& row = table.rows.emplace_back();
@@ -251,13 +303,23 @@ class DayImport {
     addOrigin(role, reading);
   }
 
-  void requireNew(const DayReading& reading, const std::string& key) {
-    const auto [first, added] = keys_.emplace(key, reading.point->line);
-    if (added) return;
-    throw io::InputError(
-        {day_.pathOf(day_.points[reading.source].file), reading.point->line, "name"}, reading.point->name,
-        fmt::format("expected a reading that does not repeat; line {} is of the same pose, step, repeat and target",
-                    first->second));
+  /// No two rows of a table may be of one pose, step, repeat and target. Throws InputError for the later of two.
+  template <class Row>
+  void requireNew(Role role, const campaign::TableLayout<Row>& layout,
+                  std::optional<campaign::Table<Row>>& table) const {
+    if (!table) return;
+    const campaign::KeyColumns<Row> key(layout);
+    campaign::RowRepeats<Row> repeats(key, table->rows);
+    for (std::size_t i = 0; i < table->rows.size(); ++i) {
+      const std::size_t first = repeats.of(i);
+      if (first == campaign::RepeatCheck::kNew) continue;
+      const std::vector<RowOrigin>& origins = result_.rows.at(nameOf(role));
+      const std::string& name = result_.campaign.targets[static_cast<std::size_t>(table->rows[i].target)].id;
+      throw io::InputError(
+          {day_.pathOf(result_.files[origins[i].file].name), origins[i].line, "name"}, name,
+          fmt::format("expected a reading that does not repeat; line {} is of the same pose, step, repeat and target",
+                      origins[first].line));
+    }
   }
 
   void importNests() {
@@ -277,7 +339,7 @@ class DayImport {
         if (!point.time)
           throw io::InputError({day_.pathOf(source.file), point.line, "time"}, "",
                                "expected a time of a reading of a nest");
-        used_.insert(placeOf(files_.points[s].file, point.line));
+        use(files_.points[s].file, point.line);
         const auto [nest, added] = nests.emplace(name, static_cast<int>(result_.campaign.nest_ids.size()));
         if (added) result_.campaign.nest_ids.push_back(name);
         // Within the last digit of a clock one follows another.
@@ -342,12 +404,11 @@ class DayImport {
   const DayNames names_;
   DayFiles files_;
   std::map<std::string, int> poses_;
-  std::map<std::string, std::size_t> keys_;
   std::vector<std::set<std::size_t>> used_samples_;                       ///< by log, the first of each state
   std::vector<std::set<std::pair<std::size_t, std::size_t>>> stretches_;  ///< by log, what could be joined
   std::set<std::pair<std::string, int>> used_loads_;
   std::vector<std::pair<std::size_t, SkippedRow>> skipped_;
-  std::set<std::pair<std::string, std::size_t>> used_;  ///< file and line
+  std::map<std::string, std::vector<bool>> used_;  ///< by the file's name, its lines
 };
 
 }  // namespace

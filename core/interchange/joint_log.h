@@ -21,12 +21,13 @@ inline const char* nameOf(LogFormat format) { return kLogFormatNames[static_cast
 /// The joints at one moment, or one taught target.
 struct JointSample {
   std::string name;                     ///< of a taught target, or the row's pose; empty of a log by time
-  std::string step;                     ///< where the table names load steps
-  std::string axis;                     ///< where the table names the axis that turns
+  int step = -1;                        ///< where the table names load steps; else -1
+  int axis = -1;                        ///< where the table names the axis that turns, from 1; else -1
   std::optional<double> time_s;         ///< by the robot's clock
   Vector6d figures = Vector6d::Zero();  ///< as the controller states them, rad
-  std::optional<Vector6d> wrench;       ///< force (N), moment (Nm), where the table has them
+  Vector6d wrench = Vector6d::Constant(campaign::kNotGiven);  ///< force (N), moment (Nm), where the table has them
   double temperature_c = campaign::kNotGiven;
+  campaign::StatedPose tool_pose = {};  ///< as the controller states it
   std::size_t line = 0;
 };
 

@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "core/interchange/column_table.h"
+#include "core/interchange/day_files.h"
 #include "core/interchange/log_formats.h"
+#include "core/io/csv.h"
 #include "core/io/input_error.h"
 #include "core/io/units.h"
 
@@ -18,6 +20,7 @@ struct JointHeader {
   char separator = ';';
   std::size_t cells = 0;
   std::array<std::size_t, 6> joints{};
+  std::optional<std::array<std::size_t, 6>> pose;  ///< X Y Z W P R
   std::optional<std::size_t> time;
   double seconds_per_unit = 1.0;
 };
@@ -56,6 +59,19 @@ std::optional<double> timeUnit(const std::string& name, LogFormat format) {
   return std::nullopt;
 }
 
+/// Where X Y Z and W P R stand, all of them: FANUC's pose of the tool in the user frame, mm and degrees. W, P and R
+/// turn about fixed x, y and z, in this order.
+std::optional<std::array<std::size_t, 6>> poseColumns(const std::vector<std::string>& cells) {
+  std::array<std::size_t, 6> places{};
+  constexpr std::array<const char*, 6> kNames{"x", "y", "z", "w", "p", "r"};
+  for (std::size_t k = 0; k < kNames.size(); ++k) {
+    const auto found = std::find(cells.begin(), cells.end(), kNames[k]);
+    if (found == cells.end()) return std::nullopt;
+    places[k] = static_cast<std::size_t>(found - cells.begin());
+  }
+  return places;
+}
+
 JointHeader jointHeaderOf(const LogText& text, LogFormat format) {
   for (const TextLine& line : linesOf(text.text)) {
     if (line.number <= text.options.table.skip || trimmed(line.text).empty()) continue;
@@ -80,12 +96,28 @@ JointHeader jointHeaderOf(const LogText& text, LogFormat format) {
           all = all && found != cells.end();
           header.joints[j] = static_cast<std::size_t>(found - cells.begin());
         }
-        if (all && (format == LogFormat::ur || header.time)) return header;
+        if (!all || (format == LogFormat::fanuc_karel && !header.time)) continue;
+        if (format == LogFormat::fanuc_karel) header.pose = poseColumns(cells);
+        return header;
       }
     }
     return {};
   }
   return {};
+}
+
+campaign::StatedPose poseOf(const LogText& text, const std::vector<std::string_view>& cells, std::size_t line,
+                            const std::array<std::size_t, 6>& places, DecimalSign sign) {
+  constexpr std::array<const char*, 6> kShown{"X", "Y", "Z", "W", "P", "R"};
+  campaign::StatedPose pose;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const double value = decimal(cells[places[k]], sign, text.file, line, kShown[k]);
+    if (k < 3)
+      pose.position[static_cast<Eigen::Index>(k)] = value * io::kMillimetre;
+    else
+      pose.rpy[static_cast<Eigen::Index>(k) - 3] = value * io::kDegree;
+  }
+  return pose;
 }
 
 }  // namespace
@@ -104,6 +136,8 @@ RobotLog readJointTable(const LogText& text, LogFormat format) {
   const double angle = format == LogFormat::fanuc_karel ? io::kDegree : 1.0;
   RobotLog log;
   log.format = format;
+  // A cell and what parts it from the next are a byte each at least.
+  log.samples.reserve(std::min(io::linesIn(text.text), text.text.size() / (2 * header.cells - 1) + 1));
   for (const TextLine& line : linesOf(text.text)) {
     if (line.number <= header.line || trimmed(line.text).empty()) continue;
     const std::vector<std::string_view> cells = logCells(line.text, header.separator);
@@ -116,6 +150,7 @@ RobotLog readJointTable(const LogText& text, LogFormat format) {
     for (std::size_t j = 0; j < 6; ++j)
       sample.figures[static_cast<Eigen::Index>(j)] =
           decimal(cells[header.joints[j]], sign, text.file, line.number, fmt::format("joint {}", j + 1)) * angle;
+    if (header.pose) sample.tool_pose = poseOf(text, cells, line.number, *header.pose, sign);
     if (header.time)
       sample.time_s = decimal(cells[*header.time], sign, text.file, line.number, "time") * header.seconds_per_unit;
     log.samples.push_back(std::move(sample));
@@ -133,26 +168,34 @@ RobotLog readJointColumns(const LogText& text) {
     throw io::InputError({text.file, 0, "columns"}, text.options.table.columns,
                          "expected q1 to q6 with their unit, as q1_deg");
   const bool wrench = table.hasAllOrNone({"fx", "fy", "fz", "mx", "my", "mz"});
+  const bool position = table.hasAllOrNone({"px", "py", "pz"}), turn = table.hasAllOrNone({"pw", "pp", "pr"});
+  if (turn && !position)
+    throw io::InputError({text.file, 0, "columns"}, text.options.table.columns,
+                         "expected px, py and pz with their unit beside pw, pp and pr");
   RobotLog log;
   log.format = LogFormat::columns;
   log.warnings = table.warnings();
-  for (const ColumnTable::Row& row : table.rows()) {
+  log.samples.reserve(table.mostRows());
+  table.forEachRow([&](const ColumnTable::Row& row) {
     JointSample sample;
     sample.line = row.line;
     sample.name = table.text(row, table.has("pose") ? "pose" : table.has("index") ? "index" : "name");
-    sample.step = table.text(row, "step");
-    sample.axis = table.text(row, "axis");
+    if (const std::string step = table.text(row, "step"); !step.empty())
+      sample.step = wholeStep(text.file, row.line, step);
+    if (const std::string axis = table.text(row, "axis"); !axis.empty())
+      sample.axis = wholeStep(text.file, row.line, axis);
     for (int j = 0; j < 6; ++j) sample.figures[j] = table.number(row, fmt::format("q{}", j + 1));
     if (const auto time = table.time(row)) sample.time_s = time->seconds;
+    if (position)
+      sample.tool_pose.position = {table.number(row, "px"), table.number(row, "py"), table.number(row, "pz")};
+    if (turn) sample.tool_pose.rpy = {table.number(row, "pw"), table.number(row, "pp"), table.number(row, "pr")};
     if (table.hasNumber("temperature")) sample.temperature_c = table.number(row, "temperature");
     if (wrench) {
-      Vector6d values;
-      values << table.number(row, "fx"), table.number(row, "fy"), table.number(row, "fz"), table.number(row, "mx"),
-          table.number(row, "my"), table.number(row, "mz");
-      sample.wrench = values;
+      sample.wrench << table.number(row, "fx"), table.number(row, "fy"), table.number(row, "fz"),
+          table.number(row, "mx"), table.number(row, "my"), table.number(row, "mz");
     }
     log.samples.push_back(std::move(sample));
-  }
+  });
   return log;
 }
 

@@ -183,7 +183,7 @@ std::optional<Eigen::Vector3d> leicaSigma(const FileText& text, const LeicaHeade
 }
 
 PointReading leicaPoint(const FileText& text, const LeicaHeader& header, const std::vector<std::string_view>& cells,
-                        std::size_t line) {
+                        std::size_t line, PointGroups& groups) {
   PointReading point;
   point.line = line;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -196,7 +196,7 @@ PointReading leicaPoint(const FileText& text, const LeicaHeader& header, const s
     return place < 0 ? std::string() : std::string(cells[static_cast<std::size_t>(place)]);
   };
   point.name = cell(header.name >= 0 ? header.name : header.target);
-  point.group = cell(header.group);
+  point.of = groups.of("", cell(header.group));
   point.sigma = leicaSigma(text, header, cells, line);
   const std::string time = cell(header.time);
   if (time.empty()) return point;
@@ -221,6 +221,7 @@ PointFile readLeica(const FileText& text) {
                          "expected a header line that names X, Y and Z with their units, as X [mm]");
   PointFile points;
   points.format = PointFormat::leica;
+  PointGroups groups;
   for (const TextLine& line : linesOf(text.text)) {
     if (line.number <= header.line || trimmed(line.text).empty()) continue;
     std::vector<std::string_view> cells = cellsBetween(line.text, header.separator);
@@ -236,7 +237,7 @@ PointFile readLeica(const FileText& text) {
       throw io::InputError({text.file, line.number, ""}, fmt::format("{} cells", cells.size()),
                            fmt::format("expected {} cells, as the header has{}", header.columns.size(), why));
     }
-    points.points.push_back(leicaPoint(text, header, cells, line.number));
+    points.points.push_back(leicaPoint(text, header, cells, line.number, groups));
   }
   return points;
 }

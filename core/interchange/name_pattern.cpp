@@ -67,8 +67,8 @@ std::optional<std::map<std::string, std::string>> NamePattern::fieldsIn(const st
 
 std::optional<std::map<std::string, std::string>> NamePattern::fieldsIn(const PointReading& point) const {
   std::string name = point.name;
-  if (parts_ > 1) name = point.group + "::" + name;
-  if (parts_ > 2) name = point.collection + "::" + name;
+  if (parts_ > 1) name = point.group() + "::" + name;
+  if (parts_ > 2) name = point.collection() + "::" + name;
   return fieldsIn(name);
 }
 

@@ -113,6 +113,7 @@ PointFile readOpenIndy(const FileText& text) {
   addNames(root, "geometries", "geometry", geometries);
   PointFile points;
   points.format = PointFormat::openindy;
+  PointGroups groups;
   const auto observations = root.child("observations");
   if (!observations) root.refuse("observations", "", "expected this element, which holds the readings");
   for (const io::XmlNode& observation : observations->children("observation")) {
@@ -127,7 +128,7 @@ PointFile readOpenIndy(const FileText& text) {
       if (station != points.frame)
         observation.refuse("station", station,
                            "expected readings of one station, " + points.frame + "; their frames differ");
-      point->group = station;
+      point->of = groups.of("", station);
       point->name = nameBy(observation, "measuredTargetGeometry", geometries);
       points.points.push_back(std::move(*point));
     }

@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <algorithm>
+#include <functional>
 #include <iterator>
-#include <map>
-#include <tuple>
+#include <unordered_map>
+#include <utility>
 
 #include "core/interchange/point_formats.h"
 #include "core/io/input_error.h"
@@ -87,8 +88,12 @@ PointFormat formatOf(const FileText& text) {
 }
 
 void countOccurrences(PointFile& points) {
-  std::map<std::tuple<std::string, std::string, std::string>, int> seen;
-  for (PointReading& point : points.points) point.occurrence = ++seen[{point.collection, point.group, point.name}];
+  using Name = std::pair<const PointGroup*, std::string_view>;
+  const auto hash = [](const Name& name) {
+    return std::hash<std::string_view>()(name.second) ^ std::hash<const PointGroup*>()(name.first);
+  };
+  std::unordered_map<Name, int, decltype(hash)> seen(points.points.size(), hash);
+  for (PointReading& point : points.points) point.occurrence = ++seen[{point.of.get(), point.name}];
 }
 
 /// Rows of exactly 0 0 0: there the tracker itself stands. They count as occurrences, so that the next reading of that
@@ -121,7 +126,7 @@ void requireOptionsOf(PointFormat format, const FileText& text) {
 void requireNames(const std::string& file, const PointFile& points) {
   constexpr std::size_t kLongest = 200;
   for (const PointReading& point : points.points) {
-    for (const std::string* name : {&point.collection, &point.group, &point.name}) {
+    for (const std::string* name : {&point.collection(), &point.group(), &point.name}) {
       const bool control = std::any_of(name->begin(), name->end(),
                                        [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; });
       if (control || name->size() > kLongest)
@@ -146,7 +151,7 @@ void requireNear(const std::string& file, const PointFile& points) {
 
 PointFile parsePointFile(const std::string& file, std::string_view bytes, const FileOptions& options) {
   const DecodedText decoded = decodeText(file, bytes, options.encoding);
-  const FileText text{file, decoded.text, options};
+  const FileText text{file, decoded.text(), options};
   const PointFormat format = formatOf(text);
   requireOptionsOf(format, text);
   PointFile points = readAs(format, text);

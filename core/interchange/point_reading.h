@@ -3,8 +3,11 @@
 #include <Eigen/Core>
 #include <array>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/interchange/text_decoding.h"
@@ -19,15 +22,49 @@ inline constexpr std::array<const char*, 5> kPointFormatNames{"sa", "leica", "op
 
 inline const char* nameOf(PointFormat format) { return kPointFormatNames[static_cast<std::size_t>(format)]; }
 
+/// What points of one group have in common. Names that a file does not state are empty.
+struct PointGroup {
+  std::string collection, group;
+};
+
+/// The groups of a file, each once: of a million points most share a few.
+class PointGroups {
+ public:
+  std::shared_ptr<const PointGroup> of(std::string_view collection, std::string_view group) {
+    if (last_ && last_->collection == collection && last_->group == group) return last_;
+    std::shared_ptr<const PointGroup>& own = all_[{std::string(collection), std::string(group)}];
+    if (!own) own = std::make_shared<PointGroup>(PointGroup{std::string(collection), std::string(group)});
+    return last_ = own;
+  }
+
+ private:
+  std::map<std::pair<std::string, std::string>, std::shared_ptr<const PointGroup>> all_;
+  std::shared_ptr<const PointGroup> last_;
+};
+
 /// One point that a file states. Names that it does not state are empty.
 struct PointReading {
-  std::string collection, group, name;
+  std::shared_ptr<const PointGroup> of;  ///< one of a PointGroups; null: no names of these
+  std::string name;
   int occurrence = 1;  ///< this many of the same names so far: where names repeat once a pose it is the pose
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< m, in the file's frame
   std::optional<Eigen::Vector3d> sigma;             ///< standard uncertainty of each coordinate, m
   std::optional<Timestamp> time;
-  std::map<std::string, std::string> columns;  ///< pose, step, repeat, axis, index, where a table has such columns
+  using Columns = std::map<std::string, std::string>;
+  std::shared_ptr<const Columns> columns;  ///< pose, step, repeat, axis, index, where a table has such columns
   std::size_t line = 0;
+
+  const std::string& collection() const { return of ? of->collection : kUnnamed; }
+  const std::string& group() const { return of ? of->group : kUnnamed; }
+  /// The cell of such a column; empty where there is none.
+  std::string column(const std::string& name) const {
+    const auto found = columns ? columns->find(name) : Columns::const_iterator();
+    return !columns || found == columns->end() ? std::string() : found->second;
+  }
+  bool hasColumn(const std::string& name) const { return columns && columns->contains(name); }
+
+ private:
+  inline static const std::string kUnnamed;
 };
 
 /// Why a row is no reading.

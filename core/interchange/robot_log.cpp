@@ -86,14 +86,36 @@ void requirePlausible(const std::string& file, const RobotLog& log) {
                            fmt::format("{:.6g} deg", sample.figures[j] / io::kDegree),
                            "expected an angle within +-720 deg: radians read as degrees, or another column?");
     }
+    // As the campaign's tables have it; of poses that are not stated both are false.
+    constexpr double kFarthest = 200.0;
+    const campaign::StatedPose& pose = sample.tool_pose;
+    if ((pose.position.array().abs() > kFarthest).any() || (pose.rpy.array().abs() > kMost).any())
+      throw io::InputError({file, sample.line, "pose"}, "",
+                           "expected a position of the tool within +-200 m, and turns within +-720 deg");
   }
+}
+
+/// Poses that stay where they are while joints move are columns that nobody filled.
+void dropEmptyPoses(const std::string& file, RobotLog& log) {
+  constexpr double kMoves = 1.0 * io::kDegree;
+  const JointSample& first = log.samples.front();
+  if (!first.tool_pose.hasPosition()) return;
+  double moved = 0.0;
+  for (const JointSample& sample : log.samples) {
+    if (sample.tool_pose.position != first.tool_pose.position) return;
+    moved = std::max(moved, (sample.figures - first.figures).cwiseAbs().maxCoeff());
+  }
+  if (moved < kMoves) return;
+  for (JointSample& sample : log.samples) sample.tool_pose = {};
+  log.warnings.push_back(io::inputMessage({file, first.line, "pose"}, "",
+                                          "the position of the tool never changes while joints move: it is not taken"));
 }
 
 }  // namespace
 
 RobotLog parseRobotLog(const std::string& file, std::string_view bytes, const LogOptions& options) {
   const DecodedText decoded = decodeText(file, bytes, options.table.encoding);
-  const LogText text{file, decoded.text, options};
+  const LogText text{file, decoded.text(), options};
   RobotLog log = readAs(formatOf(text), text);
   log.encoding = decoded.encoding;
   if (log.samples.empty() && options.joints_needed)
@@ -108,6 +130,7 @@ RobotLog parseRobotLog(const std::string& file, std::string_view bytes, const Lo
   }
   requireOrder(file, log);
   requirePlausible(file, log);
+  dropEmptyPoses(file, log);
   return log;
 }
 

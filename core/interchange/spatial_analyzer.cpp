@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
+#include <type_traits>
 
 #include "core/interchange/length_unit.h"
 #include "core/interchange/point_formats.h"
@@ -28,7 +28,7 @@ std::vector<std::string_view> saCellsOf(std::string_view line, const SaSeparator
   return separator.comma ? cellsBetween(line, ',') : cellsBetweenBlanks(line, separator.blanks);
 }
 
-/// A row with its time, if any, cut off.
+/// A row with its time, if any, cut out.
 struct SaRow {
   std::size_t line = 0;
   bool ended = true;
@@ -44,20 +44,62 @@ struct SaHeader {
   std::string unit_word;             ///< a unit's name that stands elsewhere than with the axes
   std::optional<int> uncertainties;  ///< cells a row has of them; nullopt: the axes are not commented
   double coverage = 0.0;             ///< k; 0: not said
-  bool any = false;
 };
 
-/// The first text between two equal marks that holds '::'.
+/// Marks of other scripts as ASCII has them: full-width letters, brackets and blanks, ideographic commas, quotation
+/// marks.
+std::string plainMarks(std::string_view comment) {
+  struct Mark {
+    std::string_view mark;
+    char plain;
+  };
+  constexpr std::array<Mark, 13> kMarks{{{"\xE3\x80\x80", ' '},
+                                         {"\xE3\x80\x81", ','},
+                                         {"\xE3\x80\x82", '.'},
+                                         {"\xE3\x80\x8C", '\''},
+                                         {"\xE3\x80\x8D", '\''},
+                                         {"\xE2\x80\x98", '\''},
+                                         {"\xE2\x80\x99", '\''},
+                                         {"\xE2\x80\x9C", '\''},
+                                         {"\xE2\x80\x9D", '\''},
+                                         {"\xE2\x80\x9E", '\''},
+                                         {"\xC2\xAB", '\''},
+                                         {"\xC2\xBB", '\''},
+                                         {"\xC2\xB4", '\''}}};
+  std::string plain;
+  while (!comment.empty()) {
+    const auto mark =
+        std::find_if(kMarks.begin(), kMarks.end(), [&](const Mark& one) { return comment.starts_with(one.mark); });
+    if (mark != kMarks.end()) {
+      plain += mark->plain;
+      comment.remove_prefix(mark->mark.size());
+      continue;
+    }
+    // U+FF01 to U+FF5E are the characters from '!' to '~' again.
+    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(comment[i]); };
+    const bool wide = comment.size() > 2 && byte(0) == 0xEF && (byte(1) == 0xBC || byte(1) == 0xBD);
+    const int code = wide ? (byte(1) - 0xBC) * 0x40 + byte(2) - 0x80 : 0;
+    if (wide && code >= 1 && code <= 0x5E) {
+      plain += static_cast<char>(code + 0x20);
+      comment.remove_prefix(3);
+      continue;
+    }
+    plain += comment.front();
+    comment.remove_prefix(1);
+  }
+  return plain;
+}
+
+/// The first text between two marks that holds '::'.
 std::string frameIn(std::string_view comment) {
   const std::size_t colons = comment.find("::");
   if (colons == std::string_view::npos) return {};
-  for (const std::string_view mark : {"'", "\"", "`", "\xE2\x80\x98", "\xE2\x80\x99", "\xC2\xB4"}) {
+  for (const char mark : {'\'', '"', '`'}) {
     const std::size_t open = comment.rfind(mark, colons);
     if (open == std::string_view::npos) continue;
-    std::string_view rest = comment.substr(open + mark.size());
-    const std::size_t close =
-        std::min({rest.find('\''), rest.find('"'), rest.find("\xE2\x80\x99"), rest.find("\xC2\xB4")});
-    if (close != std::string_view::npos) return std::string(rest.substr(0, close));
+    std::string_view rest = comment.substr(open + 1);
+    const std::size_t close = rest.find_first_of("'\"");
+    if (close != std::string_view::npos) return std::string(trimmed(rest.substr(0, close)));
   }
   // Without marks: the word that the colons are in.
   const std::size_t from = comment.find_last_of(" \t", colons) + 1;
@@ -146,9 +188,18 @@ double coverageIn(std::string_view comment) {
 }
 
 void readSaComment(const FileText& text, const TextLine& line, std::string_view comment, SaHeader& header) {
-  header.any = true;
-  if (header.frame.empty()) header.frame = frameIn(comment);
-  if (header.coverage == 0.0) header.coverage = coverageIn(comment);
+  const std::string frame = frameIn(comment);
+  const double coverage = coverageIn(comment);
+  // Exports are appended to each other: what the second says must be what the first did.
+  if (!frame.empty() && !header.frame.empty() && frame != header.frame)
+    throw io::InputError({text.file, line.number, "frame"}, frame,
+                         fmt::format("expected points in one frame; those above are in {}", header.frame));
+  if (coverage > 0.0 && header.coverage > 0.0 && coverage != header.coverage)
+    throw io::InputError(
+        {text.file, line.number, "coverage"}, fmt::format("k = {:g}", coverage),
+        fmt::format("expected uncertainties of one coverage; those above have k = {:g}", header.coverage));
+  if (header.frame.empty()) header.frame = frame;
+  if (header.coverage == 0.0) header.coverage = coverage;
   const std::vector<std::string> words = wordsOf(comment);
   const bool axes = namesAxes(words);
   // Short names (in, m) are words of many languages; of the long ones none is.
@@ -181,35 +232,60 @@ void readSaComment(const FileText& text, const TextLine& line, std::string_view 
   }
 }
 
-/// Cuts date and time, or a lone time, off the end. A time without its day, if it is not the 00:00:00 of a point that
-/// nobody measured, is said to be there: no clock can use it.
-void cutTime(std::vector<std::string_view>& cells, std::optional<Timestamp>& time, bool& lone) {
-  if (cells.empty()) return;
-  const std::string_view last = cells.back();
-  const bool two = cells.size() > 1 && isTimeOfDay(last) && isDate(cells[cells.size() - 2]);
-  if (two) {
-    time = parseTimestamp(fmt::format("{} {}", cells[cells.size() - 2], last));
-    cells.resize(cells.size() - 2);
-  } else if (isTimeOfDay(last)) {
-    lone = !isNoTime(last);
-    cells.pop_back();
-  } else if (last.find(':') != std::string_view::npos) {
-    time = parseTimestamp(last);
-    const std::size_t blank = last.find(' ');
-    const bool nothing = blank != std::string_view::npos && isNoTime(trimmed(last.substr(blank)));
-    if (!time && !nothing) return;  // left to be refused as no number
-    cells.pop_back();
+/// Cuts date and time, or a lone time, out of the cells at `at`, which is the last of them. A time without its day, if
+/// it is not the 00:00:00 of a point that nobody measured, is said to be there: no clock can use it.
+bool cutTimeAt(std::size_t at, SaRow& row) {
+  std::vector<std::string_view>& cells = row.cells;
+  const auto erase = [&](std::size_t from) {
+    cells.erase(cells.begin() + static_cast<std::ptrdiff_t>(from), cells.begin() + static_cast<std::ptrdiff_t>(at) + 1);
+    return true;
+  };
+  const std::string_view last = cells[at];
+  if (at > 0 && isTimeOfDay(last) && isDate(cells[at - 1])) {
+    row.time = parseTimestamp(fmt::format("{} {}", cells[at - 1], last));
+    return erase(at - 1);
+  }
+  if (isTimeOfDay(last)) {
+    row.lone_time = !isNoTime(last);
+    return erase(at);
+  }
+  if (last.find(':') == std::string_view::npos) return false;
+  const std::optional<Timestamp> time = parseTimestamp(last);
+  const std::size_t blank = last.find(' ');
+  const bool nothing = blank != std::string_view::npos && isNoTime(trimmed(last.substr(blank)));
+  if (!time && !nothing) return false;  // left to be refused as no number
+  row.time = time;
+  return erase(at);
+}
+
+/// The time stands last, or before comments and details of the target; in front of it are at least x y z.
+void cutTime(SaRow& row) {
+  constexpr std::size_t kLeast = 3;
+  for (std::size_t at = row.cells.size(); at-- > kLeast;) {
+    if (cutTimeAt(at, row)) return;
   }
 }
 
-std::vector<TextLine> rowLines(const FileText& text, std::size_t most = std::numeric_limits<std::size_t>::max()) {
-  std::vector<TextLine> rows;
+/// Calls use(line) for every line that is a row, until `use` returns false where it returns something.
+template <class Use>
+void forEachRowLine(const FileText& text, const Use& use) {
   for (const TextLine& line : linesOf(text.text)) {
     const std::string_view content = trimmed(line.text);
     if (line.number <= text.options.skip || content.empty() || content.starts_with(kComment)) continue;
-    if (rows.size() == most) break;
-    rows.push_back({content, line.number, line.ended});
+    if constexpr (std::is_same_v<std::invoke_result_t<Use, const TextLine&>, bool>) {
+      if (!use({content, line.number, line.ended})) return;
+    } else {
+      use({content, line.number, line.ended});
+    }
   }
+}
+
+std::vector<TextLine> rowLines(const FileText& text, std::size_t most) {
+  std::vector<TextLine> rows;
+  forEachRowLine(text, [&](const TextLine& line) {
+    rows.push_back(line);
+    return rows.size() < most;
+  });
   return rows;
 }
 
@@ -217,32 +293,53 @@ SaHeader headerOf(const FileText& text) {
   SaHeader header;
   for (const TextLine& line : linesOf(text.text)) {
     const std::string_view content = trimmed(line.text);
-    if (content.starts_with(kComment)) readSaComment(text, line, trimmed(content.substr(kComment.size())), header);
+    if (content.starts_with(kComment))
+      readSaComment(text, line, plainMarks(trimmed(content.substr(kComment.size()))), header);
   }
   return header;
 }
 
-SaSeparator separatorOf(const FileText& text, const std::vector<TextLine>& rows) {
-  const auto every = [&](const auto& holds) { return std::all_of(rows.begin(), rows.end(), holds); };
-  const bool comma = every([](const TextLine& row) { return row.text.find(',') != std::string_view::npos; });
-  constexpr std::size_t kApart = 2;
-  const bool wide = every([](const TextLine& row) {
-    return longestBlanks(row.text) >= kApart || row.text.find('\t') != std::string_view::npos;
-  });
-  const std::size_t blanks = wide ? kApart : 1;
-  if (text.options.decimal_comma) return {false, blanks};
-  // "Main   1   2296,337   -2416,231": every comma is inside a number.
-  const bool decimal =
-      comma && every([&](const TextLine& row) {
-        const auto cells = cellsBetweenBlanks(row.text, 1);
-        return std::none_of(cells.begin(), cells.end(), [](std::string_view cell) { return cell.ends_with(','); }) &&
-               std::any_of(cells.begin(), cells.end(), looksLikeDecimalComma);
-      });
-  if (decimal) {
-    throw io::InputError({text.file, rows.front().number, ""}, std::string(rows.front().text),
-                         "expected decimal points; these numbers have commas (option decimal-comma)");
+/// What of the separators all rows have.
+class SaSeparators {
+ public:
+  void add(const TextLine& row) {
+    constexpr std::size_t kApart = 2;
+    comma_ = comma_ && row.text.find(',') != std::string_view::npos;
+    wide_ = wide_ && (longestBlanks(row.text) >= kApart || row.text.find('\t') != std::string_view::npos);
+    if (comma_ && decimal_) {
+      // "Main   1   2296,337   -2416,231": every comma is inside a number.
+      const auto cells = cellsBetweenBlanks(row.text, 1);
+      decimal_ = std::none_of(cells.begin(), cells.end(), [](std::string_view cell) { return cell.ends_with(','); }) &&
+                 std::any_of(cells.begin(), cells.end(), looksLikeDecimalComma);
+    }
+    if (first_.number == 0) first_ = row;
   }
-  return {comma, blanks};
+
+  /// Throws InputError where numbers have decimal commas that nobody spoke of.
+  SaSeparator chosen(const FileText& text) const {
+    const std::size_t blanks = wide_ ? 2 : 1;
+    if (text.options.decimal_comma) return {false, blanks};
+    if (comma_ && decimal_)
+      throw io::InputError({text.file, first_.number, ""}, std::string(first_.text),
+                           "expected decimal points; these numbers have commas (option decimal-comma)");
+    return {comma_, blanks};
+  }
+
+ private:
+  TextLine first_;
+  bool comma_ = true, wide_ = true, decimal_ = true;
+};
+
+SaSeparator separatorOf(const FileText& text, const std::vector<TextLine>& rows) {
+  SaSeparators separators;
+  for (const TextLine& row : rows) separators.add(row);
+  return separators.chosen(text);
+}
+
+SaSeparator separatorOf(const FileText& text) {
+  SaSeparators separators;
+  forEachRowLine(text, [&](const TextLine& row) { separators.add(row); });
+  return separators.chosen(text);
 }
 
 /// Whether cells are coordinates: numbers with the same count of decimals, which names seldom have.
@@ -256,14 +353,16 @@ bool areCoordinates(const std::vector<std::string_view>& cells, std::size_t from
 }
 
 /// Uncertainties are none below zero, and a fourth is the root of the sum of their squares.
-bool areUncertainties(const std::vector<std::string_view>& cells, std::size_t from, DecimalSign sign) {
+bool areUncertainties(const std::vector<std::string_view>& cells, std::size_t from, std::size_t count,
+                      DecimalSign sign) {
+  if (from + count > cells.size()) return false;
   double squares = 0.0;
   for (std::size_t i = from; i < from + 3; ++i) {
     const double value = decimalOrNan(cells[i], sign);
     if (!(value >= 0.0)) return false;
     squares += value * value;
   }
-  if (cells.size() < from + 4) return true;
+  if (count < 4) return true;
   const double whole = decimalOrNan(cells[from + 3], sign);
   const int decimals = decimalsOf(cells[from + 3]);
   const double rounding = decimals < 0 ? 1e-3 * whole : 3.0 * std::pow(10.0, -decimals);
@@ -272,35 +371,41 @@ bool areUncertainties(const std::vector<std::string_view>& cells, std::size_t fr
 
 constexpr std::size_t kMostNames = 3;
 
-/// Whether a row can have that many names: what follows x y z is nothing, two target offsets, or uncertainties.
-bool fitsNames(const SaRow& row, std::size_t names, DecimalSign sign) {
+/// How strictly what follows x y z is taken: nothing, two target offsets, or uncertainties; or anything else that the
+/// writer may put there (tolerances, weights, comments, details of the measurement), which is not read.
+enum class Behind { known, anything };
+
+bool fitsNames(const SaRow& row, std::size_t names, DecimalSign sign, Behind allowed) {
   if (!areCoordinates(row.cells, names, sign)) return false;
+  if (allowed == Behind::anything) return true;
   const std::size_t behind = row.cells.size() - names - 3;
   if (behind == 0) return true;
   for (std::size_t i = names + 3; i < row.cells.size(); ++i) {
     if (std::isnan(decimalOrNan(row.cells[i], sign))) return false;
   }
   if (behind == 2) return true;
-  return (behind == 3 || behind == 4) && areUncertainties(row.cells, names + 3, sign);
+  return (behind == 3 || behind == 4) && areUncertainties(row.cells, names + 3, behind, sign);
 }
 
 /// How many names can stand before the coordinates of all rows, and the first row that none is left for.
-struct PossibleNames {
-  std::vector<std::size_t> counts;
-  const SaRow* misfit = nullptr;
-};
-
-PossibleNames possibleNames(const std::vector<SaRow>& rows, DecimalSign sign) {
-  PossibleNames possible;
-  for (std::size_t names = 0; names <= kMostNames; ++names) possible.counts.push_back(names);
-  for (const SaRow& row : rows) {
-    std::erase_if(possible.counts, [&](std::size_t names) { return !fitsNames(row, names, sign); });
-    if (!possible.counts.empty()) continue;
-    possible.misfit = &row;
-    break;
+class PossibleNames {
+ public:
+  PossibleNames(DecimalSign sign, Behind allowed) : sign_(sign), allowed_(allowed) {
+    for (std::size_t names = 0; names <= kMostNames; ++names) counts.push_back(names);
   }
-  return possible;
-}
+  void add(const SaRow& row) {
+    if (misfit) return;
+    std::erase_if(counts, [&](std::size_t names) { return !fitsNames(row, names, sign_, allowed_); });
+    if (counts.empty()) misfit = row;
+  }
+
+  std::vector<std::size_t> counts;
+  std::optional<SaRow> misfit;
+
+ private:
+  DecimalSign sign_;
+  Behind allowed_;
+};
 
 [[noreturn]] void refuseRow(const FileText& text, const SaRow& row) {
   const bool cut = !row.ended;
@@ -308,32 +413,11 @@ PossibleNames possibleNames(const std::vector<SaRow>& rows, DecimalSign sign) {
     if (text.decimalSign() == DecimalSign::point && looksLikeDecimalComma(row.cells[i]))
       decimal(row.cells[i], DecimalSign::point, text.file, row.line, "");
   }
-  throw io::InputError({text.file, row.line, ""}, fmt::format("{}", fmt::join(row.cells, " | ")),
-                       std::string("expected up to three names, x y z with the same decimals, and behind them nothing, "
-                                   "two target offsets, or three or four uncertainties, and a time") +
-                           (cut ? "; the file ends in the middle of this line" : ""));
-}
-
-/// The count of names that all rows have.
-std::size_t namesOf(const FileText& text, const std::vector<SaRow>& rows, const SaHeader& header) {
-  const DecimalSign sign = text.decimalSign();
-  const PossibleNames fitting = possibleNames(rows, sign);
-  if (fitting.misfit != nullptr) refuseRow(text, *fitting.misfit);
-  std::vector<std::size_t> possible = fitting.counts;
-  if (possible.size() > 1 && header.uncertainties) {
-    const auto most = std::max_element(rows.begin(), rows.end(), [](const SaRow& a, const SaRow& b) {
-                        return a.cells.size() < b.cells.size();
-                      })->cells.size();
-    const auto said = most - 3 - static_cast<std::size_t>(*header.uncertainties);
-    if (std::find(possible.begin(), possible.end(), said) != possible.end()) possible = {said};
-  }
-  if (possible.size() > 1) {
-    throw io::InputError({text.file, rows.front().line, ""}, fmt::format("{}", fmt::join(rows.front().cells, " | ")),
-                         fmt::format("expected rows that can be read in one way; there may be {} names before x y z: "
-                                     "name the columns (format columns)",
-                                     fmt::join(possible, " or ")));
-  }
-  return possible.front();
+  throw io::InputError(
+      {text.file, row.line, ""}, fmt::format("{}", fmt::join(row.cells, " | ")),
+      std::string("expected up to three names, x y z with the same decimals, and behind them cells as in "
+                  "the other rows, and a time") +
+          (cut ? "; the file ends in the middle of this line" : ""));
 }
 
 /// Metres in the unit of the axes. A unit that the comments name elsewhere, or another than the user's, is no unit to
@@ -353,43 +437,173 @@ double saUnitOf(const FileText& text, const SaHeader& header, std::vector<std::s
   return *header.unit;
 }
 
-/// A last number that lacks digits was cut off with the file.
-void requireWhole(const FileText& text, const std::vector<SaRow>& rows, const std::vector<TextLine>& lines) {
-  if (rows.size() < 2 || lines.back().ended || rows.back().time) return;
-  const auto &last = rows.back().cells, &before = rows[rows.size() - 2].cells;
-  if (last.empty() || before.empty() || last.size() != before.size()) return;
-  if (decimalsOf(last.back()) >= decimalsOf(before.back())) return;
-  throw io::InputError({text.file, rows.back().line, ""}, std::string(last.back()),
-                       "expected as many decimals as above; the file ends in the middle of this number");
+/// A line as a row.
+SaRow saRowOf(const TextLine& line, const SaSeparator& separator) {
+  SaRow row{line.number, line.ended, saCellsOf(line.text, separator), std::nullopt, false};
+  // A separator behind the last cell ends nothing.
+  if (separator.comma && !row.cells.empty() && row.cells.back().empty()) row.cells.pop_back();
+  cutTime(row);
+  return row;
 }
 
-std::vector<SaRow> saRowsOf(const std::vector<TextLine>& lines, const SaSeparator& separator) {
-  std::vector<SaRow> rows;
-  for (const TextLine& line : lines) {
-    SaRow row{line.number, line.ended, saCellsOf(line.text, separator), std::nullopt, false};
-    // A separator behind the last cell ends nothing.
-    if (separator.comma && !row.cells.empty() && row.cells.back().empty()) row.cells.pop_back();
-    cutTime(row.cells, row.time, row.lone_time);
-    rows.push_back(std::move(row));
+/// Calls use(row) for every row of the file, one after the other: a file of 100 MB has two million.
+template <class Use>
+void forEachRow(const FileText& text, const SaSeparator& separator, const Use& use) {
+  forEachRowLine(text, [&](const TextLine& line) { use(saRowOf(line, separator)); });
+}
+
+/// Where uncertainties stand behind x y z, and how many cells they are; cells that are there and are not read.
+struct SaColumns {
+  std::size_t names = 0;
+  std::optional<std::size_t> uncertainties;  ///< first of them, counted behind x y z
+  std::size_t of_them = 0;                   ///< three, or four with their root of squares
+  bool offsets = false, others = false;      ///< not read
+};
+
+/// What all rows of a file have in common.
+class SaSurvey {
+ public:
+  SaSurvey(const FileText& text, const SaHeader& header) : text_(text), header_(header), sign_(text.decimalSign()) {}
+
+  void add(const SaRow& row) {
+    known_.add(row);
+    any_.add(row);
+    if (start_.size() < kStart) start_.push_back(row);
+    if (row.cells.size() > most_) most_ = row.cells.size();
+    before_last_ = std::move(last_);
+    last_ = row;
+    if (row.lone_time && lone_time == 0) lone_time = row.line;
+    ++rows;
   }
-  return rows;
+
+  /// Throws InputError where rows fit no count of names, or several.
+  SaColumns columns() const {
+    SaColumns columns;
+    const bool plain = !known_.misfit;
+    if (!plain && any_.misfit) refuseRow(text_, *any_.misfit);
+    columns.names = onlyOne(plain ? known_.counts : any_.counts, plain);
+    if (!plain) requireOthers(columns.names);
+    const std::size_t behind = most_ - columns.names - 3;
+    if (!plain) {
+      columns.others = true;
+    } else if (behind >= 3) {
+      columns.uncertainties = 0;
+      columns.of_them = behind;
+    }
+    columns.offsets = plain && behind == 2;
+    return columns;
+  }
+
+  /// A last number that lacks digits was cut off with the file.
+  void requireWhole() const {
+    if (rows < 2 || last_.ended || last_.time) return;
+    const auto &last = last_.cells, &before = before_last_.cells;
+    if (last.empty() || before.empty() || last.size() != before.size()) return;
+    if (std::isnan(decimalOrNan(last.back(), sign_)) || decimalsOf(last.back()) >= decimalsOf(before.back())) return;
+    throw io::InputError({text_.file, last_.line, ""}, std::string(last.back()),
+                         "expected as many decimals as above; the file ends in the middle of this number");
+  }
+
+  const SaRow& first() const { return start_.front(); }
+  const SaRow& last() const { return last_; }
+  std::size_t most() const { return most_; }
+
+  std::size_t rows = 0, lone_time = 0;
+
+ private:
+  static constexpr std::size_t kStart = 20;
+
+  /// Columns of another kind are there from the start: one row among plain ones is torn.
+  void requireOthers(std::size_t names) const {
+    const auto plain = std::count_if(start_.begin(), start_.end(),
+                                     [&](const SaRow& row) { return fitsNames(row, names, sign_, Behind::known); });
+    const bool torn = known_.misfit->line == last_.line && !last_.ended;
+    if (torn || 2 * plain > static_cast<std::ptrdiff_t>(start_.size())) refuseRow(text_, *known_.misfit);
+  }
+
+  /// Where several counts fit, that by which the columns are as many as the comments say.
+  std::size_t onlyOne(std::vector<std::size_t> possible, bool plain) const {
+    if (possible.size() > 1 && header_.uncertainties && plain) {
+      const std::size_t said = most_ - 3 - static_cast<std::size_t>(*header_.uncertainties);
+      if (std::find(possible.begin(), possible.end(), said) != possible.end()) return said;
+    }
+    if (possible.size() == 1) return possible.front();
+    throw io::InputError({text_.file, first().line, ""}, fmt::format("{}", fmt::join(first().cells, " | ")),
+                         fmt::format("expected rows that can be read in one way; there may be {} names before x y z: "
+                                     "name the columns (format columns)",
+                                     fmt::join(possible, " or ")));
+  }
+
+  const FileText& text_;
+  const SaHeader& header_;
+  DecimalSign sign_;
+  PossibleNames known_{sign_, Behind::known}, any_{sign_, Behind::anything};
+  std::vector<SaRow> start_;
+  SaRow last_, before_last_;
+  std::size_t most_ = 0;
+};
+
+/// Of cells of several kinds behind x y z the four that are uncertainties: numbers whose fourth is the root of the sum
+/// of the others' squares, at one place in all rows and not zero in all. Without it none is read.
+void findUncertainties(const FileText& text, const SaSeparator& separator, std::size_t most, SaColumns& columns) {
+  constexpr std::size_t kCells = 4;
+  struct Window {
+    std::size_t at = 0;
+    bool fits = true, any = false;
+  };
+  std::vector<Window> windows;
+  for (std::size_t at = 0; columns.names + 3 + at + kCells <= most; ++at) windows.push_back({at});
+  forEachRow(text, separator, [&](const SaRow& row) {
+    for (Window& window : windows) {
+      const std::size_t from = columns.names + 3 + window.at;
+      if (!window.fits || from + kCells > row.cells.size()) continue;
+      window.fits = areUncertainties(row.cells, from, kCells, text.decimalSign());
+      window.any = window.any || (window.fits && decimalOrNan(row.cells[from + 3], text.decimalSign()) > 0.0);
+    }
+  });
+  std::erase_if(windows, [](const Window& window) { return !window.fits || !window.any; });
+  if (windows.size() != 1) return;
+  columns.uncertainties = windows.front().at;
+  columns.of_them = kCells;
 }
 
-PointReading saPointOf(const SaRow& row, std::size_t names, double unit, double coverage, DecimalSign sign) {
+PointReading saPointOf(const SaRow& row, const SaColumns& columns, double unit, double coverage, DecimalSign sign,
+                       PointGroups& groups) {
   PointReading point;
   point.line = row.line;
   point.time = row.time;
+  const std::size_t names = columns.names;
   if (names >= 1) point.name = row.cells[names - 1];
-  if (names >= 2) point.group = row.cells[names - 2];
-  if (names >= 3) point.collection = row.cells[0];
+  if (names >= 2) point.of = groups.of(names >= 3 ? row.cells[0] : std::string_view(), row.cells[names - 2]);
   const auto number = [&](std::size_t at) { return decimalOrNan(row.cells[at], sign); };
   for (std::size_t k = 0; k < 3; ++k) point.point[static_cast<Eigen::Index>(k)] = number(names + k) * unit;
-  if (row.cells.size() - names - 3 < 3) return point;
+  if (!columns.uncertainties || row.cells.size() < names + 3 + *columns.uncertainties + 3) return point;
   Eigen::Vector3d sigma;
-  for (std::size_t k = 0; k < 3; ++k) sigma[static_cast<Eigen::Index>(k)] = number(names + 3 + k) * unit / coverage;
+  for (std::size_t k = 0; k < 3; ++k)
+    sigma[static_cast<Eigen::Index>(k)] = number(names + 3 + *columns.uncertainties + k) * unit / coverage;
   // Of constructed points the columns are there and hold nothing.
   if (!sigma.isZero(0.0)) point.sigma = sigma;
   return point;
+}
+
+/// What had to be taken for granted of the columns, one line each.
+void warnOfColumns(const FileText& text, const SaHeader& header, const SaSurvey& survey, const SaColumns& columns,
+                   std::vector<std::string>& warnings) {
+  const auto warn = [&](std::size_t line, const char* why) {
+    warnings.push_back(io::inputMessage({text.file, line, ""}, "", why));
+  };
+  if (columns.offsets) warn(survey.first().line, "two numbers behind x y z are taken for target offsets and not read");
+  if (columns.others)
+    warn(survey.first().line, columns.uncertainties
+                                  ? "cells behind x y z that are no uncertainties are not read"
+                                  : "cells behind x y z are not read: among them are no four uncertainties");
+  if (columns.of_them == 3 && header.uncertainties.value_or(0) < 3)
+    warn(survey.first().line, "three numbers behind x y z are taken for their uncertainties");
+  if (columns.uncertainties && header.coverage == 0.0)
+    warn(0, "the uncertainties' coverage is not stated: taken as one sigma");
+  if (survey.lone_time > 0) warn(survey.lone_time, "a time without its date is not read: its day is not known");
+  if (!survey.last().ended)
+    warn(survey.last().line, "the last line has no line end; its last cell may have been cut short");
 }
 
 }  // namespace
@@ -402,13 +616,23 @@ SaLikeness looksLikeSpatialAnalyzer(const FileText& text) {
   const std::string_view start = trimmed(text.text.substr(0, text.text.find_first_of("\r\n")));
   if (start.starts_with(kComment)) return SaLikeness::certain;
   if (first.size() > 1 && !first.back().ended) first.pop_back();
-  const std::vector<SaRow> rows = saRowsOf(first, separatorOf(text, first));
-  const std::vector<std::size_t> possible = possibleNames(rows, text.decimalSign()).counts;
+  const SaSeparator separator = separatorOf(text, first);
+  PossibleNames known(text.decimalSign(), Behind::known), any(text.decimalSign(), Behind::anything);
+  bool timed = false;
+  for (const TextLine& line : first) {
+    const SaRow row = saRowOf(line, separator);
+    known.add(row);
+    any.add(row);
+    timed = timed || row.time;
+  }
+  const std::vector<std::size_t>& possible = known.misfit ? any.counts : known.counts;
   if (possible.empty() || first.front().text.find(';') != std::string_view::npos) return SaLikeness::none;
   const bool spaced = std::all_of(first.begin(), first.end(), [](const TextLine& line) {
     return line.text.find(",  ") != std::string_view::npos || line.text.find("   ") != std::string_view::npos;
   });
-  const bool named = possible.front() > 0 || rows.front().time;
+  const bool named = possible.front() > 0 || timed;
+  // Cells that no rule explains are SpatialAnalyzer's only where the writer's own spacing says so.
+  if (known.misfit && !(spaced && named)) return SaLikeness::none;
   return spaced && named ? SaLikeness::certain : SaLikeness::possible;
 }
 
@@ -417,33 +641,24 @@ PointFile readSpatialAnalyzer(const FileText& text) {
   points.format = PointFormat::sa;
   const SaHeader header = headerOf(text);
   points.frame = header.frame;
-  const std::vector<TextLine> lines = rowLines(text);
-  if (lines.empty()) throw io::InputError({text.file, 0, ""}, "", "expected points; there are none");
-  const std::vector<SaRow> rows = saRowsOf(lines, separatorOf(text, lines));
-  const std::size_t names = namesOf(text, rows, header);
-  requireWhole(text, rows, lines);
+  const SaSeparator separator = separatorOf(text);
+  SaSurvey survey(text, header);
+  forEachRow(text, separator, [&](const SaRow& row) { survey.add(row); });
+  if (survey.rows == 0) throw io::InputError({text.file, 0, ""}, "", "expected points; there are none");
+  SaColumns columns = survey.columns();
+  if (columns.others) findUncertainties(text, separator, survey.most(), columns);
+  survey.requireWhole();
   const double unit = saUnitOf(text, header, points.warnings);
-  const std::size_t most =
-      std::max_element(rows.begin(), rows.end(),
-                       [](const SaRow& a, const SaRow& b) { return a.cells.size() < b.cells.size(); })
-          ->cells.size() -
-      names - 3;
-  if (most == 2)
-    points.warnings.push_back(io::inputMessage({text.file, rows.front().line, ""}, "",
-                                               "two numbers behind x y z are taken for target offsets and not read"));
-  if (most >= 3 && header.coverage == 0.0)
+  if (!header.uncertainties)
     points.warnings.push_back(
-        io::inputMessage({text.file, 0, ""}, "", "the uncertainties' coverage is not stated: taken as one sigma"));
-  const auto lone = std::find_if(rows.begin(), rows.end(), [](const SaRow& row) { return row.lone_time; });
-  if (lone != rows.end())
-    points.warnings.push_back(
-        io::inputMessage({text.file, lone->line, ""}, "", "a time without its date is not read: its day is not known"));
-  if (!lines.back().ended)
-    points.warnings.push_back(io::inputMessage({text.file, lines.back().number, ""}, "",
-                                               "the last line has no line end; its last cell may have been cut short"));
-  for (const SaRow& row : rows)
+        io::inputMessage({text.file, 0, ""}, "", "no comment names the axes: Cartesian x y z are taken"));
+  warnOfColumns(text, header, survey, columns, points.warnings);
+  points.points.reserve(survey.rows);
+  PointGroups groups;
+  forEachRow(text, separator, [&](const SaRow& row) {
     points.points.push_back(
-        saPointOf(row, names, unit, header.coverage == 0.0 ? 1.0 : header.coverage, text.decimalSign()));
+        saPointOf(row, columns, unit, header.coverage == 0.0 ? 1.0 : header.coverage, text.decimalSign(), groups));
+  });
   return points;
 }
 

@@ -1,10 +1,13 @@
 #include "core/interchange/standstill.h"
 
+#include <Eigen/SVD>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <deque>
 #include <limits>
+
+#include "core/robot/kinematics.h"
 
 namespace stiffscope::interchange {
 
@@ -226,6 +229,29 @@ Vector6d meanFigures(const std::vector<JointSample>& samples, std::size_t first,
   Vector6d sum = Vector6d::Zero();
   for (std::size_t i = first; i <= last; ++i) sum += samples[i].figures - start;
   return start + sum / static_cast<double>(last - first + 1);
+}
+
+campaign::StatedPose meanToolPose(const std::vector<JointSample>& samples, std::size_t first, std::size_t last) {
+  const campaign::StatedPose& start = samples[first].tool_pose;
+  campaign::StatedPose mean = start;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d turns = Eigen::Matrix3d::Zero();
+  bool turned = false;
+  for (std::size_t i = first; i <= last; ++i) {
+    const campaign::StatedPose& pose = samples[i].tool_pose;
+    sum += pose.position - start.position;
+    turned = turned || pose.rpy != start.rpy;
+    turns += robot::rotationFromRpy(pose.rpy);
+  }
+  mean.position = start.position + sum / static_cast<double>(last - first + 1);
+  if (!turned || !turns.allFinite()) {
+    if (!turns.allFinite()) mean.rpy.setConstant(campaign::kNotGiven);
+    return mean;
+  }
+  // Angles jump from 180 to -180 deg within the last digit; rotations do not. The nearest one to their sum is the mean.
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(turns, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  mean.rpy = robot::rpyFromRotation(svd.matrixU() * svd.matrixV().transpose());
+  return mean;
 }
 
 std::vector<ClockOffset> possibleOffsets(const std::vector<ReadingTime>& readings,

@@ -27,6 +27,10 @@ std::vector<Standstill> standstillsOf(const std::vector<JointSample>& samples, c
 /// Mean of the figures of samples first..last; where all are equal, that value to the last digit.
 Vector6d meanFigures(const std::vector<JointSample>& samples, std::size_t first, std::size_t last);
 
+/// Mean of the poses that the controller states in samples first..last, turns as rotations; where all are equal, that
+/// pose to the last digit. Without what one of them lacks.
+campaign::StatedPose meanToolPose(const std::vector<JointSample>& samples, std::size_t first, std::size_t last);
+
 /// A reading's time by the tracker's clock.
 struct ReadingTime {
   double seconds = 0.0, resolution = 0.0;

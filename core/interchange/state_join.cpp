@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <tuple>
 
@@ -55,11 +56,10 @@ std::map<StateKey, std::size_t> samplesByName(const JoinTask& task) {
       const auto found = fields->find(name);
       return found == fields->end() ? std::string() : found->second;
     };
-    const std::string step = field("step").empty() ? sample.step : field("step");
-    const std::string axis = field("axis").empty() ? sample.axis : field("axis");
+    const int step = field("step").empty() ? sample.step : wholeStep(task.file, sample.line, field("step"));
+    const int axis = field("axis").empty() ? sample.axis : wholeStep(task.file, sample.line, field("axis"));
     const std::string pose = names.has("index") ? field("index") : field("pose");
-    const StateKey key{axis.empty() ? -1 : wholeStep(task.file, sample.line, axis) - 1, pose,
-                       wholeStep(task.file, sample.line, step)};
+    const StateKey key{axis < 0 ? -1 : axis - 1, pose, std::max(step, 0)};
     const auto [first, added] = samples.emplace(key, i);
     // A table with a row for each reflector states the joints again.
     if (!added && sample.figures != task.log.samples[first->second].figures)
@@ -121,6 +121,56 @@ StateJoin joinByOrder(const JoinTask& task, const std::vector<DayReading>& readi
   }
   for (std::size_t i = 0; i < wanted; ++i)
     setJoints(join.states[i], task.log, standstills[i].first, standstills[i].last);
+  return join;
+}
+
+StateJoin joinNothing(const std::vector<DayReading>& readings) {
+  return {statesInOrder(readings), {}, {}, std::nullopt};
+}
+
+StateJoin posturesOf(const JoinTask& task) {
+  StateJoin join;
+  const auto add = [&](std::string pose, int step, std::size_t first, std::size_t last) {
+    JoinedState state;
+    state.pose = std::move(pose);
+    state.step = step;
+    setJoints(state, task.log, first, last);
+    join.states.push_back(std::move(state));
+    join.stretches.emplace_back(first, last);
+  };
+  const std::vector<JointSample>& samples = task.log.samples;
+  if (isTimed(task.log) && task.source.every_s) {
+    double next = *samples.front().time_s;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      if (*samples[i].time_s < next) continue;
+      add(std::to_string(join.states.size() + 1), 0, i, i);
+      next += *task.source.every_s * (std::floor((*samples[i].time_s - next) / *task.source.every_s) + 1.0);
+    }
+    return join;
+  }
+  if (isTimed(task.log)) {
+    for (const Standstill& still : standstillsOf(task.log.samples, task.day.clock.standstill))
+      add(std::to_string(join.states.size() + 1), 0, still.first, still.last);
+    if (join.states.empty())
+      throw io::InputError(
+          {task.day.file, task.source.line, "log"}, task.source.file,
+          "expected a log in which the joints stand still somewhere (still_deg, shortest_s), or every_s");
+    return join;
+  }
+  if (std::all_of(samples.begin(), samples.end(), [](const JointSample& sample) { return sample.name.empty(); })) {
+    for (std::size_t i = 0; i < samples.size(); ++i) add(std::to_string(i + 1), 0, i, i);
+    return join;
+  }
+  for (const auto& [key, sample] : samplesByName(task)) {
+    const auto& [axis, pose, step] = key;
+    add(pose.empty() ? std::to_string(sample + 1) : pose, step, sample, sample);
+  }
+  // In the order of the log, not of names.
+  std::sort(join.states.begin(), join.states.end(),
+            [](const JoinedState& a, const JoinedState& b) { return a.first < b.first; });
+  if (join.states.empty())
+    throw io::InputError({task.day.file, task.source.line, "names"}, task.source.file,
+                         "expected rows or targets whose names fit the pattern; there are none");
   return join;
 }
 

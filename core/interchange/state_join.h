@@ -66,6 +66,13 @@ StateJoin joinByName(const JoinTask& task, const std::vector<DayReading>& readin
 /// theirs. Throws InputError where they are not as many.
 StateJoin joinByOrder(const JoinTask& task, const std::vector<DayReading>& readings);
 
+/// Poses by their names or occurrences, without joints: of a day that has no log.
+StateJoin joinNothing(const std::vector<DayReading>& readings);
+
+/// Every posture of a log on its own: the standstills of one with times, or a sample every so often, numbered from 1;
+/// else its rows or targets by their names. Throws InputError where there is none, and for a name that repeats.
+StateJoin posturesOf(const JoinTask& task);
+
 /// Readings by the standstill that they fall into, with the offset of the clocks that puts most of them into one. Where
 /// several offsets put nearly as many there, and leave hardly more in motion, distances between the reflectors' places
 /// decide (chord_check.h). Throws

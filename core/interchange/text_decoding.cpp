@@ -20,10 +20,11 @@ struct EncodingName {
   const char* name;  ///< iconv knows them by the same
 };
 
-constexpr std::array<EncodingName, 4> kEncodings{{{Encoding::utf8, "utf-8"},
+constexpr std::array<EncodingName, 5> kEncodings{{{Encoding::utf8, "utf-8"},
                                                   {Encoding::utf16_le, "utf-16le"},
                                                   {Encoding::utf16_be, "utf-16be"},
-                                                  {Encoding::cp1252, "cp1252"}}};
+                                                  {Encoding::cp1252, "cp1252"},
+                                                  {Encoding::cp932, "cp932"}}};
 
 constexpr std::string_view kUtf8Mark = "\xEF\xBB\xBF", kLittleMark = "\xFF\xFE", kBigMark = "\xFE\xFF";
 
@@ -39,13 +40,19 @@ class Converter {
 
   /// What the bytes stand for; `rest` is what is left of them from the first that stands for nothing.
   std::string converted(std::string_view bytes, std::string_view& rest) const {
-    constexpr std::size_t kMostBytesOfOne = 4;
-    std::string text(bytes.size() * kMostBytesOfOne, '\0');
+    std::string text;
+    std::array<char, 1 << 16> part{};
     char* in = const_cast<char*>(bytes.data());
-    char* out = text.data();
-    std::size_t in_left = bytes.size(), out_left = text.size();
-    ::iconv(handle_, &in, &in_left, &out, &out_left);
-    text.resize(text.size() - out_left);
+    std::size_t in_left = bytes.size();
+    while (in_left > 0) {
+      char* out = part.data();
+      std::size_t out_left = part.size();
+      const std::size_t before = in_left;
+      const bool full =
+          ::iconv(handle_, &in, &in_left, &out, &out_left) == static_cast<std::size_t>(-1) && errno == E2BIG;
+      text.append(part.data(), part.size() - out_left);
+      if (!full || in_left == before) break;
+    }
     rest = bytes.substr(bytes.size() - in_left);
     return text;
   }
@@ -92,12 +99,22 @@ std::optional<Encoding> shownEncoding(std::string_view bytes) {
   return io::findNotUtf8(bytes) == std::string_view::npos ? std::optional(Encoding::utf8) : std::nullopt;
 }
 
+/// Bytes that CP1252 has no character for start characters of CP932, among them its punctuation and most signs.
+bool isJapanese(std::string_view bytes) {
+  constexpr std::string_view kNotWestern = "\x81\x8D\x8F\x90\x9D";
+  if (bytes.find_first_of(kNotWestern) == std::string_view::npos) return false;
+  std::string_view rest;
+  Converter(Encoding::cp932).converted(bytes, rest);
+  return rest.empty();
+}
+
 Encoding encodingOf(const std::string& file, std::string_view bytes, std::optional<Encoding> wanted) {
   const std::optional<Encoding> shown = shownEncoding(bytes);
   const std::size_t utf8_at = findUtf8Character(bytes), other_at = io::findNotUtf8(bytes);
-  // ASCII alone is the same in UTF-8 and CP1252.
+  // ASCII alone is the same in UTF-8 and the code pages.
   const bool plain = shown == Encoding::utf8 && utf8_at == std::string_view::npos;
-  if (wanted && shown && *wanted != *shown && !(plain && *wanted == Encoding::cp1252)) {
+  const bool bytewise = wanted == Encoding::cp1252 || wanted == Encoding::cp932;
+  if (wanted && shown && *wanted != *shown && !(plain && bytewise)) {
     throw io::InputError({file, 0, "encoding"}, nameOf(*wanted),
                          fmt::format("expected {}, which the bytes of this file show", nameOf(*shown)));
   }
@@ -105,13 +122,16 @@ Encoding encodingOf(const std::string& file, std::string_view bytes, std::option
     refuse(file, bytes, other_at, "expected UTF-8; this byte is none of it, the file may be cp1252");
   if (wanted && (*wanted == Encoding::utf16_le || *wanted == Encoding::utf16_be) && !shown)
     refuse(file, bytes, other_at, "expected UTF-16, which has a byte-order mark or a zero in every second byte");
+  // Pairs of Japanese bytes may look like characters of UTF-8.
+  if (!shown && (!wanted || wanted == Encoding::cp932) && isJapanese(bytes)) return Encoding::cp932;
   if (!shown && utf8_at != std::string_view::npos) {
     refuse(file, bytes, other_at,
            fmt::format("expected one encoding; this byte is no UTF-8, and line {} has a character of it: two files put "
                        "together?",
                        io::lineOf(bytes, utf8_at)));
   }
-  return shown ? (wanted ? *wanted : *shown) : Encoding::cp1252;
+  if (wanted) return *wanted;
+  return shown ? *shown : Encoding::cp1252;
 }
 
 std::string_view withoutMark(std::string_view bytes) {
@@ -144,22 +164,21 @@ Encoding encodingNamed(const std::string& name, const std::string& option) {
 }
 
 DecodedText decodeText(const std::string& file, std::string_view bytes, std::optional<Encoding> wanted) {
-  DecodedText decoded{{}, encodingOf(file, bytes, wanted)};
-  const std::string_view body = withoutMark(bytes);
-  if (decoded.encoding == Encoding::utf8) {
-    decoded.text = std::string(body);
-  } else {
+  DecodedText decoded;
+  decoded.encoding = encodingOf(file, bytes, wanted);
+  decoded.own = withoutMark(bytes);
+  if (decoded.encoding != Encoding::utf8) {
     std::string_view rest;
-    decoded.text = Converter(decoded.encoding).converted(body, rest);
+    decoded.converted = Converter(decoded.encoding).converted(decoded.own, rest);
     if (!rest.empty()) {
-      throw io::InputError({file, io::lineOf(decoded.text, decoded.text.size()), ""},
+      throw io::InputError({file, io::lineOf(decoded.converted, decoded.converted.size()), ""},
                            fmt::format("byte 0x{:02X}", static_cast<unsigned char>(rest.front())),
                            fmt::format("expected {}; nothing is written so there", nameOf(decoded.encoding)));
     }
   }
-  const std::size_t zero = decoded.text.find('\0');
-  if (zero != std::string::npos)
-    throw io::InputError({file, io::lineOf(decoded.text, zero), ""}, "", "expected text; this file holds a byte 0");
+  const std::size_t zero = decoded.text().find('\0');
+  if (zero != std::string_view::npos)
+    throw io::InputError({file, io::lineOf(decoded.text(), zero), ""}, "", "expected text; this file holds a byte 0");
   return decoded;
 }
 

@@ -3,11 +3,23 @@
 #include <optional>
 #include <vector>
 
+#include "core/identification/warnings.h"
 #include "core/mistakes/nominal_fit.h"
 #include "core/mistakes/readings_of_day.h"
 #include "core/mistakes/suspected.h"
 
 namespace stiffscope::mistakes {
+
+/// Readings nearer than that to the URDF's arm are not searched, m: heavy arms without known masses sag by more, and
+/// then no cure is found; errors of geometry of a calibrated day are a tenth of it.
+inline constexpr double kSuspicious = 5e-3;
+
+/// From where on a search looks, m. Readings of a tracker carry what a machine is off its drawing; figures that a
+/// controller computes do not.
+struct SearchLimits {
+  double suspicious = kSuspicious;                             ///< misfit below which nothing is looked for
+  double least_shift = 0.5 * identification::kMissedGeometry;  ///< of a joint's origin in the URDF
+};
 
 /// One change of the files by which the unloaded readings become those of the URDF's arm.
 struct ArmCure {

@@ -32,13 +32,13 @@ std::vector<std::string> namesOf(const campaign::Campaign& campaign) {
 
 }  // namespace
 
-ArmSearch searchArm(const campaign::Campaign& campaign, const ReadingsOfDay& day) {
-  SearchedArm arm(campaign, day);
+ArmSearch searchArm(const campaign::Campaign& campaign, const ReadingsOfDay& day, const SearchLimits& limits) {
+  SearchedArm arm(campaign, day, limits);
   ArmSearch& found = arm.found;
   if (!found.fit.done) return std::move(found);
   found.contradicts = found.fit.typical > identification::kMissedGeometry || aTableIsFarOff(arm);
   const bool labelled = searchLabels(arm);
-  if (found.fit.rms > kSuspicious) {
+  if (found.fit.rms > limits.suspicious) {
     arm.mistakes = armMistakes(day, namesOf(campaign));
     if (labelled) searchExchangedSweeps(arm);
     if (found.cures.empty()) searchTables(arm);

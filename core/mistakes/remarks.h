@@ -64,12 +64,13 @@ enum class RemarkId {
   weight_not_tared,     ///< mass kg, mean force N, what it leaves of the unloaded forces N
 
   // What shows it.
-  misses_arm,        ///< rms before, after, m
-  group_misses_arm,  ///< the same of one posture or sweep
-  loads_left,        ///< share left before, after
-  off_gravity,       ///< rad before, after
-  sag_against_load,  ///< factor before, after
-  day_scatters,      ///< before, after: in parts of the declared noise
+  misses_arm,          ///< rms before, after, m
+  group_misses_arm,    ///< the same of one posture or sweep
+  stated_pose_misses,  ///< poses of the controller: rms before, after, m
+  loads_left,          ///< share left before, after
+  off_gravity,         ///< rad before, after
+  sag_against_load,    ///< factor before, after
+  day_scatters,        ///< before, after: in parts of the declared noise
 };
 
 }  // namespace stiffscope::mistakes

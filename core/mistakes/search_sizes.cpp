@@ -148,7 +148,7 @@ void searchOrigins(SearchedArm& arm) {
       }
     }
     const Eigen::Vector3d shift = bestShift(arm.day, joint);
-    if (shift.norm() < 0.5 * identification::kMissedGeometry) continue;
+    if (shift.norm() < arm.limits.least_shift) continue;
     ReadingsOfDay day = arm.day;
     moveFrom(joint, shift, Eigen::Matrix3d::Identity(), day.robot);
     keepOrigin(arm, std::move(day),

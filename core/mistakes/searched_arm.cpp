@@ -37,8 +37,8 @@ std::vector<Tables> setsOf(const Tables& tables) {
 
 }  // namespace
 
-SearchedArm::SearchedArm(const campaign::Campaign& campaign, const ReadingsOfDay& day)
-    : campaign(campaign), day(day), tables(tablesOf(day)), sets(setsOf(tables)) {
+SearchedArm::SearchedArm(const campaign::Campaign& campaign, const ReadingsOfDay& day, const SearchLimits& limits)
+    : campaign(campaign), day(day), limits(limits), tables(tablesOf(day)), sets(setsOf(tables)) {
   found.fit = fitNominal(day);
 }
 

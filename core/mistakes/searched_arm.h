@@ -22,10 +22,11 @@ using Tables = std::vector<SourceTable>;
 /// and the day outlive it.
 struct SearchedArm {
   /// `found.fit` is that of the day as read; the mistakes are listed where they are searched.
-  SearchedArm(const campaign::Campaign& campaign, const ReadingsOfDay& day);
+  SearchedArm(const campaign::Campaign& campaign, const ReadingsOfDay& day, const SearchLimits& limits);
 
   const campaign::Campaign& campaign;
   const ReadingsOfDay& day;
+  SearchLimits limits;
   Tables tables;             ///< that have readings
   std::vector<Tables> sets;  ///< all sets of them, the whole first
   std::vector<ArmMistake> mistakes;

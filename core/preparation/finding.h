@@ -51,7 +51,7 @@ struct AuditCheckId {
 /// which function gives the others, reports/words/audit_figures.cpp in which unit its value is printed. A new check is
 /// one line in each; the compiler compares the three.
 inline constexpr std::size_t kScreeningChecks = 4;
-inline constexpr std::array<AuditCheckId, 33> kAuditCheckIds{{
+inline constexpr std::array<AuditCheckId, 34> kAuditCheckIds{{
     {"lost_beam"},
     {"duplicate_readings"},
     {"repeat_outliers", 1},
@@ -85,6 +85,7 @@ inline constexpr std::array<AuditCheckId, 33> kAuditCheckIds{{
     {"posture_set"},
     {"arm_model"},
     {"load_model"},
+    {"controller_poses"},
 }};
 
 /// Limits that share the chance of a false finding; each divides its part again by the readings, postures or reflectors

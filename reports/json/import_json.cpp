@@ -32,38 +32,40 @@ Json clockJson(const interchange::ClockReport& clock) {
           {"misfit_mm", statedNumber(clock.misfit, kMillimetres)}};
 }
 
-Json originsJson(const std::vector<interchange::RowOrigin>& rows) {
-  Json list = Json::array();
-  for (const interchange::RowOrigin& row : rows) {
-    Json origin{{"file", row.file}, {"line", row.line}};
-    if (row.last_line != row.line) origin["last_line"] = row.last_line;
-    list.push_back(std::move(origin));
-  }
-  return list;
+JsonRows originRows(const std::vector<interchange::RowOrigin>& rows) {
+  return {rows.size(), [&rows](std::size_t i) {
+            Json origin{{"file", rows[i].file}, {"line", rows[i].line}};
+            if (rows[i].last_line != rows[i].line) origin["last_line"] = rows[i].last_line;
+            return origin;
+          }};
 }
 
 }  // namespace
 
-Json importJson(const interchange::ImportedDay& day) {
-  Json json{{"import", 1},
-            {"start", day.start.empty() ? Json(nullptr) : Json(day.start)},
-            {"files", Json::array()},
-            {"clocks", Json::array()},
-            {"misfit_mm", Json::object()}};
+JsonDocument importJson(const interchange::ImportedDay& day) {
+  JsonDocument document(Json{{"import", 1},
+                             {"start", day.start.empty() ? Json(nullptr) : Json(day.start)},
+                             {"files", Json::array()},
+                             {"clocks", Json::array()},
+                             {"misfit_mm", Json::object()}});
+  Json& json = document.json;
   for (const auto& file : day.files) json["files"].push_back(fileJson(file));
   for (const auto& clock : day.clocks) json["clocks"].push_back(clockJson(clock));
   for (const auto& [table, misfit] : day.misfit) json["misfit_mm"][table] = number(kMillimetres * misfit);
   json["stated_sigma_um"] = statedNumber(day.stated_sigma, kMicrometres);
   json["stated_over_declared"] = statedNumber(day.stated_over_declared);
-  json["rows"] = Json::object();
-  for (const auto& [table, rows] : day.rows) json["rows"][table] = originsJson(rows);
-  if (!day.wrenches.empty()) json["wrenches"] = originsJson(day.wrenches);
-  json["skipped"] = Json::array();
-  for (const interchange::SkippedOrigin& skipped : day.skipped)
-    json["skipped"].push_back(
-        {{"file", skipped.file}, {"line", skipped.row.line}, {"reason", skipWords(skipped.row.reason)}});
-  json["warnings"] = day.warnings;
-  return json;
+  JsonDocument tables(Json::object());
+  for (const auto& [table, rows] : day.rows) tables.setRows(table, originRows(rows));
+  document.set(Json::json_pointer("/rows"), std::move(tables));
+  if (!day.wrenches.empty()) document.setRows("wrenches", originRows(day.wrenches));
+  document.setRows(
+      "skipped",
+      {day.skipped.size(), [&day](std::size_t i) {
+         const interchange::SkippedOrigin& skipped = day.skipped[i];
+         return Json{{"file", skipped.file}, {"line", skipped.row.line}, {"reason", skipWords(skipped.row.reason)}};
+       }});
+  document.json["warnings"] = day.warnings;
+  return document;
 }
 
 }  // namespace stiffscope::reports

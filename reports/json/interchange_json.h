@@ -29,8 +29,8 @@ JsonDocument pointsJson(const std::vector<NamedPoints>& files);
 /// the reflectors' places against the nominal arm's), `stated_sigma_um` (median standard uncertainty that the
 /// files state), `stated_over_declared` (the same over the declared noise), `rows` by table (a list for each of its
 /// rows, in order: file, by its place in `files`, line, last_line), `wrenches` (the same of the rows of states, where a
-/// file of loads has them), `skipped` (file, line, reason), `warnings`.
-Json importJson(const interchange::ImportedDay& day);
+/// file of loads has them), `skipped` (file, line, reason), `warnings`. The day has to live as long as the document.
+JsonDocument importJson(const interchange::ImportedDay& day);
 
 /// The same for a terminal, without the rows.
 std::string importText(const interchange::ImportedDay& day);

@@ -13,8 +13,8 @@ Json timeJson(const std::optional<interchange::Timestamp>& time) {
 }
 
 Json pointJson(const interchange::PointReading& point) {
-  return {{"collection", nameJson(point.collection)},
-          {"group", nameJson(point.group)},
+  return {{"collection", nameJson(point.collection())},
+          {"group", nameJson(point.group())},
           {"name", nameJson(point.name)},
           {"occurrence", point.occurrence},
           {"xyz_m", array(point.point)},

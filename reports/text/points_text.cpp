@@ -13,7 +13,7 @@ constexpr double kMillimetres = 1e3, kMicrometres = 1e6;
 
 std::string fullName(const interchange::PointReading& point) {
   std::string name;
-  for (const std::string* part : {&point.collection, &point.group, &point.name}) {
+  for (const std::string* part : {&point.collection(), &point.group(), &point.name}) {
     if (!part->empty()) name += (name.empty() ? "" : "::") + *part;
   }
   return name.empty() ? "-" : name;

@@ -53,6 +53,7 @@ constexpr std::array kPrinted{
     PrintedUnit{"posture_set", "condition number"},
     PrintedUnit{"arm_model", "mm", 1.0, io::kMillimetre},
     PrintedUnit{"load_model", "% left", 100.0},
+    PrintedUnit{"controller_poses", "mm", 1.0, io::kMillimetre},
 };
 
 consteval bool printsAllChecks() {

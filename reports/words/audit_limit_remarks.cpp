@@ -82,6 +82,9 @@ std::string auditLimitWords(audit::LimitId id, const RemarkValues& values) {
     case audit::LimitId::machines_leave:
       return fmt::format("half of the displacements; simulated machines with every effect leave {:.0f} % at most",
                          100.0 * values.number(0));
+    case audit::LimitId::controllers_compute:
+      return "a controller computes its poses from the joints beside them; 0.2 mm, to which identification trusts "
+             "places";
   }
   return {};
 }
@@ -166,6 +169,11 @@ std::string auditMissingWords(audit::MissingId id, const RemarkValues& values) {
       return "too few readings of the unloaded arm in several postures to hold it against the URDF";
     case audit::MissingId::few_loads_of_model:
       return "fewer than six loaded states with a wrench and readings of reflectors in postures that fit the URDF";
+    case audit::MissingId::no_controller_poses:
+      return "`states` has no poses of the controller's tool (px_mm to pr_deg)";
+    case audit::MissingId::few_controller_poses:
+      return fmt::format("{} postures have a pose of the controller's tool; {} are needed, with twelve coordinates",
+                         values.count(0), values.count(1));
   }
   return {};
 }

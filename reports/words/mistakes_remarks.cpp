@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <algorithm>
 #include <cmath>
 
 #include "core/io/units.h"
@@ -53,6 +54,19 @@ std::string shiftZero(const RemarkValues& values) {
   return fmt::format("shift the zero of joint {0} by {1} deg (add it to q{0}_deg){2}", values.count(0),
                      roundedDegrees(values.number(1)),
                      values.count(2) != 0 ? ", or turn that joint's origin in the URDF" : "");
+}
+
+/// Whole millimetres where the shift is of a centimetre or more.
+std::string originOff(const RemarkValues& values) {
+  const std::vector<double>& shift = values.numbers(1);
+  const double largest = std::max({std::abs(shift.at(0)), std::abs(shift.at(1)), std::abs(shift.at(2))});
+  constexpr double kCentimetre = 1e-2;
+  const int decimals = largest < kCentimetre ? 2 : 0;
+  return fmt::format(
+      "shift the origin of joint {} by ({:.{}f}, {:.{}f}, {:.{}f}) mm in base_link's axes, all joints at zero; or the "
+      "URDF is another machine's",
+      values.count(0), millimetresOf(shift.at(0)), decimals, millimetresOf(shift.at(1)), decimals,
+      millimetresOf(shift.at(2)), decimals);
 }
 
 std::string exchangedNames(const std::vector<std::string>& pairs) {
@@ -176,11 +190,7 @@ std::string mistakesWords(mistakes::RemarkId id, const RemarkValues& values) {
     case RemarkId::labels_exchanged:
       return exchangedLabels(values.counts(0));
     case RemarkId::origin_off:
-      return fmt::format(
-          "shift the origin of joint {} by ({:.0f}, {:.0f}, {:.0f}) mm in base_link's axes, all joints "
-          "at zero; or the URDF is another machine's",
-          values.count(0), millimetresOf(values.numbers(1).at(0)), millimetresOf(values.numbers(1).at(1)),
-          millimetresOf(values.numbers(1).at(2)));
+      return originOff(values);
     case RemarkId::origin_turned:
       return fmt::format("turn the origin of joint {} by {} deg about {} of base_link, all joints at zero",
                          values.count(0), roundedDegrees(values.number(2)),
@@ -271,6 +281,10 @@ std::string mistakesWords(mistakes::RemarkId id, const RemarkValues& values) {
     case RemarkId::group_misses_arm:
       return fmt::format("its readings then miss the URDF's arm by {:.2f} mm rms instead of {:.4g} mm",
                          millimetresOf(values.number(1)), millimetresOf(values.number(0)));
+    case RemarkId::stated_pose_misses:
+      return fmt::format(
+          "the poses that the controller states then miss the URDF's by {:.3f} mm rms instead of {:.4g} mm",
+          millimetresOf(values.number(1)), millimetresOf(values.number(0)));
     case RemarkId::loads_left:
       return fmt::format("joint springs then leave {:.1f} % of the displacements instead of {:.1f} %",
                          100.0 * values.number(1), 100.0 * values.number(0));

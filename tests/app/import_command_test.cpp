@@ -17,6 +17,13 @@ const std::string kTracker =
     "angle_per_m_um=\"2.4\"/>";
 const std::string kTargets = "<targets><target id=\"P10\"/><target id=\"P11\"/><target id=\"P12\"/></targets>";
 
+/// Of the written day, whose second 0 is 08:00:00: where the campaign's times begin.
+double startSecond(const nlohmann::json& import) {
+  const std::string start = import["start"].get<std::string>();  // 2031-03-04T08:00:02
+  return 3600.0 * std::stod(start.substr(11, 2)) + 60.0 * std::stod(start.substr(14, 2)) + std::stod(start.substr(17)) -
+         8.0 * 3600.0;
+}
+
 class ImportCommand : public ::testing::Test {
  protected:
   Ran run(const std::string& words) const { return runProgram(words, scratch_.path()); }
@@ -73,7 +80,8 @@ TEST_F(ImportCommand, AnUnloadedDayGivesItsOwnCalibration) {
   const auto json = nlohmann::json::parse(ran.out);
   EXPECT_EQ(json, nlohmann::json::parse(contentsOf(at("imported/import.json"))));
   ASSERT_EQ(json["clocks"].size(), 1u);
-  EXPECT_NEAR(json["clocks"][0]["offset_s"].get<double>(), 3.9 + 2.0, json["clocks"][0]["uncertainty_s"].get<double>());
+  EXPECT_NEAR(json["clocks"][0]["offset_s"].get<double>(), day.clock_ahead_s + startSecond(json),
+              json["clocks"][0]["uncertainty_s"].get<double>());
 
   // The day itself, without what neither tracker nor robot writes: temperatures, wrenches of nothing, and the times of
   // the rows of states.
@@ -86,7 +94,7 @@ TEST_F(ImportCommand, AnUnloadedDayGivesItsOwnCalibration) {
   const std::size_t name = xml.find("name=\"");
   xml.replace(name, xml.find('"', name + 6) - name, "name=\"Day");
   write("own/campaign.xml", xml);
-  for (const std::string command : {"calibrate", "audit"})
+  for (const std::string command : {"calibrate", "diagnose", "audit"})
     EXPECT_EQ(printed(command, at("imported")), printed(command, at("own"))) << command;
 }
 
@@ -129,6 +137,10 @@ TEST_F(ImportCommand, ALoadedDayGivesItsOwnStiffness) {
   const Ran ran = run("import campaign" + quoted(at("lab/DAY.xml")) + "--out" + quoted(at("imported")));
   ASSERT_EQ(ran.status, 0) << ran.err;
   EXPECT_NE(ran.out.find("855 of 855 readings fall into its 19 standstills"), std::string::npos) << ran.out;
+  const auto json = nlohmann::json::parse(contentsOf(at("imported/import.json")));
+  const auto& clock = json["clocks"][0];
+  EXPECT_NEAR(clock["offset_s"].get<double>(), day.clock_ahead_s + startSecond(json),
+              clock["uncertainty_s"].get<double>());
 
   day.timeStatesByReadings();
   fs::copy(kSamples / "active", at("own"));

@@ -53,7 +53,7 @@ TEST(DelimitedText, NumbersWithEitherDecimalSign) {
 }
 
 TEST(TextDecoding, EveryByteOfTheWesternCodePage) {
-  EXPECT_EQ(decodeText("f", "\x80\xB5\xFC", Encoding::cp1252).text, "\xE2\x82\xAC\xC2\xB5\xC3\xBC");
+  EXPECT_EQ(decodeText("f", "\x80\xB5\xFC", Encoding::cp1252).text(), "\xE2\x82\xAC\xC2\xB5\xC3\xBC");
   // Five bytes stand for nothing.
   for (const char* undefined : {"\x81", "\x8D", "\x8F", "\x90", "\x9D"})
     expectSays(refusalOf([&] { decodeText("f", std::string("a\nb") + undefined, Encoding::cp1252); }),
@@ -62,8 +62,8 @@ TEST(TextDecoding, EveryByteOfTheWesternCodePage) {
 
 TEST(TextDecoding, Utf16OfBothOrdersWithCharactersBeyondTheFirstPlane) {
   const std::string big("\xFE\xFF\x00x\x00\n\xD8\x3D\xDE\x00", 10), little("\xFF\xFEx\x00\n\x00\x3D\xD8\x00\xDE", 10);
-  EXPECT_EQ(decodeText("f", big).text, "x\n\xF0\x9F\x98\x80");
-  EXPECT_EQ(decodeText("f", little).text, "x\n\xF0\x9F\x98\x80");
+  EXPECT_EQ(decodeText("f", big).text(), "x\n\xF0\x9F\x98\x80");
+  EXPECT_EQ(decodeText("f", little).text(), "x\n\xF0\x9F\x98\x80");
   expectSays(refusalOf([&] { decodeText("f", big.substr(0, 9)); }), {"f:2", "utf-16be"});
   expectSays(refusalOf([&] { decodeText("f", std::string("a\nb\0c", 5)); }), {"f:2", "byte 0"});
 }
@@ -77,7 +77,13 @@ struct Tabled {
   std::string file = "t.csv", text;
   FileOptions options;
   std::string refusal() const {
-    return refusalOf([&] { ColumnTable table({file, text, options}); });
+    return refusalOf([&] { rowsOf(ColumnTable({file, text, options})); });
+  }
+
+  static std::vector<ColumnTable::Row> rowsOf(const ColumnTable& table) {
+    std::vector<ColumnTable::Row> rows;
+    table.forEachRow([&rows](const ColumnTable::Row& row) { rows.push_back(row); });
+    return rows;
   }
 };
 
@@ -86,7 +92,7 @@ TEST(ColumnTable, UnitsBecomeSi) {
   given.options.columns = "pose x_mm ux_um y_in q1_deg fx_kn time_ms temperature_c -";
   given.text = "A;1;2;3;180;0.5;250;21.5;ignored\n";
   const ColumnTable table({given.file, given.text, given.options});
-  const auto& row = table.rows().front();
+  const auto row = Tabled::rowsOf(table).front();
   EXPECT_EQ(table.separator(), ';');
   EXPECT_DOUBLE_EQ(table.number(row, "x"), 1e-3);
   EXPECT_DOUBLE_EQ(table.number(row, "ux"), 2e-6);
@@ -106,7 +112,7 @@ TEST(ColumnTable, TheSeparatorIsTheOneThatGivesTheColumns) {
     given.options.columns = "x_m y_m z_m";
     given.text = text;
     const ColumnTable table({given.file, given.text, given.options});
-    EXPECT_DOUBLE_EQ(table.number(table.rows().front(), "z"), 3.0) << text;
+    EXPECT_DOUBLE_EQ(table.number(Tabled::rowsOf(table).front(), "z"), 3.0) << text;
   }
 }
 

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+#include <random>
+
 #include "tests/core/interchange/refusal.h"
 #include "tests/fixtures/written_day.h"
 
@@ -70,6 +74,23 @@ const std::string kCoupled = "<joint_reading joint=\"3\" plus=\"2\"/>";
 const std::string kTracker =
     "<points role=\"loading\" file=\"tracker.txt\"/><points role=\"nests\" file=\"tracker.txt\"/>";
 const std::string kByClock = kCoupled + kTracker + "<log file=\"karel.csv\"/><join by=\"clock\"/>";
+
+TEST_F(ImportDay, TheOffsetOfTheClocksLiesWithinItsUncertainty) {
+  // Days of other lengths of stay, by clocks that are apart by anything up to an hour.
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    std::mt19937 draw(seed);
+    std::uniform_real_distribution<double> hour(-3600.0, 3600.0), settle(0.6, 3.0), stay(0.4, 2.5);
+    day_.clock_ahead_s = seed == 1 ? 3.9 : std::round(1000.0 * hour(draw)) / 1000.0;
+    day_.settle_s = settle(draw);
+    day_.stay_s = stay(draw);
+    writeFiles();
+    const ImportedDay made = imported(kByClock);
+    ASSERT_EQ(made.clocks.size(), 1u);
+    EXPECT_LE(std::abs(made.clocks[0].offset_s - day_.clock_ahead_s - day_.firstSecond()), made.clocks[0].uncertainty_s)
+        << seed;
+    EXPECT_EQ(made.campaign.loading->rows.size(), day_.loading.size()) << seed;
+  }
+}
 
 TEST_F(ImportDay, ByTheClockEveryReadingFindsItsJoints) {
   writeFiles();
@@ -340,6 +361,39 @@ TEST_F(ImportDay, RefusesWithFileAndLine) {
   for (std::string line; std::getline(whole, line) && torn.size() < 100'000;) torn += line + '\n';
   write("karel.csv", torn.substr(0, torn.size() - 40));
   expectSays(refusal(kByClock), {"karel.csv:", "ends in the middle"});
+}
+
+TEST_F(ImportDay, ALogAloneIsItsStandstills) {
+  writeFiles();
+  const ImportedDay made = imported(kCoupled + "<log file=\"karel.csv\"/>");
+  EXPECT_FALSE(made.campaign.loading);
+  ASSERT_TRUE(made.campaign.states);
+  ASSERT_EQ(made.campaign.states->rows.size(), static_cast<std::size_t>(kPoses));
+  for (std::size_t i = 0; i < made.campaign.states->rows.size(); ++i) {
+    EXPECT_EQ(made.campaign.pose_ids[i], std::to_string(i + 1));
+    for (int j = 0; j < 6; ++j)
+      EXPECT_NEAR(made.campaign.states->rows[i].q[j] * 180.0 / std::numbers::pi,
+                  day_.states.number(i, "q" + std::to_string(j + 1) + "_deg"), 1e-5);
+  }
+  EXPECT_EQ(made.rows.at("states").size(), made.campaign.states->rows.size());
+  // Moving or not: pose and joints of one sample are one computation.
+  const ImportedDay often = imported(kCoupled + "<log file=\"karel.csv\" every_s=\"2\"/>");
+  const double seconds = often.campaign.states->rows.back().time_s - often.campaign.states->rows.front().time_s;
+  EXPECT_EQ(often.campaign.states->rows.size(), static_cast<std::size_t>(seconds / 2.0 + 1.5));
+  expectSays(refusal(kTracker + "<log file=\"karel.csv\" every_s=\"2\"/><join by=\"clock\"/>"),
+             {"every_s", "beside points"});
+  expectSays(refusal(""), {"points", "or log"});
+}
+
+TEST_F(ImportDay, PointsAloneArePostures) {
+  writeFiles();
+  const ImportedDay made = imported(kTracker);
+  EXPECT_FALSE(made.campaign.states);
+  ASSERT_TRUE(made.campaign.loading);
+  EXPECT_EQ(made.campaign.loading->rows.size(), day_.loading.size());
+  EXPECT_EQ(made.campaign.pose_ids.size(), static_cast<std::size_t>(kPoses));  // occurrences of each name
+  expectSays(refusal(kTracker + "<join by=\"clock\"/>"), {"log"});
+  expectSays(refusal("<points role=\"wrist_sweep\" file=\"tracker.txt\"/>"), {"wrist_sweep", "log"});
 }
 
 }  // namespace import_day_test

@@ -45,8 +45,8 @@ TEST(NamePattern, SignsOfExpressionsStandForThemselves) {
 TEST(NamePattern, PartsOfCollectionGroupAndName) {
   const Patterned given;
   interchange::PointReading point;
-  point.collection = "Day";
-  point.group = "step2";
+  interchange::PointGroups groups;
+  point.of = groups.of("Day", "step2");
   point.name = "P10";
   EXPECT_EQ(given.of("step{step}::{target}").fieldsIn(point), (Fields{{"step", "2"}, {"target", "P10"}}));
   EXPECT_EQ(given.of("{*}::step{step}::{target}").fieldsIn(point), (Fields{{"step", "2"}, {"target", "P10"}}));

@@ -47,8 +47,8 @@ TEST(SpatialAnalyzer, CommasNamesTimesAndFrame) {
   EXPECT_EQ(file.format, PointFormat::sa);
   EXPECT_EQ(file.frame, "Cell::BASE");
   ASSERT_EQ(file.points.size(), 3u);
-  EXPECT_EQ(file.points[1].collection, "Run");
-  EXPECT_EQ(file.points[1].group, "Main");
+  EXPECT_EQ(file.points[1].collection(), "Run");
+  EXPECT_EQ(file.points[1].group(), "Main");
   EXPECT_EQ(file.points[1].name, "2");
   expectNear(file.points[0].point, 1.500123456, -0.0205, 0.30025);
   EXPECT_FALSE(file.points[0].sigma);
@@ -86,8 +86,8 @@ TEST(SpatialAnalyzer, OneSigmaAndInches) {
       "// Relative to 'A::WORLD'\n// 1.0 Sigma (68.3 %)\n// X, Y, Z (Inches), U-x, U-y, U-z, U-mag\n"
       "G,  P1,  10.0000,  20.0000,  30.0000,  0.0010,  0.0010,  0.0010,  0.0017,  01/02/31 10:00:00\n");
   expectNear(file.points[0].point, 0.254, 0.508, 0.762);
-  EXPECT_EQ(file.points[0].group, "G");
-  EXPECT_EQ(file.points[0].collection, "");
+  EXPECT_EQ(file.points[0].group(), "G");
+  EXPECT_EQ(file.points[0].collection(), "");
   EXPECT_NEAR((*file.points[0].sigma)[0], 25.4e-6, 1e-12);
 }
 
@@ -99,14 +99,15 @@ TEST(SpatialAnalyzer, TargetsAloneRepeatOnceAPose) {
   ASSERT_EQ(file.points.size(), 4u);
   EXPECT_EQ(file.points[2].name, "1");
   EXPECT_EQ(file.points[2].occurrence, 2);
-  ASSERT_EQ(file.warnings.size(), 1u);  // no unit is stated
+  ASSERT_EQ(file.warnings.size(), 2u);  // neither unit nor axes are stated
   expectSays(file.warnings[0], {"no unit", "millimetres"});
+  expectSays(file.warnings[1], {"names the axes", "Cartesian"});
 }
 
 TEST(SpatialAnalyzer, NumericNamesAreNoCoordinates) {
   // Six cells: three names and x y z, not one name, x y z and two target offsets.
   const PointFile file = read("// 'A::B'\n// X, Y, Z (m)\n1,  2,  3,  4.500000,  5.500000,  6.500000\n");
-  EXPECT_EQ(file.points[0].collection, "1");
+  EXPECT_EQ(file.points[0].collection(), "1");
   expectNear(file.points[0].point, 4.5, 5.5, 6.5);
 }
 
@@ -121,6 +122,99 @@ TEST(SpatialAnalyzer, ScientificNotation) {
   const PointFile file =
       read("// X, Y, Z (m)\nP1,  1.5000000000000000e+000,  -2.5000000000000000e-001,  0.0000000000000000e+000\n");
   expectNear(file.points[0].point, 1.5, -0.25, 0.0);
+}
+
+/// Rows of the writer: cells between a delimiter of its three.
+std::string rowsOf(const std::vector<std::vector<std::string>>& rows, const std::string& delimiter) {
+  std::string text;
+  for (const auto& row : rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) text += (i > 0 ? delimiter : "") + row[i];
+    text += "\r\n";
+  }
+  return text;
+}
+
+TEST(SpatialAnalyzer, EveryDelimiterAndFormOfName) {
+  const std::string header =
+      "// Points Relative to Coordinate Frame 'A::BASE'\r\n// X, Y, Z (mm), U-x, U-y, U-z, U-mag\r\n// 68.3 %\r\n";
+  for (const std::string delimiter : {",  ", "   ", "\t"}) {
+    for (std::size_t names = 0; names <= 3; ++names) {
+      std::vector<std::vector<std::string>> rows;
+      for (int i = 1; i <= 3; ++i) {
+        std::vector<std::string> row{"Day 1", "Main", "P" + std::to_string(i)};
+        row.erase(row.begin(), row.end() - static_cast<std::ptrdiff_t>(names));
+        for (const std::string cell : {"1500.125", "-20.500", "300.250", "0.020", "0.030", "0.060", "0.070"})
+          row.push_back(cell);
+        row.push_back("03/04/31 09:08:0" + std::to_string(i));
+        rows.push_back(row);
+      }
+      const PointFile file = read(header + rowsOf(rows, delimiter));
+      ASSERT_EQ(file.points.size(), 3u) << delimiter << names;
+      EXPECT_EQ(file.points[1].name, names > 0 ? "P2" : "");
+      EXPECT_EQ(file.points[1].group(), names > 1 ? "Main" : "");
+      EXPECT_EQ(file.points[1].collection(), names > 2 ? "Day 1" : "");
+      expectNear(file.points[1].point, 1.500125, -0.0205, 0.30025);
+      expectNear(file.points[1].sigma.value(), 20e-6, 30e-6, 60e-6);
+      EXPECT_EQ(isoTime(file.points[1].time.value()), "2031-03-04T09:08:02");
+      EXPECT_TRUE(file.warnings.empty()) << file.warnings.front();
+    }
+  }
+}
+
+TEST(SpatialAnalyzer, WhatElseTheWriterPutsBehindXyzIsSaidAndNotRead) {
+  // Offsets, tolerances and weights around the uncertainties; a comment, details and the time in any order.
+  const std::vector<std::vector<std::string>> rows{
+      {"A", "G", "P1", "1.000000", "2.000000", "3.000000", "0.000000", "19.050000", "0.500000", "0.020000", "0.030000",
+       "0.060000", "0.070000", "1.000000", "03/04/31 09:08:07", "after lunch", "RMS 0.002"},
+      {"A", "G", "P2", "4.000000", "5.000000", "6.000000", "0.000000", "19.050000", "0.500000", "0.010000", "0.020000",
+       "0.020000", "0.030000", "1.000000", "03/04/31 09:08:09", "", "RMS 0.001"}};
+  const PointFile file = read("// 'A::B'\n// X, Y, Z (mm)\n// 95 %\n" + rowsOf(rows, ",  "));
+  ASSERT_EQ(file.points.size(), 2u);
+  EXPECT_EQ(file.points[1].name, "P2");
+  expectNear(file.points[1].point, 0.004, 0.005, 0.006);
+  expectNear(file.points[1].sigma.value(), 5e-6, 10e-6, 10e-6);
+  EXPECT_EQ(isoTime(file.points[1].time.value()), "2031-03-04T09:08:09");
+  ASSERT_EQ(file.warnings.size(), 1u);
+  expectSays(file.warnings[0], {":4", "no uncertainties are not read"});
+  // A row that has such a cell where the others have none is torn.
+  expectSays(refusal(kSa + "Run,  Main,  3,  1500.123456,  -20.500000,  300.250000,  03/34/31 09:08:07\n"),
+             {":7", "as in the other rows"});
+}
+
+TEST(SpatialAnalyzer, CommentsOfOtherScripts) {
+  const std::string rows = "G,  P1,  10.0000,  20.0000,  30.0000\n";
+  // Full-width letters and brackets, ideographic commas, corner brackets.
+  const PointFile japanese = read(
+      "// \xE5\xBA\xA7\xE6\xA8\x99\xE7\xB3\xBB \xE3\x80\x8C"
+      "A::\xE5\x8E\x9F\xE7\x82\xB9\xE3\x80\x8D\n"
+      "// \xE8\xBB\xB8: \xEF\xBC\xB8\xE3\x80\x81\xEF\xBC\xB9\xE3\x80\x81\xEF\xBC\xBA"
+      "\xEF\xBC\x88inch\xEF\xBC\x89\n" +
+      rows);
+  EXPECT_EQ(japanese.frame, "A::\xE5\x8E\x9F\xE7\x82\xB9");
+  expectNear(japanese.points[0].point, 0.254, 0.508, 0.762);
+  // The same frame in the Japanese code page, whose bytes are none of the Western one.
+  const PointFile cp932 = read("// \x8D\xC0\x95\x57\x8C\x6E 'A::\x8C\xB4\x93\x5F'\n// X, Y, Z (mm)\n" + rows);
+  EXPECT_EQ(cp932.encoding, interchange::Encoding::cp932);
+  EXPECT_EQ(cp932.frame, "A::\xE5\x8E\x9F\xE7\x82\xB9");
+  // French words and quotation marks in the Western code page, and as UTF-16.
+  const std::string french =
+      "// Points relatifs au rep\xE8re \xAB Cellule::MONDE \xBB\n// AXES : X, Y, Z (m\xE8tres)\n";
+  EXPECT_EQ(read(french + rows).frame, "Cellule::MONDE");
+  expectNear(read(french + rows).points[0].point, 10.0, 20.0, 30.0);
+  std::string wide = "\xFF\xFE";
+  for (const char c : french + rows) (wide += c) += '\0';  // of these characters the code page is the first of Unicode
+  EXPECT_EQ(read(wide).encoding, interchange::Encoding::utf16_le);
+  EXPECT_EQ(read(wide).frame, "Cellule::MONDE");
+}
+
+TEST(SpatialAnalyzer, AppendedExportsAgree) {
+  EXPECT_EQ(read(kSa + kSa).points.size(), 6u);
+  std::string other = kSa;
+  other.replace(other.find("Cell::BASE"), 10, "Cell::PART");
+  expectSays(refusal(kSa + other), {":8", "Cell::PART", "one frame", "Cell::BASE"});
+  other = kSa;
+  other.replace(other.find("(mm)"), 4, "(in)");
+  expectSays(refusal(kSa + other), {":9", "'in'", "one unit"});
 }
 
 TEST(SpatialAnalyzer, RefusesPolarAxesUnknownUnitsAndTornRows) {

@@ -42,6 +42,34 @@ TEST(KarelLog, MillisecondsAndDegrees) {
   EXPECT_EQ(log.samples[1].line, 3u);
 }
 
+TEST(KarelLog, PosesOfTheTool) {
+  std::string text = "Time [ms];X;Y;Z;W;P;R;J1;J2;J3;J4;J5;J6;\n";
+  text += "0;1080.5;-2;869.25;180;-45;.5;0;0;0;0;0;0;\n8;1081.5;-2;869.25;-180;-45;.5;5;0;0;0;0;0;\n";
+  const RobotLog log = read(text);
+  EXPECT_NEAR(log.samples[0].tool_pose.position.x(), 1.0805, 1e-15);
+  EXPECT_NEAR(log.samples[0].tool_pose.rpy.y(), -45.0 * kDeg, 1e-15);
+  EXPECT_TRUE(log.warnings.empty());
+  // Columns that nobody filled are no pose.
+  std::string still = text;
+  still.replace(still.find("1081.5"), 6, "1080.5");
+  const RobotLog empty = read(still);
+  EXPECT_FALSE(empty.samples[0].tool_pose.hasPosition());
+  ASSERT_EQ(empty.warnings.size(), 1u);
+  expectSays(empty.warnings[0], {":2", "never changes", "not taken"});
+}
+
+TEST(LogColumns, PosesOfTheTool) {
+  LogOptions options;
+  options.table.columns = "q1_deg q2_deg q3_deg q4_deg q5_deg q6_deg px_m py_m pz_m pw_rad pp_rad pr_rad";
+  const RobotLog log = read("1 2 3 4 5 6 1.5 2.5 -0.5 0.1 0.2 0.3\n", options);
+  EXPECT_EQ(log.samples[0].tool_pose.position, Eigen::Vector3d(1.5, 2.5, -0.5));
+  EXPECT_EQ(log.samples[0].tool_pose.rpy, Eigen::Vector3d(0.1, 0.2, 0.3));
+  options.table.columns = "q1_deg q2_deg q3_deg q4_deg q5_deg q6_deg pw_deg pp_deg pr_deg";
+  expectSays(refusal("1 2 3 4 5 6 1 2 3\n", options), {"px, py and pz"});
+  options.table.columns = "q1_deg q2_deg q3_deg q4_deg q5_deg q6_deg px_m py_m pz_m";
+  expectSays(refusal("1 2 3 4 5 6 1e3 2 3\n", options), {":1", "200 m"});
+}
+
 TEST(KarelLog, RefusesTornRowsWrongNumbersAndTimesThatRunBack) {
   expectSays(refusal(kKarel + "1016;1;2;3;4;5"), {":4", "6 cells", "ends in the middle"});
   expectSays(refusal(kKarel + "1016;1;2;3;4;5;6;10,5;-20;30;40;50;60;\r\n"), {":4", "joint 1", "'10,5'"});
@@ -77,10 +105,10 @@ TEST(LogColumns, NamedByTheUser) {
   EXPECT_EQ(log.format, LogFormat::columns);
   expectDegrees(log.samples[0].figures, {1.5, 2, 3, 4, 5, 6});
   EXPECT_EQ(log.samples[1].name, "A");
-  EXPECT_EQ(log.samples[1].step, "1");
+  EXPECT_EQ(log.samples[1].step, 1);
   EXPECT_DOUBLE_EQ(log.samples[1].temperature_c, 21.5);
   EXPECT_FALSE(log.samples[1].time_s);
-  EXPECT_FALSE(log.samples[1].wrench);
+  EXPECT_FALSE(log.samples[1].wrench.allFinite());
   options.table.columns = "pose q1_deg q2_deg q3_deg q4_deg q5_deg -";
   expectSays(refusal("A;1;2;3;4;5;6\n", options), {"q1 to q6"});
   options.table.columns = "q1_deg q2_deg q3_deg q4_deg q5_deg q6_deg fx_n fy_n";

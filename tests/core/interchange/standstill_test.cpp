@@ -75,6 +75,19 @@ TEST(Standstill, EqualFiguresAreTheirMeanToTheLastDigit) {
   EXPECT_EQ(meanFigures(samples, 0, 999), samples[0].figures);
 }
 
+TEST(Standstill, TurnsOfToolPosesAreAveragedAcross180Degrees) {
+  std::vector<JointSample> samples(2);
+  samples[0].tool_pose = {{1.0, 2.0, 3.0}, {179.998 * kDeg, -45.0 * kDeg, 0.0}};
+  samples[1].tool_pose = {{1.0, 2.002, 3.0}, {-179.998 * kDeg, -45.0 * kDeg, 0.0}};
+  const campaign::StatedPose mean = meanToolPose(samples, 0, 1);
+  EXPECT_NEAR(mean.position.y(), 2.001, 1e-15);
+  EXPECT_NEAR(std::abs(mean.rpy.x()), 180.0 * kDeg, 1e-9);  // the square of what they are apart is left out
+  EXPECT_NEAR(mean.rpy.y(), -45.0 * kDeg, 1e-9);
+  EXPECT_EQ(meanToolPose(samples, 0, 0).rpy, samples[0].tool_pose.rpy);
+  samples[1].tool_pose = {};
+  EXPECT_FALSE(meanToolPose(samples, 0, 1).hasPosition());
+}
+
 /// Standstills that last and follow by chance, and readings within them by a clock that is behind.
 struct TwoClocks {
   std::vector<Standstill> stills;
