@@ -127,8 +127,9 @@ int explainUsageError(const CLI::App& app, const CLI::ParseError& error) {
                   : "'" + unknown.front() + "' is not known" + hintFor(chosen(app), unknown.front());
   }
   const std::string program = app.get_name();
-  std::fprintf(stderr, "%s: %s; see %s %s--help\n", program.c_str(), message.c_str(), program.c_str(),
-               commandWords(app).c_str());
+  constexpr std::size_t kLongest = 1000;
+  std::fprintf(stderr, "%s: %s; see %s %s--help\n", program.c_str(), io::oneLine(message, kLongest).c_str(),
+               program.c_str(), commandWords(app).c_str());
   return kBadInput;
 }
 

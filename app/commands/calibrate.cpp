@@ -37,6 +37,7 @@ void checkFolds(const calibration::CalibrationOptions& options) {
 
 int calibrateCampaign(CalibrateArguments& arguments) {
   checkFolds(arguments.options);
+  requireOwnFiles({{"--csv", arguments.csv}, {"--urdf", arguments.urdf}, {"--json", arguments.json}});
   arguments.options.angles = jointAnglesNamed(arguments.angles);
   const preparation::PreparedCampaign prepared =
       openPrepared(arguments.campaign, arguments.raw, hashesFor(arguments.json));

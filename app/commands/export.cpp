@@ -49,7 +49,7 @@ std::optional<robot::Robot> sweptArm(const campaign::Campaign& campaign) {
 }
 
 int exportUrdf(const UrdfArguments& arguments) {
-  requireTwoFiles(arguments.out, arguments.json);
+  requireOwnFiles({{"--out", arguments.out}, {"--json", arguments.json}});
   const preparation::PreparedCampaign prepared =
       openPrepared(arguments.campaign, arguments.raw, hashesFor(arguments.json));
   const campaign::Campaign& campaign = prepared.campaign;
@@ -101,7 +101,7 @@ struct ElasticArguments {
 
 int exportElastic(const ElasticArguments& arguments) {
   const MethodAndStep choice = methodAndStep(arguments.method, arguments.step);
-  requireTwoFiles(arguments.out, arguments.json);
+  requireOwnFiles({{"--out", arguments.out}, {"--json", arguments.json}});
   const preparation::PreparedCampaign prepared =
       openPrepared(arguments.campaign, arguments.raw, hashesFor(arguments.json));
   Identified found = identifiedBy(prepared, arguments.campaign, arguments.model, choice);

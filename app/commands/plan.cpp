@@ -136,7 +136,7 @@ int planUnloadedDay(const PlanArguments& arguments, const Given& given, const pl
 }
 
 int planDay(const PlanArguments& arguments, const Given& given) {
-  requireTwoFiles(arguments.out, arguments.json);
+  requireOwnFiles({{"--out", arguments.out}, {"--json", arguments.json}});
   planning::PlanOptions options = optionsOf(arguments, given);
   if (arguments.unloaded) return planUnloadedDay(arguments, given, options);
   const preparation::PreparedCampaign prepared = preparation::prepareCampaign(openCampaign(arguments.campaign));

@@ -2,12 +2,14 @@
 #include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 
 #include "app/command_line.h"
 #include "app/options.h"
 #include "app/output.h"
 #include "core/campaign/write_campaign.h"
+#include "core/io/read_file.h"
 #include "core/simulation/measure.h"
 #include "core/simulation/read_spec.h"
 #include "reports/json/json.h"
@@ -31,6 +33,9 @@ void addSimulate(CLI::App& app, Run& run) {
       const simulation::SimulationSpec spec = simulation::readSimulationSpec(arguments->spec);
       if (!arguments->replace)
         requireNoCampaign(arguments->out, "expected another folder, or --replace to write over it");
+      // A description that stands where the campaign goes would be lost.
+      for (const char* const file : {"campaign.xml", "truth.json"})
+        io::requireNotRead(std::filesystem::path(arguments->out) / file);
       const std::vector<int> rigid = simulation::rigidJoints(spec);
       // On a day without a load rigid joints are what most have.
       if (!rigid.empty() && spec.loading) {
@@ -44,7 +49,7 @@ void addSimulate(CLI::App& app, Run& run) {
                        "campaign; for readings without noise declare some and set true_noise_factor=\"0\""});
       }
       campaign::writeCampaign(simulation::simulate(spec), spec.urdf_file, arguments->out,
-                              {{"truth.json", reports::truthJson(spec).dump(1) + '\n'}});
+                              {{"truth.json", reports::textOf(reports::truthJson(spec)) + '\n'}});
       std::printf("%s: campaign written\n", arguments->out.c_str());
       return kDone;
     };

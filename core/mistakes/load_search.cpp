@@ -10,6 +10,7 @@
 
 #include "core/campaign/row_names.h"
 #include "core/io/units.h"
+#include "core/mistakes/arm_mistakes.h"
 #include "core/mistakes/load_mistakes.h"
 #include "core/mistakes/remarks.h"
 #include "core/numerics/parallel.h"
@@ -35,7 +36,7 @@ struct LoadTrial {
 class LoadSearcher {
  public:
   LoadSearcher(const campaign::Campaign& campaign, const ReadingsOfDay& day, const NominalFit& arm)
-      : campaign_(campaign), day_(day), loads_(day, arm), declared_(asDeclared(*campaign.load_cell)) {}
+      : campaign_(campaign), day_(day), arm_(arm), loads_(day, arm), declared_(asDeclared(*campaign.load_cell)) {}
 
   LoadSearch run() {
     if (!loads_.enough()) return std::move(found_);
@@ -52,6 +53,7 @@ class LoadSearcher {
     keepMending(trials);
     if (trials.empty()) {
       if (searchTare()) return std::move(found_);
+      if (searchRepeatedWrenches()) return std::move(found_);
       trials = triedPoint();
       keepMending(trials);
     }
@@ -59,12 +61,18 @@ class LoadSearcher {
     if (trials.empty() || trials.front().mistake.id == "cell_point") {
       searchPostures(table);
       if (found_.cures.empty()) searchSteps();
+      if (found_.cures.empty()) searchExchangedSteps({});
       if (!found_.cures.empty()) return std::move(found_);
     }
     if (trials.empty() && isSuspicious()) {
       trials = tried(pairsOf(table));
       keepMending(trials);
     }
+    if (trials.empty() && isSuspicious()) {
+      trials = triedTurn();
+      keepMending(trials);
+    }
+    if (trials.empty() && isGravityReversed()) return std::move(found_);
     if (trials.empty()) return searchUnits(table), std::move(found_);
     report(trials);
     return std::move(found_);
@@ -102,6 +110,35 @@ class LoadSearcher {
     const Eigen::Vector3d at = loads_.bestPoint(declared_);
     if ((at - declared_.parent_from_cell.translation()).norm() < kLeastMove) return {};
     return tried({movedCell(campaign_, at)});
+  }
+
+  /// A turn that is none of the right angles, of a load that does not hang: from the declared one, and from those right
+  /// angles that come nearest.
+  std::vector<LoadTrial> triedTurn() const {
+    if (declared_.axes_link) return {};
+    constexpr double kLeastTurn = 10.0 * io::kDegree;  // nearer, the cell may be turned in its mount
+    std::vector<LoadTrial> starts;
+    for (const SignedPermutation& one : signedPermutations()) {
+      if (!one.proper()) continue;
+      CellReading meant = declared_;
+      meant.on_force = meant.on_moment = one.map;
+      starts.push_back({turnedCell(campaign_, one.map), loads_.fit(meant)});
+    }
+    std::stable_sort(starts.begin(), starts.end(),
+                     [](const LoadTrial& a, const LoadTrial& b) { return a.fit.left < b.fit.left; });
+    constexpr std::size_t kNearest = 4;
+    std::vector<LoadMistake> turns;
+    for (std::size_t i = 0; i < std::min(kNearest, starts.size()); ++i) {
+      const Eigen::Matrix3d turn = loads_.bestTurn(starts[i].mistake.meant);
+      if (Eigen::AngleAxisd(turn).angle() < kLeastTurn) continue;
+      turns.push_back(turnedCell(campaign_, turn));
+    }
+    std::vector<LoadTrial> trials = tried(turns);
+    // They meet in one turn: the best of them.
+    std::stable_sort(trials.begin(), trials.end(),
+                     [](const LoadTrial& a, const LoadTrial& b) { return a.fit.left < b.fit.left; });
+    if (trials.size() > 1) trials.resize(1);
+    return trials;
   }
 
   /// Signs or turns with a unit, an order or another turn.
@@ -193,7 +230,11 @@ class LoadSearcher {
         return;
       }
     }
-    for (const std::size_t at : apart) searchPosture(table, at);
+    for (const std::size_t at : apart) {
+      const std::size_t before = found_.cures.size();
+      searchPosture(table, at);
+      if (found_.cures.size() == before) searchExchangedSteps(loads_.poses()[at]);
+    }
   }
 
   bool mendsPosture(const SpringFit& fit, std::size_t at) const {
@@ -255,7 +296,121 @@ class LoadSearcher {
     }
   }
 
-  // One load step apart from the others.
+  /// Wrenches of a posture that are those of another, digit by digit in all steps, where the flange stands otherwise: no
+  /// cell repeats to the last digit of six columns.
+  bool searchRepeatedWrenches() {
+    if (declared_.axes_link) return false;  // a weight in base_link's axes may be written without its noise
+    std::map<int, std::vector<const campaign::State*>> postures;
+    for (const campaign::State& row : campaign_.states->rows) {
+      if (row.step != 0) postures[row.pose].push_back(&row);
+    }
+    for (auto one = postures.begin(); one != postures.end(); ++one) {
+      for (auto other = postures.begin(); other != one; ++other) {
+        if (one->second.size() != other->second.size() || one->second.empty()) continue;
+        bool same = true, all_of_six = true;
+        for (std::size_t i = 0; same && i < one->second.size(); ++i) {
+          const campaign::State &a = *one->second[i], &b = *other->second[i];
+          same = a.step == b.step && a.wrench_in_cell == b.wrench_in_cell;
+          all_of_six &= a.wrench_in_cell.cwiseAbs().minCoeff() > 0.0;
+        }
+        constexpr double kOtherPosture = 2.0 * io::kDegree;
+        if (!same || !all_of_six ||
+            (one->second.front()->q - other->second.front()->q).cwiseAbs().maxCoeff() < kOtherPosture)
+          continue;
+        // The later of two is the one that was not updated, unless the springs say otherwise.
+        const auto left = [&](int pose) {
+          const auto at = std::find(loads_.poses().begin(), loads_.poses().end(), pose);
+          return at == loads_.poses().end()
+                     ? 0.0
+                     : found_.fit.pose_left[static_cast<std::size_t>(at - loads_.poses().begin())];
+        };
+        const bool later = left(one->first) >= left(other->first);
+        const int stale = later ? one->first : other->first, own = later ? other->first : one->first;
+        found_.cures.push_back({"row_order", whereOf(stale),
+                                Remark(RemarkId::wrenches_repeated, nameOf(stale), nameOf(own)),
+                                Remark(RemarkId::loads_left, left(stale), left(own)), left(stale), left(own)});
+        return true;
+      }
+    }
+    return false;
+  }
+
+  // Load steps: two exchanged, or one apart from the others.
+
+  /// The day with the readings, or the wrenches, of two steps exchanged: of all postures, or of one.
+  ReadingsOfDay withStepsExchanged(int a, int b, bool of_points, std::optional<int> pose) const {
+    ReadingsOfDay day = day_;
+    std::map<std::pair<int, int>, const LoadedReading*> rows;
+    for (const LoadedReading& row : day_.loaded) rows[{row.pose, row.step}] = &row;
+    for (LoadedReading& row : day.loaded) {
+      if (pose && row.pose != *pose) continue;
+      const int step = row.step == a ? b : row.step == b ? a : row.step;
+      if (!of_points) {
+        const auto from = rows.find({row.pose, step});
+        if (from != rows.end()) row.wrench = from->second->wrench;
+        continue;
+      }
+      // Displacements are against step 0: where that is one of the two, all have another start.
+      for (ReflectorMove& move : row.moves) {
+        const auto of = [&](int of_step) -> Eigen::Vector3d {
+          const auto from = rows.find({row.pose, of_step});
+          if (from == rows.end()) return Eigen::Vector3d::Zero();
+          for (const ReflectorMove& other : from->second->moves) {
+            if (other.target == move.target) return other.displacement;
+          }
+          return Eigen::Vector3d::Zero();
+        };
+        move.displacement = (step == 0 ? Eigen::Vector3d::Zero() : of(step)) - (a == 0 ? of(b) : Eigen::Vector3d::Zero());
+      }
+    }
+    return day;
+  }
+
+  void searchExchangedSteps(std::optional<int> pose) {
+    constexpr double kLeast = 0.3, kMends = 0.5;
+    std::size_t at = 0;
+    if (pose) {
+      at = static_cast<std::size_t>(std::find(loads_.poses().begin(), loads_.poses().end(), *pose) -
+                                    loads_.poses().begin());
+    } else if (found_.fit.left < kLeast) {
+      return;
+    }
+    std::vector<int> steps{0};
+    for (const LoadedReading& row : day_.loaded) {
+      if (std::find(steps.begin(), steps.end(), row.step) == steps.end()) steps.push_back(row.step);
+    }
+    const auto leftOf = [&](const SpringFit& fit) { return pose ? fit.pose_left[at] : fit.left; };
+    const double before = leftOf(found_.fit);
+    double best = kMends * before;
+    std::optional<Suspected> cure;
+    constexpr std::size_t kMostSteps = 8;
+    if (steps.size() > kMostSteps) return;
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      for (std::size_t k = i + 1; k < steps.size(); ++k) {
+        const int a = std::min(steps[i], steps[k]), b = std::max(steps[i], steps[k]);
+        for (const bool of_points : {false, true}) {
+          // Of two loaded steps points and wrenches say the same, and the wrenches are fewer.
+          if (of_points != (a == 0)) continue;
+          const LoadsOfDay exchanged(withStepsExchanged(a, b, of_points, pose), arm_);
+          const SpringFit fit = exchanged.fit(declared_);
+          if (leftOf(fit) >= best || fit.pose_left.size() != found_.fit.pose_left.size()) continue;
+          best = leftOf(fit);
+          const std::string columns = of_points ? "step" : "fx_n to mz_nm";
+          cure = Suspected{"row_order",
+                           pose ? whereOf(*pose)
+                                : Remark(RemarkId::in_columns, columns,
+                                         std::vector<std::string>{of_points && campaign_.loading
+                                                                      ? campaign_.loading->file
+                                                                      : campaign_.states->file}),
+                           Remark(RemarkId::steps_exchanged, a, b, of_points),
+                           Remark(RemarkId::loads_left, before, best),
+                           before,
+                           best};
+        }
+      }
+    }
+    if (cure) found_.cures.push_back(std::move(*cure));
+  }
 
   /// Displacements grow as the load does: a step whose load is written too large moves too little for it.
   void searchSteps() {
@@ -366,6 +521,24 @@ class LoadSearcher {
     return std::max(0.0, fitNominal(day_, options).sag_factor);
   }
 
+  /// The own weight's sag is the opposite of what masses and springs make of it, and the day fits by that.
+  bool isGravityReversed() {
+    if (!day_.weight.links_known || day_.unloaded.empty()) return false;
+    constexpr double kLeast = 0.5, kMost = 2.0, kMends = 0.7;
+    NominalFitOptions options;
+    options.springs = found_.fit.compliance;
+    const NominalFit sagging = fitNominal(day_, options);
+    if (!sagging.done || sagging.sag_factor > -kLeast || sagging.sag_factor < -kMost) return false;
+    NominalFitOptions none;
+    none.sag = false;
+    const double without = fitNominal(day_, none).rms;
+    if (sagging.rms > kMends * without) return false;
+    found_.cures.push_back({"gravity_sign", Remark(RemarkId::in_robot, std::string("gravity_m_s2")),
+                            Remark(RemarkId::gravity_reversed, sagging.sag_factor),
+                            Remark(RemarkId::misses_arm, without, sagging.rms), without, sagging.rms});
+    return true;
+  }
+
   void searchUnits(const std::vector<LoadMistake>& table) {
     const Scatter scatter = unloadedScatter();
     if (scatter.force <= 0.0 || scatter.moment <= 0.0) return;
@@ -392,6 +565,7 @@ class LoadSearcher {
 
   const campaign::Campaign& campaign_;
   const ReadingsOfDay& day_;
+  const NominalFit& arm_;
   LoadsOfDay loads_;
   CellReading declared_;
   double point_leaves_ = INFINITY;  ///< of the displacements, where moving the cell's point mends

@@ -154,6 +154,38 @@ void addPostures(const campaign::Campaign& campaign, ReadingsOfDay& day) {
   }
 }
 
+/// Each reflector has three unknowns of its own: of ten thousand a fit would need gigabytes.
+void keepFewTargets(ReadingsOfDay& day) {
+  constexpr std::size_t kTargets = 20;
+  std::vector<std::pair<int, int>> by_readings;  // less their count, target
+  for (int k = 0; k < day.targets; ++k) by_readings.emplace_back(0, k);
+  for (const UnloadedReading& reading : day.unloaded) --by_readings[static_cast<std::size_t>(reading.target)].first;
+  for (const LoadedReading& reading : day.loaded) {
+    for (const ReflectorMove& move : reading.moves) --by_readings[static_cast<std::size_t>(move.target)].first;
+  }
+  std::sort(by_readings.begin(), by_readings.end());
+  if (by_readings.size() > kTargets) by_readings.resize(kTargets);
+  std::vector<int> becomes(static_cast<std::size_t>(day.targets), -1);
+  for (const auto& [count, target] : by_readings) day.campaign_target.push_back(target);
+  std::sort(day.campaign_target.begin(), day.campaign_target.end());
+  for (std::size_t k = 0; k < day.campaign_target.size(); ++k)
+    becomes[static_cast<std::size_t>(day.campaign_target[k])] = static_cast<int>(k);
+  day.targets = static_cast<int>(day.campaign_target.size());
+  const auto of = [&](auto& reading) {
+    reading.target = becomes[static_cast<std::size_t>(reading.target)];
+    return reading.target < 0;
+  };
+  std::erase_if(day.unloaded, of);
+  for (LoadedReading& reading : day.loaded) std::erase_if(reading.moves, of);
+  std::erase_if(day.loaded, [](const LoadedReading& reading) { return reading.moves.empty(); });
+  // Groups without a reading are none.
+  std::map<int, int> groups;
+  for (const UnloadedReading& reading : day.unloaded) groups.emplace(reading.group, 0);
+  day.groups = 0;
+  for (auto& [group, number] : groups) number = day.groups++;
+  for (UnloadedReading& reading : day.unloaded) reading.group = groups.at(reading.group);
+}
+
 }  // namespace
 
 ReadingsOfDay readingsOf(const campaign::Campaign& campaign) {
@@ -165,6 +197,7 @@ ReadingsOfDay readingsOf(const campaign::Campaign& campaign) {
   addCircles(campaign, day);
   addWristSweep(campaign, day);
   addPostures(campaign, day);
+  keepFewTargets(day);
   return day;
 }
 
