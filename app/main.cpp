@@ -1,3 +1,5 @@
+#include <fcntl.h>
+#include <unistd.h>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -6,8 +8,22 @@
 #include "app/command_line.h"
 #include "core/io/input_error.h"
 
+namespace {
+
+/// A standard stream that is closed would be the number of the next file that is opened, and what is printed would be
+/// written into that.
+void holdStandardStreams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    // Standard output as one that cannot be written, so that a result that nobody gets is said to be lost.
+    if (::fcntl(stream, F_GETFD) < 0) ::open("/dev/null", stream == STDERR_FILENO ? O_WRONLY : O_RDONLY);
+  }
+}
+
+}  // namespace
+
 // The only place that catches and prints.
 int main(int count, char** words) {
+  holdStandardStreams();
   // A file size limit is then an error of the write like any other, which says what could not be written.
   std::signal(SIGXFSZ, SIG_IGN);
   try {

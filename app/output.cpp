@@ -21,6 +21,10 @@
 
 namespace stiffscope::app {
 
+std::string textOf(const reports::Json& json) {
+  return json.dump(1, ' ', false, reports::Json::error_handler_t::replace);
+}
+
 namespace {
 
 using Place = reports::Json::json_pointer;
@@ -46,7 +50,7 @@ bool hasLongList(const reports::JsonDocument& document, const reports::Json& val
 
 /// A value that stands `depth` deep, as dump(1) writes it there.
 void addShort(const reports::Json& value, std::size_t depth, std::string& text) {
-  const std::string own = reports::textOf(value);
+  const std::string own = textOf(value);
   for (std::size_t from = 0; from < own.size();) {
     const std::size_t end = std::min(own.find('\n', from), own.size() - 1) + 1;
     text.append(own, from, end - from);
@@ -120,7 +124,7 @@ class JsonWriter {
     text_ += '{';
     const char* between = "\n";
     for (const auto& [key, value] : object.items()) {
-      text_.append(between).append(depth + 1, ' ').append(reports::textOf(reports::Json(key))).append(": ");
+      text_.append(between).append(depth + 1, ' ').append(textOf(reports::Json(key))).append(": ");
       add(value, place / key, depth + 1);
       between = ",\n";
     }

@@ -31,8 +31,9 @@ void printWarnings(const std::vector<std::string>& warnings);
 void printText(std::string_view text);
 void printBytes(std::string_view text);
 
-/// The result: as JSON alone to standard output where `json_file` is that (isStandardOutput); else as text there, and as JSON to the file
-/// that is named, if any; std::runtime_error where that file was read. Only what is asked for is made.
+/// The result: as JSON alone to standard output where `json_file` is that (isStandardOutput); else as text there, and
+/// as JSON to the file that is named, if any; std::runtime_error where that file was read. Only what is asked for is
+/// made.
 void deliver(const std::function<reports::JsonDocument()>& json, const std::function<std::string()>& text,
              const std::string& json_file);
 
@@ -48,7 +49,11 @@ bool isStandardOutput(const std::string& file);
 /// output goes to: of two results in it one would be lost.
 void requireOwnFiles(const std::vector<ResultFile>& files);
 
-/// Hands what dump(1) gives, and a line end, to `sink`, in parts; long lists of it are made and written on all cores, a
+/// JSON as it is written to files, a line a value. Bytes of names that are not UTF-8, which paths may have, become
+/// U+FFFD.
+std::string textOf(const reports::Json& json);
+
+/// Hands what textOf gives, and a line end, to `sink`, in parts; long lists of it are made and written on all cores, a
 /// few thousand rows at a time, so that neither a hundred megabytes of values nor their text stands in memory.
 void writeJson(const reports::JsonDocument& document, const io::ByteSink& sink);
 

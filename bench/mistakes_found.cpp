@@ -1,8 +1,9 @@
 // How many of the usual mistakes the audit finds and names, and how many days without one it accuses.
 //
 // mistakes_found forms [--only WORDS] DAY...: every spoilt form of each day (tests/fixtures/spoilt_forms.h), or those
-// whose name has these words, a line each, and the sums. DAY: a campaign's folder, or FAMILY:INDEX:SEED of the simulated machines of interval_coverage. mistakes_found
-// days FAMILY COUNT SEED: so many days of a family, none of them spoilt: those with a finding.
+// whose name has these words, a line each, and the sums. DAY: a campaign's folder, or FAMILY:INDEX:SEED of the
+// simulated machines of interval_coverage. mistakes_found days FAMILY COUNT SEED: so many days of a family, none of
+// them spoilt: those with a finding.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -126,7 +127,8 @@ void printForms(const std::vector<std::string>& days, const std::string& only) {
     GoodDay good{dayNamed(name), {}, {}};
     good.result = identification::identify(good.campaign, identification::valuesOnly());
     good.faults = faultsOf(audit::audit(good.campaign));
-    fmt::print("{}: on the good day: {}\n", name, good.faults.empty() ? "nothing" : fmt::format("{}", fmt::join(good.faults, ", ")));
+    fmt::print("{}: on the good day: {}\n", name,
+               good.faults.empty() ? "nothing" : fmt::format("{}", fmt::join(good.faults, ", ")));
     std::vector<SpoiltForm> forms = spoiltForms();
     std::erase_if(forms, [&](const SpoiltForm& form) { return form.name.find(only) == std::string::npos; });
     std::vector<FormResult> results(forms.size());
@@ -190,7 +192,8 @@ int main(int argc, char** argv) {
     } else if (arguments.size() == 4 && arguments[0] == "days") {
       printDays(arguments[1], std::stoi(arguments[2]), std::stoull(arguments[3]));
     } else {
-      fmt::print(stderr, "mistakes_found forms [--only WORDS] DAY... | days FAMILY COUNT SEED; FAMILY one of {}\n", bench::kFamilies);
+      fmt::print(stderr, "mistakes_found forms [--only WORDS] DAY... | days FAMILY COUNT SEED; FAMILY one of {}\n",
+                 bench::kFamilies);
       return 2;
     }
   } catch (const std::exception& error) {

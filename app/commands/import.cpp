@@ -73,7 +73,7 @@ int importCampaign(const DayArguments& arguments) {
   // What was measured is never written over, wherever DAY.xml stands.
   for (const auto& file : std::filesystem::directory_iterator(arguments.out, none)) io::requireNotRead(file.path());
   const reports::Json origins = reports::importJson(day);
-  campaign::writeCampaign(day.campaign, day.urdf, arguments.out, {{"import.json", reports::textOf(origins) + '\n'}});
+  campaign::writeCampaign(day.campaign, day.urdf, arguments.out, {{"import.json", textOf(origins) + '\n'}});
   deliver([&] { return origins; },
           [&] { return reports::importText(day) + arguments.out + ": campaign written, with import.json\n"; },
           arguments.json);

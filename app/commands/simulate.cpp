@@ -49,7 +49,7 @@ void addSimulate(CLI::App& app, Run& run) {
                        "campaign; for readings without noise declare some and set true_noise_factor=\"0\""});
       }
       campaign::writeCampaign(simulation::simulate(spec), spec.urdf_file, arguments->out,
-                              {{"truth.json", reports::textOf(reports::truthJson(spec)) + '\n'}});
+                              {{"truth.json", textOf(reports::truthJson(spec)) + '\n'}});
       std::printf("%s: campaign written\n", arguments->out.c_str());
       return kDone;
     };

@@ -236,7 +236,8 @@ void writeFolderWhole(const fs::path& folder, const std::vector<FileToWrite>& fi
   if (target.filename().empty()) target = target.parent_path();
   const fs::file_status status = fs::status(target);
   if (fs::exists(status) && !fs::is_directory(status)) failFolder(folder, "it is no folder; expected the name of one");
-  if (fs::exists(status) && ::access(target.c_str(), W_OK | X_OK) != 0) failFolder(folder, fmt::format("{}; expected a folder that can be written", std::strerror(errno)));
+  if (fs::exists(status) && ::access(target.c_str(), W_OK | X_OK) != 0)
+    failFolder(folder, fmt::format("{}; expected a folder that can be written", std::strerror(errno)));
   if (!fs::exists(status)) makeFolder(target.parent_path());
   const FolderTurn turn(target.parent_path());
   if (writeByExchange(target, files, superseded)) return;

@@ -34,7 +34,8 @@ void keepBest(const campaign::Campaign& campaign, std::vector<ArmCure>& cures) {
 }
 
 /// How near the reflectors are to one line: the least height of the triangle that has the largest.
-std::optional<Suspected> onOneLine(const campaign::Campaign& campaign, const ReadingsOfDay& day, const NominalFit& fit) {
+std::optional<Suspected> onOneLine(const campaign::Campaign& campaign, const ReadingsOfDay& day,
+                                   const NominalFit& fit) {
   const auto& at = fit.reflectors_in_flange;
   if (at.size() < 3) return std::nullopt;
   double height = 0.0, longest = 0.0;
@@ -88,7 +89,8 @@ ModelAgreement findMistakes(const campaign::Campaign& campaign) {
   ReadingsOfDay day = readingsOf(campaign);
   ArmSearch arm = searchArm(campaign, day);
   if (!arm.fit.done) {
-    if (const std::optional<NominalFit> declared = declaredArm(campaign, day)) addLoads(campaign, day, *declared, agreement);
+    if (const std::optional<NominalFit> declared = declaredArm(campaign, day))
+      addLoads(campaign, day, *declared, agreement);
     return agreement;
   }
   agreement.arm_miss = arm.fit.typical;

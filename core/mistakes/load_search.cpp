@@ -41,7 +41,7 @@ class LoadSearcher {
   LoadSearch run() {
     if (!loads_.enough()) return std::move(found_);
     if (!forcesStandOut(campaign_)) {
-      if (searchTare()) found_.done = true;
+      if (addTare()) found_.done = true;
       return std::move(found_);
     }
     found_.done = true;
@@ -52,7 +52,7 @@ class LoadSearcher {
     addGravityTurn(trials);
     keepMending(trials);
     if (trials.empty()) {
-      if (searchTare()) return std::move(found_);
+      if (addTare()) return std::move(found_);
       if (searchRepeatedWrenches()) return std::move(found_);
       trials = triedPoint();
       keepMending(trials);
@@ -72,7 +72,12 @@ class LoadSearcher {
       trials = triedTurn();
       keepMending(trials);
     }
-    if (trials.empty() && isGravityReversed()) return std::move(found_);
+    if (trials.empty()) {
+      if (std::optional<Suspected> reversed = gravityReversed(day_, found_.fit)) {
+        found_.cures.push_back(std::move(*reversed));
+        return std::move(found_);
+      }
+    }
     if (trials.empty()) return searchUnits(table), std::move(found_);
     report(trials);
     return std::move(found_);
@@ -83,6 +88,12 @@ class LoadSearcher {
     std::vector<LoadTrial> trials(table.size());
     numerics::onAllCores(table.size(), [&](std::size_t i) { trials[i] = {table[i], loads_.fit(table[i].meant)}; });
     return trials;
+  }
+
+  bool addTare() {
+    std::optional<Suspected> weight = weightNotTared(campaign_, day_);
+    if (weight) found_.cures.push_back(std::move(*weight));
+    return weight.has_value();
   }
 
   bool isSuspicious() const { return found_.fit.left > 0.3 || found_.fit.along_lever > kNoPoint; }
@@ -242,7 +253,8 @@ class LoadSearcher {
     const double before = found_.fit.pose_off_gravity[at], after = fit.pose_off_gravity[at];
     const bool by_gravity = before > kDoesNot && after < kHangs;
     if (before < kHangs && after > kHangs) return false;
-    if (fit.left > point_leaves_) return false;
+    // A thousandfold load at one posture bends the springs to it alone.
+    if (fit.left > std::min(point_leaves_, kWorse * found_.fit.left)) return false;
     // A posture of a small load moves by what springs are not; a moment that then has another lever was right before.
     const SpringFit& as_read = found_.fit;
     if (fit.along_lever > std::max(kNoPoint, kWorse * as_read.along_lever) ||
@@ -296,8 +308,8 @@ class LoadSearcher {
     }
   }
 
-  /// Wrenches of a posture that are those of another, digit by digit in all steps, where the flange stands otherwise: no
-  /// cell repeats to the last digit of six columns.
+  /// Wrenches of a posture that are those of another, digit by digit in all steps, where the flange stands otherwise:
+  /// no cell repeats to the last digit of six columns.
   bool searchRepeatedWrenches() {
     if (declared_.axes_link) return false;  // a weight in base_link's axes may be written without its noise
     std::map<int, std::vector<const campaign::State*>> postures;
@@ -337,35 +349,6 @@ class LoadSearcher {
 
   // Load steps: two exchanged, or one apart from the others.
 
-  /// The day with the readings, or the wrenches, of two steps exchanged: of all postures, or of one.
-  ReadingsOfDay withStepsExchanged(int a, int b, bool of_points, std::optional<int> pose) const {
-    ReadingsOfDay day = day_;
-    std::map<std::pair<int, int>, const LoadedReading*> rows;
-    for (const LoadedReading& row : day_.loaded) rows[{row.pose, row.step}] = &row;
-    for (LoadedReading& row : day.loaded) {
-      if (pose && row.pose != *pose) continue;
-      const int step = row.step == a ? b : row.step == b ? a : row.step;
-      if (!of_points) {
-        const auto from = rows.find({row.pose, step});
-        if (from != rows.end()) row.wrench = from->second->wrench;
-        continue;
-      }
-      // Displacements are against step 0: where that is one of the two, all have another start.
-      for (ReflectorMove& move : row.moves) {
-        const auto of = [&](int of_step) -> Eigen::Vector3d {
-          const auto from = rows.find({row.pose, of_step});
-          if (from == rows.end()) return Eigen::Vector3d::Zero();
-          for (const ReflectorMove& other : from->second->moves) {
-            if (other.target == move.target) return other.displacement;
-          }
-          return Eigen::Vector3d::Zero();
-        };
-        move.displacement = (step == 0 ? Eigen::Vector3d::Zero() : of(step)) - (a == 0 ? of(b) : Eigen::Vector3d::Zero());
-      }
-    }
-    return day;
-  }
-
   void searchExchangedSteps(std::optional<int> pose) {
     constexpr double kLeast = 0.3, kMends = 0.5;
     std::size_t at = 0;
@@ -391,21 +374,21 @@ class LoadSearcher {
         for (const bool of_points : {false, true}) {
           // Of two loaded steps points and wrenches say the same, and the wrenches are fewer.
           if (of_points != (a == 0)) continue;
-          const LoadsOfDay exchanged(withStepsExchanged(a, b, of_points, pose), arm_);
+          const LoadsOfDay exchanged(withStepsExchanged(day_, a, b, of_points, pose), arm_);
           const SpringFit fit = exchanged.fit(declared_);
           if (leftOf(fit) >= best || fit.pose_left.size() != found_.fit.pose_left.size()) continue;
           best = leftOf(fit);
           const std::string columns = of_points ? "step" : "fx_n to mz_nm";
-          cure = Suspected{"row_order",
-                           pose ? whereOf(*pose)
-                                : Remark(RemarkId::in_columns, columns,
-                                         std::vector<std::string>{of_points && campaign_.loading
-                                                                      ? campaign_.loading->file
-                                                                      : campaign_.states->file}),
-                           Remark(RemarkId::steps_exchanged, a, b, of_points),
-                           Remark(RemarkId::loads_left, before, best),
-                           before,
-                           best};
+          cure = Suspected{
+              "row_order",
+              pose ? whereOf(*pose)
+                   : Remark(RemarkId::in_columns, columns,
+                            std::vector<std::string>{of_points && campaign_.loading ? campaign_.loading->file
+                                                                                    : campaign_.states->file}),
+              Remark(RemarkId::steps_exchanged, a, b, of_points),
+              Remark(RemarkId::loads_left, before, best),
+              before,
+              best};
         }
       }
     }
@@ -437,121 +420,22 @@ class LoadSearcher {
     }
   }
 
-  // The cell unloaded.
-
-  /// A weight that turns with the postures in rows without load: F = m g in the cell's axes, and a constant.
-  bool searchTare() {
-    const double sigma = campaign_.load_cell->force_sigma;
-    std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> rows;  // gravity in the cell's axes, force
-    double squares = 0.0;
-    for (const campaign::State& row : campaign_.states->rows) {
-      if (row.step != 0) continue;
-      rows.emplace_back(gravityInCell(row.q), row.wrench_in_cell.head<3>());
-      squares += rows.back().second.squaredNorm();
-    }
-    constexpr std::size_t kEnough = 6;
-    if (rows.size() < kEnough) return false;
-    Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
-    Eigen::Vector4d right = Eigen::Vector4d::Zero();
-    for (const auto& [gravity, force] : rows) {
-      Eigen::Matrix<double, 3, 4> design;
-      design << gravity, Eigen::Matrix3d::Identity();
-      normal += design.transpose() * design;
-      right += design.transpose() * force;
-    }
-    normal.diagonal().array() += 1e-9;
-    const Eigen::Vector4d found = normal.ldlt().solve(right);
-    double left = 0.0;
-    for (const auto& [gravity, force] : rows) left += (force - gravity * found[0] - found.tail<3>()).squaredNorm();
-    const double count = static_cast<double>(rows.size()), mean = std::sqrt(squares / count),
-                 rest = std::sqrt(left / count), weight = std::abs(found[0]) * day_.weight.gravity_in_base.norm();
-    constexpr double kShare = 0.1, kSigmas = 10.0;
-    const bool is_weight =
-        weight > 5.0 * rest && rest < kShare * mean && weight > kSigmas * sigma && weight > 0.5 * mean;
-    if (!is_weight) return false;
-    found_.cures.push_back(
-        {"not_tared",
-         Remark(RemarkId::in_columns, std::string("fx_n to mz_nm"), std::vector<std::string>{campaign_.states->file}),
-         Remark(RemarkId::weight_not_tared, found[0], mean, rest), Remark(), mean, rest});
-    return true;
-  }
-
-  Eigen::Vector3d gravityInCell(const Vector6d& q) const {
-    const robot::ArmPosture posture = robot::postureAt(day_.robot, q);
-    const std::string& link = declared_.axes_link ? *declared_.axes_link : declared_.parent;
-    Eigen::Matrix3d axes = robot::flangeAt(day_.robot, posture).linear();
-    for (const robot::LinkFrame& frame : day_.robot.links) {
-      if (frame.name == link)
-        axes = posture.motion[static_cast<std::size_t>(frame.body)].linear() * frame.base_from_link_at_zero.linear();
-    }
-    if (!declared_.axes_link) axes = axes * declared_.parent_from_cell.linear();
-    return axes.transpose() * day_.weight.gravity_in_base;
-  }
-
   // Units that leave the loads explained nearly as well: all in one other unit makes springs as much softer. The cell's
   // unloaded scatter against what is declared shows them, and the own weight's sag by these springs.
 
-  struct Scatter {
-    double force = 0.0, moment = 0.0;  ///< standard deviation over the declared; 0 where nothing says
-  };
-
-  Scatter unloadedScatter() const {
-    const campaign::LoadCell& cell = *campaign_.load_cell;
-    if (cell.force_sigma <= 0.0 || cell.moment_sigma <= 0.0) return {};
-    Vector6d sum = Vector6d::Zero(), squares = Vector6d::Zero();
-    double count = 0.0;
-    for (const campaign::State& row : campaign_.states->rows) {
-      if (row.step != 0) continue;
-      sum += row.wrench_in_cell;
-      squares += row.wrench_in_cell.cwiseAbs2();
-      count += 1.0;
-    }
-    constexpr double kEnough = 6.0;
-    if (count < kEnough) return {};
-    const Vector6d variance = (squares - sum.cwiseAbs2() / count) / (count - 1.0);
-    return {std::sqrt(std::max(0.0, variance.head<3>().mean())) / cell.force_sigma,
-            std::sqrt(std::max(0.0, variance.tail<3>().mean())) / cell.moment_sigma};
-  }
-
-  /// Sag of the own weight in parts of what these springs make of it; 0 where no masses are known.
-  double sagBy(const SpringFit& springs) const {
-    if (!day_.weight.links_known || day_.unloaded.empty()) return 0.0;
-    NominalFitOptions options;
-    options.springs = springs.compliance;
-    return std::max(0.0, fitNominal(day_, options).sag_factor);
-  }
-
-  /// The own weight's sag is the opposite of what masses and springs make of it, and the day fits by that.
-  bool isGravityReversed() {
-    if (!day_.weight.links_known || day_.unloaded.empty()) return false;
-    constexpr double kLeast = 0.5, kMost = 2.0, kMends = 0.7;
-    NominalFitOptions options;
-    options.springs = found_.fit.compliance;
-    const NominalFit sagging = fitNominal(day_, options);
-    if (!sagging.done || sagging.sag_factor > -kLeast || sagging.sag_factor < -kMost) return false;
-    NominalFitOptions none;
-    none.sag = false;
-    const double without = fitNominal(day_, none).rms;
-    if (sagging.rms > kMends * without) return false;
-    found_.cures.push_back({"gravity_sign", Remark(RemarkId::in_robot, std::string("gravity_m_s2")),
-                            Remark(RemarkId::gravity_reversed, sagging.sag_factor),
-                            Remark(RemarkId::misses_arm, without, sagging.rms), without, sagging.rms});
-    return true;
-  }
-
   void searchUnits(const std::vector<LoadMistake>& table) {
-    const Scatter scatter = unloadedScatter();
+    const CellScatter scatter = unloadedScatter(campaign_);
     if (scatter.force <= 0.0 || scatter.moment <= 0.0) return;
     constexpr double kOff = 1.0, kRight = 0.4, kSagRight = 0.5, kSagOff = 0.7;  // logarithms of factors
     const auto off = [](double factor) { return std::abs(std::log(factor)); };
     if (std::max(off(scatter.force), off(scatter.moment)) < kOff) return;
-    const double sag = sagBy(found_.fit);
+    const double sag = sagBy(day_, found_.fit);
     for (const LoadMistake& mistake : table) {
       if (mistake.id != "wrench_unit") continue;
       const double forces = mistake.meant.on_force(0, 0), moments = mistake.meant.on_moment(0, 0);
       if (off(scatter.force * forces) > kRight || off(scatter.moment * moments) > kRight) continue;
       const SpringFit fit = loads_.fit(mistake.meant);
-      const double after = sagBy(fit);
+      const double after = sagBy(day_, fit);
       const bool by_sag = sag > 0.0 && off(sag) > kSagOff && after > 0.0 && off(after) < kSagRight;
       constexpr double kBetter = 0.93;
       const bool by_springs = fit.left < kBetter * found_.fit.left;

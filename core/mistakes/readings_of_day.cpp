@@ -201,6 +201,34 @@ ReadingsOfDay readingsOf(const campaign::Campaign& campaign) {
   return day;
 }
 
+ReadingsOfDay withStepsExchanged(const ReadingsOfDay& as_read, int a, int b, bool of_points, std::optional<int> pose) {
+  ReadingsOfDay day = as_read;
+  std::map<std::pair<int, int>, const LoadedReading*> rows;
+  for (const LoadedReading& row : as_read.loaded) rows[{row.pose, row.step}] = &row;
+  for (LoadedReading& row : day.loaded) {
+    if (pose && row.pose != *pose) continue;
+    const int step = row.step == a ? b : row.step == b ? a : row.step;
+    if (!of_points) {
+      const auto from = rows.find({row.pose, step});
+      if (from != rows.end()) row.wrench = from->second->wrench;
+      continue;
+    }
+    // Displacements are against step 0: where that is one of the two, all have another start.
+    for (ReflectorMove& move : row.moves) {
+      const auto of = [&](int of_step) -> Eigen::Vector3d {
+        const auto from = rows.find({row.pose, of_step});
+        if (from == rows.end()) return Eigen::Vector3d::Zero();
+        for (const ReflectorMove& other : from->second->moves) {
+          if (other.target == move.target) return other.displacement;
+        }
+        return Eigen::Vector3d::Zero();
+      };
+      move.displacement = (step == 0 ? Eigen::Vector3d::Zero() : of(step)) - (a == 0 ? of(b) : Eigen::Vector3d::Zero());
+    }
+  }
+  return day;
+}
+
 std::string fileOfAngles(const campaign::Campaign& campaign, SourceTable table) {
   if (table != SourceTable::loading) return fileOfPoints(campaign, table);
   return campaign.states ? campaign.states->file : std::string();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,9 @@ struct ReadingsOfDay {
 /// Sweeps and loading that are in one frame: that of the loading, of the circle sweeps where there is none. Means over
 /// repeats. Displacements in base_link where there are no points.
 ReadingsOfDay readingsOf(const campaign::Campaign& campaign);
+
+/// The day with the readings, or the wrenches, of two load steps exchanged (a < b): of all postures, or of one.
+ReadingsOfDay withStepsExchanged(const ReadingsOfDay& as_read, int a, int b, bool of_points, std::optional<int> pose);
 
 /// The file in which the joint angles of a table stand, and the one in which its points do; empty where it is absent.
 std::string fileOfAngles(const campaign::Campaign& campaign, SourceTable table);

@@ -20,24 +20,24 @@ enum class RemarkId {
   at_poses_in,   ///< first and last posture, columns, file
 
   // What would mend it: of joint angles and of the robot.
-  both,               ///< remarks: one remedy, another, where that one
-  turn_signs,         ///< joints, whether in all tables, so that the URDF may be wrong instead
-  order_of_joints,    ///< joint that stands under each of q1_deg..q6_deg
-  add_joint,          ///< joint, the one whose reading is to be added, the sign with which
-  shift_zero,         ///< joint, by which angle, whether in all tables
-  angles_in,          ///< unit
-  angles_of_row,      ///< whether of the row after; else of the row before
-  angles_of_posture,  ///< the same of postures
-  angles_exchanged,   ///< both postures
+  both,                ///< remarks: one remedy, another, where that one
+  turn_signs,          ///< joints, whether in all tables, so that the URDF may be wrong instead
+  order_of_joints,     ///< joint that stands under each of q1_deg..q6_deg
+  add_joint,           ///< joint, the one whose reading is to be added, the sign with which
+  shift_zero,          ///< joint, by which angle, whether in all tables
+  angles_in,           ///< unit
+  angles_of_row,       ///< whether of the row after; else of the row before
+  angles_of_posture,   ///< the same of postures
+  angles_exchanged,    ///< both postures
   readings_exchanged,  ///< both postures, of the loading
-  angles_repeated,    ///< posture, the one whose angles it has
-  rows_lost,          ///< first posture of those whose angles are of another row, whether of the next posture's
-  angles_backwards,   ///< axis
-  sweeps_exchanged,   ///< both axes
-  labels_exchanged,   ///< axis as labelled, axis that turns; in pairs
-  origin_off,         ///< joint, by how much, in its parent's axes at zero
-  origin_turned,      ///< joint, about which of base_link's axes, by which angle
-  scale_off,          ///< of the points against the URDF, a share above one
+  angles_repeated,     ///< posture, the one whose angles it has
+  rows_lost,           ///< first posture of those whose angles are of another row, whether of the next posture's
+  angles_backwards,    ///< axis
+  sweeps_exchanged,    ///< both axes
+  labels_exchanged,    ///< axis as labelled, axis that turns; in pairs
+  origin_off,          ///< joint, by how much, in its parent's axes at zero
+  origin_turned,       ///< joint, about which of base_link's axes, by which angle
+  scale_off,           ///< of the points against the URDF, a share above one
 
   // Of points and reflectors.
   left_handed,         ///< nothing else

@@ -155,17 +155,16 @@ bool searchMovedPostures(SearchedArm& arm, const std::vector<int>& apart) {
   if (poses.size() < kFew) return false;
   std::sort(poses.begin(), poses.end());
   ArmCure cure;
-  cure.suspected = {"other_station",
-                    Remark(RemarkId::at_poses_in, campaign::poseName(arm.campaign, poses.front()),
-                           campaign::poseName(arm.campaign, poses.back()), std::string("x_mm, y_mm, z_mm"),
-                           fileOfPoints(arm.campaign, SourceTable::loading)),
-                    Remark(RemarkId::other_station, first->translation().norm(),
-                           Eigen::AngleAxisd(first->linear()).angle()),
-                    {}};
+  cure.suspected = {
+      "other_station",
+      Remark(RemarkId::at_poses_in, campaign::poseName(arm.campaign, poses.front()),
+             campaign::poseName(arm.campaign, poses.back()), std::string("x_mm, y_mm, z_mm"),
+             fileOfPoints(arm.campaign, SourceTable::loading)),
+      Remark(RemarkId::other_station, first->translation().norm(), Eigen::AngleAxisd(first->linear()).angle()),
+      {}};
   cure.day = arm.day;
   // In the frame of the points.
-  const Eigen::Isometry3d moved =
-      arm.found.fit.base_from_points.inverse() * *first * arm.found.fit.base_from_points;
+  const Eigen::Isometry3d moved = arm.found.fit.base_from_points.inverse() * *first * arm.found.fit.base_from_points;
   const auto isMoved = [&](int pose) { return std::find(poses.begin(), poses.end(), pose) != poses.end(); };
   for (UnloadedReading& reading : cure.day.unloaded) {
     if (isMoved(reading.pose)) reading.point = moved * reading.point;
@@ -193,11 +192,11 @@ void searchMotion(SearchedArm& arm, int group) {
     count += 1.0;
   }
   ArmCure cure;
-  cure.suspected = {"other_station",
-                    whereOfGroup(arm.campaign, first, "x_mm, y_mm, z_mm", false),
-                    Remark(RemarkId::elsewhere, (there - at).norm() / count,
-                           Eigen::AngleAxisd(motion->linear()).angle()),
-                    {}};
+  cure.suspected = {
+      "other_station",
+      whereOfGroup(arm.campaign, first, "x_mm, y_mm, z_mm", false),
+      Remark(RemarkId::elsewhere, (there - at).norm() / count, Eigen::AngleAxisd(motion->linear()).angle()),
+      {}};
   cure.pose = first.pose;
   cure.day = arm.day;
   cure.rms = arm.found.fit.typical;
@@ -235,9 +234,11 @@ void searchGroups(SearchedArm& arm) {
 }
 
 bool searchReadTwice(SearchedArm& arm) {
-  constexpr double kOne = 2e-3;       // m: nearer than any two reflectors stand
-  constexpr double kOfStates = 0.9;   // of the states of a table
-  const auto at = [](const UnloadedReading& reading) { return std::pair(reading.group, std::vector(reading.q.begin(), reading.q.end())); };
+  constexpr double kOne = 2e-3;      // m: nearer than any two reflectors stand
+  constexpr double kOfStates = 0.9;  // of the states of a table
+  const auto at = [](const UnloadedReading& reading) {
+    return std::pair(reading.group, std::vector(reading.q.begin(), reading.q.end()));
+  };
   struct Pair {
     double states = 0.0, near = 0.0, apart = 0.0;
   };
@@ -265,7 +266,8 @@ bool searchReadTwice(SearchedArm& arm) {
       }
       const auto take = [&](Remark where, const Pair& pair, std::optional<int> pose, std::optional<SourceTable> table) {
         ArmCure cure;
-        cure.suspected = {"reflectors_exchanged", std::move(where),
+        cure.suspected = {"reflectors_exchanged",
+                          std::move(where),
                           Remark(RemarkId::reflector_twice, nameOf(a), nameOf(b), pair.apart),
                           {}};
         cure.pose = pose;

@@ -51,13 +51,13 @@ bool searchExchangedAngles(SearchedArm& arm, const std::vector<int>& apart) {
       if (!mendsGroup(arm, after, before)) continue;
       const bool readings = wrenchesFollow(arm, day, first.pose, second.pose);
       ArmCure cure;
-      cure.suspected = {"row_order",
-                        readings ? whereOfGroup(arm.campaign, first, "pose", false)
-                                 : whereOfGroup(arm.campaign, first, "q1_deg to q6_deg", true),
-                        Remark(readings ? RemarkId::readings_exchanged : RemarkId::angles_exchanged,
-                               campaign::poseName(arm.campaign, first.pose),
-                               campaign::poseName(arm.campaign, second.pose)),
-                        {}};
+      cure.suspected = {
+          "row_order",
+          readings ? whereOfGroup(arm.campaign, first, "pose", false)
+                   : whereOfGroup(arm.campaign, first, "q1_deg to q6_deg", true),
+          Remark(readings ? RemarkId::readings_exchanged : RemarkId::angles_exchanged,
+                 campaign::poseName(arm.campaign, first.pose), campaign::poseName(arm.campaign, second.pose)),
+          {}};
       cure.rms = after;
       cure.pose = first.pose;
       cure.day = std::move(day);
@@ -83,11 +83,10 @@ bool searchLostRow(SearchedArm& arm) {
       for (std::size_t i = 0; i < shifted.unloaded.size(); ++i) shifted.unloaded[i].q = arm.day.unloaded[i].*row;
       return missOfGroup(arm.found.fit, shifted, g);
     };
-    postures.push_back({first.pose, with(&UnloadedReading::q), with(&UnloadedReading::q_before),
-                        with(&UnloadedReading::q_after)});
+    postures.push_back(
+        {first.pose, with(&UnloadedReading::q), with(&UnloadedReading::q_before), with(&UnloadedReading::q_after)});
   }
-  std::sort(postures.begin(), postures.end(),
-            [](const OfPosture& a, const OfPosture& b) { return a.pose < b.pose; });
+  std::sort(postures.begin(), postures.end(), [](const OfPosture& a, const OfPosture& b) { return a.pose < b.pose; });
   constexpr double kFits = 5e-3;  // m
   constexpr std::size_t kFew = 3;
   for (const bool next : {true, false}) {
@@ -96,8 +95,9 @@ bool searchLostRow(SearchedArm& arm) {
     const auto shifted = [&](const OfPosture& one) {
       return one.own > kFits && (next ? one.before : one.after) < kFits;
     };
-    const auto atEnd = [&](std::size_t i) { return i + 1 == postures.size() && postures[i].own > kFits; };
+    const auto atEnd = [&](std::size_t i) { return i + 1 == postures.size(); };  // it has no neighbour
     while (from > 0 && (shifted(postures[from - 1]) || atEnd(from - 1))) --from;
+    if (from > 0 && postures[from - 1].own > kFits) --from;  // whose own row is the one that is lost
     if (postures.size() - from < kFew + 1 || from < kFew) continue;
     const auto fitting = [&](std::size_t i) { return postures[i].own < kFits; };
     std::size_t well = 0;

@@ -150,7 +150,8 @@ Eigen::Vector3d LoadsOfDay::bestPoint(const CellReading& cell) const {
 Eigen::Matrix3d LoadsOfDay::bestTurn(const CellReading& cell) const {
   CellReading turned = cell;
   const auto columns = [&](const State& state, const Applied& load) {
-    // A small turn d in the cell's axes: z . (A d x M + r x (A d x F)) = d . A^T (M x z + F x (z x r)), r from the axis.
+    // A small turn d in the cell's axes: z . (A d x M + r x (A d x F)) = d . A^T (M x z + F x (z x r)), r from the
+    // axis.
     const Eigen::Matrix3d axes = axesOf(state, turned);
     Eigen::Matrix<double, 6, 3> by_turn;
     for (std::size_t j = 0; j < 6; ++j) {

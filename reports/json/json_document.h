@@ -14,9 +14,6 @@ namespace stiffscope::reports {
 /// Keys stay in the order in which they are written: the same result gives the same bytes.
 using Json = nlohmann::ordered_json;
 
-/// As it is written to files, a line a value. Bytes of names that are not UTF-8, which paths may have, become U+FFFD.
-inline std::string textOf(const Json& json) { return json.dump(1, ' ', false, Json::error_handler_t::replace); }
-
 /// A number, or null where it is not finite: JSON has no NaN.
 inline Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 

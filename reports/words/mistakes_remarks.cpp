@@ -178,8 +178,9 @@ std::string mistakesWords(mistakes::RemarkId id, const RemarkValues& values) {
       return fmt::format("pose {0} has the angles of pose {1}, and not its readings: write those of pose {0}",
                          values.name(0), values.name(1));
     case RemarkId::rows_lost:
-      return fmt::format("from pose {} on each posture has the angles of the {}: a row of the log is {}", values.name(0),
-                         values.count(1) != 0 ? "next" : "one before", values.count(1) != 0 ? "lost" : "too many");
+      return fmt::format("from pose {} on each posture has the angles of the {}: a row of the log is {}",
+                         values.name(0), values.count(1) != 0 ? "next" : "one before",
+                         values.count(1) != 0 ? "lost" : "too many");
     case RemarkId::angles_backwards:
       return fmt::format("the angles of the sweep of axis {} run backwards: its last row has those of the first",
                          values.count(0));
@@ -288,8 +289,8 @@ std::string mistakesWords(mistakes::RemarkId id, const RemarkValues& values) {
     case RemarkId::wrenches_exchanged:
       return fmt::format("exchange the wrenches of poses {} and {}", values.name(0), values.name(1));
     case RemarkId::wrenches_repeated:
-      return fmt::format("pose {0} has the wrenches of pose {1}, digit by digit: write those of pose {0}", values.name(0),
-                         values.name(1));
+      return fmt::format("pose {0} has the wrenches of pose {1}, digit by digit: write those of pose {0}",
+                         values.name(0), values.name(1));
     case RemarkId::steps_exchanged:
       return fmt::format("exchange the {} of steps {} and {}", values.count(2) != 0 ? "readings" : "wrenches",
                          values.count(0), values.count(1));
