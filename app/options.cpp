@@ -48,7 +48,7 @@ std::string whyNotFinite(const std::string& value) {
   char* end = nullptr;
   const double number = std::strtod(value.c_str(), &end);
   return std::isfinite(number) && end == value.c_str() + value.size() ? ""
-                                                                     : "'" + value + "': expected a finite number";
+                                                                      : "'" + value + "': expected a finite number";
 }
 
 std::string whyNotInteger(const std::string& value) {
