@@ -1,4 +1,5 @@
 #include <fcntl.h>
+#include <glog/logging.h>
 #include <unistd.h>
 #include <csignal>
 #include <cstdio>
@@ -26,6 +27,8 @@ int main(int count, char** words) {
   holdStandardStreams();
   // A file size limit is then an error of the write like any other, which says what could not be written.
   std::signal(SIGXFSZ, SIG_IGN);
+  // Ceres logs each step that fails; results say what could not be determined.
+  FLAGS_minloglevel = google::GLOG_FATAL;
   try {
     return stiffscope::app::runCommandLine(count, words);
   } catch (const std::bad_alloc&) {

@@ -52,7 +52,7 @@ std::string whyNotFinite(const std::string& value) {
 }
 
 std::string whyNotInteger(const std::string& value) {
-  return io::parseInteger(value) ? "" : "'" + value + "': expected a whole number of at most nine digits";
+  return io::parseInteger(value) ? "" : "'" + value + "': expected a whole number within +-2147483647";
 }
 
 std::string whyNotUnsigned(const std::string& value) {

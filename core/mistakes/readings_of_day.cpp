@@ -171,12 +171,12 @@ void keepFewTargets(ReadingsOfDay& day) {
   for (std::size_t k = 0; k < day.campaign_target.size(); ++k)
     becomes[static_cast<std::size_t>(day.campaign_target[k])] = static_cast<int>(k);
   day.targets = static_cast<int>(day.campaign_target.size());
-  const auto of = [&](auto& reading) {
-    reading.target = becomes[static_cast<std::size_t>(reading.target)];
-    return reading.target < 0;
-  };
-  std::erase_if(day.unloaded, of);
-  for (LoadedReading& reading : day.loaded) std::erase_if(reading.moves, of);
+  for (UnloadedReading& reading : day.unloaded) reading.target = becomes[static_cast<std::size_t>(reading.target)];
+  std::erase_if(day.unloaded, [](const UnloadedReading& reading) { return reading.target < 0; });
+  for (LoadedReading& reading : day.loaded) {
+    for (ReflectorMove& move : reading.moves) move.target = becomes[static_cast<std::size_t>(move.target)];
+    std::erase_if(reading.moves, [](const ReflectorMove& move) { return move.target < 0; });
+  }
   std::erase_if(day.loaded, [](const LoadedReading& reading) { return reading.moves.empty(); });
   // Groups without a reading are none.
   std::map<int, int> groups;

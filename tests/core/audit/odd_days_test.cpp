@@ -9,6 +9,7 @@
 #include <vector>
 #include "core/audit/audit.h"
 #include "core/identification/identify.h"
+#include "core/io/units.h"
 #include "core/mistakes/find_mistakes.h"
 #include "tests/fixtures/clean_day.h"
 
@@ -55,7 +56,6 @@ Campaign stiffDay(double nm_per_rad) {
 
 Campaign oneReadingAPosture() {
   Campaign day = usualDay();
-  std::map<int, bool> seen;
   std::erase_if(day.loading->rows, [](const auto& row) { return row.target != 0 || row.repeat != "1"; });
   return day;
 }
@@ -76,15 +76,15 @@ Campaign posturesAllAlike() {
   return day;
 }
 
-/// Sweeps over 2 degrees.
+/// Sweeps over 2 degrees, about the middle of what they were.
 Campaign shortArcs() {
-  Campaign day = usualDay();
-  std::map<int, Vector6d> first;
-  for (const auto& row : day.circle_sweeps->rows) first.emplace(row.axis, row.q);
-  // Stops drawn together about the first one, readings turned with them: the fit of the usual day's circles says where.
-  std::map<std::pair<int, int>, int> count;
-  std::erase_if(day.circle_sweeps->rows, [&](const auto& row) { return ++count[{row.axis, row.target}] > 2; });
-  return day;
+  simulation::SimulationSpec spec = cleanDay(44, 1.0);
+  for (auto& sweep : spec.circle_sweeps) {
+    const double middle = 0.5 * (sweep.start + sweep.stop);
+    sweep.start = middle - io::kDegree;
+    sweep.stop = middle + io::kDegree;
+  }
+  return simulation::simulate(spec);
 }
 
 /// Of each reflector one reading in all, so many reflectors.
@@ -146,7 +146,7 @@ std::vector<OddDay> oddDays() {
           {"stiffness of 1e9 Nm/rad", [] { return stiffDay(1e9); }},
           {"one reading a posture", oneReadingAPosture},
           {"postures all alike", posturesAllAlike},
-          {"arcs of two stops", shortArcs},
+          {"arcs of 2 degrees", shortArcs},
           {"3000 targets", [] { return manyTargets(3000); }},
           {"a row a table", withoutRows},
           {"no weight and no load", weightless},
