@@ -1,17 +1,42 @@
+#include <fcntl.h>
+#include <glog/logging.h>
+#include <unistd.h>
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include "app/command_line.h"
+#include "core/io/input_error.h"
+
+namespace {
+
+/// A standard stream that is closed would be the number of the next file that is opened, and what is printed would be
+/// written into that.
+void holdStandardStreams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    // Standard output as one that cannot be written, so that a result that nobody gets is said to be lost.
+    if (::fcntl(stream, F_GETFD) < 0) ::open("/dev/null", stream == STDERR_FILENO ? O_WRONLY : O_RDONLY);
+  }
+}
+
+}  // namespace
 
 // The only place that catches and prints.
 int main(int count, char** words) {
+  holdStandardStreams();
   // A file size limit is then an error of the write like any other, which says what could not be written.
   std::signal(SIGXFSZ, SIG_IGN);
+  // Ceres logs each step that fails; results say what could not be determined.
+  FLAGS_minloglevel = google::GLOG_FATAL;
   try {
     return stiffscope::app::runCommandLine(count, words);
   } catch (const std::bad_alloc&) {
     std::fprintf(stderr, "stiffscope: the memory this process may have is used up\n");
+    return 2;
+  } catch (const std::filesystem::filesystem_error& error) {
+    std::fprintf(stderr, "stiffscope: %s: expected a file or folder that can be used: %s\n",
+                 stiffscope::io::oneLine(error.path1().string(), 1000).c_str(), error.code().message().c_str());
     return 2;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "stiffscope: %s\n", error.what());

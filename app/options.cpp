@@ -45,7 +45,14 @@ namespace {
 std::string whyEmpty(const std::string& value) { return value.empty() ? "expected a value; it is empty" : ""; }
 
 std::string whyNotFinite(const std::string& value) {
-  return std::isfinite(std::strtod(value.c_str(), nullptr)) ? "" : "'" + value + "': expected a finite number";
+  char* end = nullptr;
+  const double number = std::strtod(value.c_str(), &end);
+  return std::isfinite(number) && end == value.c_str() + value.size() ? ""
+                                                                      : "'" + value + "': expected a finite number";
+}
+
+std::string whyNotInteger(const std::string& value) {
+  return io::parseInteger(value) ? "" : "'" + value + "': expected a whole number within +-2147483647";
 }
 
 std::string whyNotUnsigned(const std::string& value) {
@@ -67,6 +74,7 @@ void checkOptionValues(CLI::App& app) {
       if (option->get_type_size() == 0) continue;  // a flag
       option->check(whyEmpty, "");
       if (type.starts_with("FLOAT")) option->check(whyNotFinite, "");
+      if (type.starts_with("INT")) option->check(whyNotInteger, "");
       if (type.starts_with("UINT")) option->check(whyNotUnsigned, "");
     }
   }
@@ -126,9 +134,12 @@ int explainUsageError(const CLI::App& app, const CLI::ParseError& error) {
                   ? fmt::format("'{}' is an option of commands and belongs after the command's name", unknown.front())
                   : "'" + unknown.front() + "' is not known" + hintFor(chosen(app), unknown.front());
   }
+  // Of the options that take none; values of the others are looked at before they are converted.
+  if (dynamic_cast<const CLI::ConversionError*>(&error) != nullptr) message += ": expected no value";
   const std::string program = app.get_name();
-  std::fprintf(stderr, "%s: %s; see %s %s--help\n", program.c_str(), message.c_str(), program.c_str(),
-               commandWords(app).c_str());
+  constexpr std::size_t kLongest = 1000;
+  std::fprintf(stderr, "%s: %s; see %s %s--help\n", program.c_str(), io::oneLine(message, kLongest).c_str(),
+               program.c_str(), commandWords(app).c_str());
   return kBadInput;
 }
 

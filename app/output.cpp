@@ -1,5 +1,6 @@
 #include "app/output.h"
 
+#include <unistd.h>
 #include <algorithm>
 #include <cerrno>
 #include <cstddef>
@@ -10,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "core/identification/motor_side.h"
 #include "core/io/input_error.h"
 #include "core/io/read_file.h"
@@ -17,6 +20,10 @@
 #include "core/numerics/parallel.h"
 
 namespace stiffscope::app {
+
+std::string textOf(const reports::Json& json) {
+  return json.dump(1, ' ', false, reports::Json::error_handler_t::replace);
+}
 
 namespace {
 
@@ -43,7 +50,7 @@ bool hasLongList(const reports::JsonDocument& document, const reports::Json& val
 
 /// A value that stands `depth` deep, as dump(1) writes it there.
 void addShort(const reports::Json& value, std::size_t depth, std::string& text) {
-  const std::string own = value.dump(1);
+  const std::string own = textOf(value);
   for (std::size_t from = 0; from < own.size();) {
     const std::size_t end = std::min(own.find('\n', from), own.size() - 1) + 1;
     text.append(own, from, end - from);
@@ -117,7 +124,7 @@ class JsonWriter {
     text_ += '{';
     const char* between = "\n";
     for (const auto& [key, value] : object.items()) {
-      text_.append(between).append(depth + 1, ' ').append(reports::Json(key).dump()).append(": ");
+      text_.append(between).append(depth + 1, ' ').append(textOf(reports::Json(key))).append(": ");
       add(value, place / key, depth + 1);
       between = ",\n";
     }
@@ -150,17 +157,59 @@ void printWarnings(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) std::fprintf(stderr, "stiffscope: warning: %s\n", warning.c_str());
 }
 
-void requireTwoFiles(const std::string& out, const std::string& json_file) {
-  if (out.empty() || json_file.empty() || json_file == "-") return;
-  namespace fs = std::filesystem;
-  if (fs::weakly_canonical(out) == fs::weakly_canonical(json_file))
-    throw std::runtime_error(json_file + ": expected another file for --json than for --out");
+namespace {
+
+bool isSameFile(const io::FileStamp& a, const io::FileStamp& b) { return a.device == b.device && a.inode == b.inode; }
+
+struct ::stat standardOutput() {
+  struct ::stat status {};
+  ::fstat(STDOUT_FILENO, &status);
+  return status;
+}
+
+/// Also of what has no name of its own, a pipe behind /dev/stdout.
+bool isSameFile(const std::string& a, const std::string& b) {
+  const auto there_a = io::stampOf(a), there_b = io::stampOf(b);
+  if (there_a && there_b) return isSameFile(*there_a, *there_b);
+  std::error_code none;
+  const auto named = [&](const std::string& file) {
+    const std::filesystem::path path = std::filesystem::weakly_canonical(file, none);
+    return none ? std::filesystem::path(file).lexically_normal() : path;
+  };
+  return named(a) == named(b);
+}
+
+}  // namespace
+
+bool isStandardOutput(const std::string& file) {
+  if (file == "-") return true;
+  const auto there = io::stampOf(file);
+  return there && isSameFile(*there, io::stampFrom(standardOutput()));
+}
+
+void requireOwnFiles(const std::vector<ResultFile>& files) {
+  const auto is_json = [](const ResultFile& one) { return one.option == "--json"; };
+  for (const ResultFile& one : files) {
+    if (one.file.empty()) continue;
+    if (!is_json(one) && one.file == "-")
+      throw std::runtime_error(fmt::format("-: expected the name of a file for {}", one.option));
+    // A file that is replaced is no longer what standard output writes to: the text would be lost.
+    if (!is_json(one) && isStandardOutput(one.file) && S_ISREG(standardOutput().st_mode))
+      throw std::runtime_error(
+          fmt::format("{}: expected another file for {}: standard output goes there", one.file, one.option));
+    for (const ResultFile& other : files) {
+      if (&other == &one) break;
+      const bool printed = is_json(one) && isStandardOutput(one.file);
+      if (other.file.empty() || !(printed ? isStandardOutput(other.file) : isSameFile(one.file, other.file))) continue;
+      throw std::runtime_error(
+          fmt::format("{}: expected another file for {} than for {}", one.file, one.option, other.option));
+    }
+  }
 }
 
 void deliver(const std::function<reports::JsonDocument()>& json, const std::function<std::string()>& text,
              const std::string& json_file) {
-  const bool json_only = json_file == "-";
-  if (json_only) return writeJson(json(), printBytes);
+  if (!json_file.empty() && isStandardOutput(json_file)) return writeJson(json(), printBytes);
   if (!json_file.empty()) {
     io::requireNotRead(json_file);
     const reports::JsonDocument values = json();

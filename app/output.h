@@ -31,8 +31,9 @@ void printWarnings(const std::vector<std::string>& warnings);
 void printText(std::string_view text);
 void printBytes(std::string_view text);
 
-/// The result: as JSON alone to standard output where `json_file` is `-`; else as text there, and as JSON to the file
-/// that is named, if any; std::runtime_error where that file was read. Only what is asked for is made.
+/// The result: as JSON alone to standard output where `json_file` is that (isStandardOutput); else as text there, and
+/// as JSON to the file that is named, if any; std::runtime_error where that file was read. Only what is asked for is
+/// made.
 void deliver(const std::function<reports::JsonDocument()>& json, const std::function<std::string()>& text,
              const std::string& json_file);
 
@@ -49,10 +50,23 @@ struct Outlet {
 /// The command line's: deliver() to `json_file`, the lines to standard error.
 Outlet commandLineOutlet(const std::string& json_file);
 
-/// Throws std::runtime_error where --out and --json name one file: of two results in it one would be lost.
-void requireTwoFiles(const std::string& out, const std::string& json_file);
+/// A file that an option names for a result; empty where it was not given.
+struct ResultFile {
+  std::string option, file;
+};
 
-/// Hands what dump(1) gives, and a line end, to `sink`, in parts; long lists of it are made and written on all cores, a
+/// Whether a file is where standard output goes: `-`, /dev/stdout, the file that a shell redirects it to.
+bool isStandardOutput(const std::string& file);
+
+/// Throws std::runtime_error where two options name one file, or an option other than --json the file that standard
+/// output goes to: of two results in it one would be lost.
+void requireOwnFiles(const std::vector<ResultFile>& files);
+
+/// JSON as it is written to files, a line a value. Bytes of names that are not UTF-8, which paths may have, become
+/// U+FFFD.
+std::string textOf(const reports::Json& json);
+
+/// Hands what textOf gives, and a line end, to `sink`, in parts; long lists of it are made and written on all cores, a
 /// few thousand rows at a time, so that neither a hundred megabytes of values nor their text stands in memory.
 void writeJson(const reports::JsonDocument& document, const io::ByteSink& sink);
 

@@ -44,8 +44,7 @@ int Prediction::deliver(const std::vector<compensation::CompensatedPosture>& row
         return reports::withPreparation(std::move(document), prepared_->preparation);
       },
       [&] {
-        return text(cautions) +
-               (first ? reports::wrapped(reports::shownFirstWords(result, *first), 2) + "\n" : "") +
+        return text(cautions) + (first ? reports::wrapped(reports::shownFirstWords(result, *first), 2) + "\n" : "") +
                (found_.improved ? reports::extendedModelText(*found_.improved, methods) : "") +
                reports::preparationText(prepared_->preparation);
       });

@@ -81,7 +81,7 @@ void addBlind(CLI::App& app, Run& run) {
                                       : validation::runBlind(arguments->options, diagnosed, eventsOnStderr(),
                                                              diagnosis::distanceFromVocabulary);
       const reports::Json json = reports::blindJson(arguments->options, result);
-      io::writeFileWhole(arguments->options.out / "results.json", json.dump(1) + '\n');
+      io::writeFileWhole(arguments->options.out / "results.json", textOf(json) + '\n');
       io::writeFileWhole(arguments->options.out / "blind.html", page::blindPage(arguments->options, result));
       deliver([&] { return json; }, [&] { return reports::blindText(result); }, arguments->json);
       return kDone;

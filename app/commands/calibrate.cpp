@@ -86,6 +86,8 @@ void addCalibrate(CLI::App& app, Run& run) {
   command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
   command->callback([arguments, &run] {
     run = [arguments] {
+      requireOwnFiles(
+          {{"--csv", arguments->request.csv}, {"--urdf", arguments->request.urdf}, {"--json", arguments->json}});
       return calibrateCampaign(arguments->request,
                                sourceOf(arguments->campaign, arguments->raw, hashesFor(arguments->json)),
                                commandLineOutlet(arguments->json));

@@ -61,7 +61,8 @@ struct CompensateArguments {
 };
 
 int compensateAsAsked(CompensateArguments& arguments) {
-  requireTwoFiles(arguments.motion.out, arguments.json);
+  requireOwnFiles(
+      {{"--out", arguments.motion.out}, {"--picture", arguments.motion.picture}, {"--json", arguments.json}});
   const CampaignSource source = sourceOf(arguments.campaign, arguments.raw);
   const Outlet outlet = commandLineOutlet(arguments.json);
   if (!arguments.motion.program.empty()) return compensateProgram(arguments.motion, source, outlet);

@@ -76,16 +76,17 @@ toolpath::Cutting cuttingOf(const std::vector<std::string>& words) {
     const std::string name = word.substr(0, equals);
     const auto entry = std::find_if(entries.begin(), entries.end(), [&](const Entry& one) { return name == one.name; });
     if (entry == entries.end() || equals == std::string::npos)
-      throw io::InputError({"--cutting"}, word,
-                           fmt::format("expected NAME=VALUE of {}{}", fmt::join(known, ", "),
-                                       io::nearestNameHint(name, known)));
+      throw io::InputError(
+          {"--cutting"}, word,
+          fmt::format("expected NAME=VALUE of {}{}", fmt::join(known, ", "), io::nearestNameHint(name, known)));
     const io::ParsedNumber value = io::parseNumber(word.substr(equals + 1));
     if (!value.expectation.empty()) throw io::InputError({"--cutting"}, word, value.expectation);
     const bool positive = !entry->required || value.value > 0.0;
     if (!positive || value.value < entry->least || value.value > entry->most)
       throw io::InputError({"--cutting"}, word,
-                           entry->required ? "expected a number above 0"
-                                           : fmt::format("expected a number from {:g} to {:g}", entry->least, entry->most));
+                           entry->required
+                               ? "expected a number above 0"
+                               : fmt::format("expected a number from {:g} to {:g}", entry->least, entry->most));
     cutting.*entry->member = value.value * entry->unit;
     entry->given = true;
   }
@@ -112,8 +113,7 @@ std::size_t placeOf(const std::string& name, const std::vector<std::string>& kno
 void addTargetLoads(const MotionRequest& request, Prediction& prediction,
                     std::vector<compensation::PostureToCompensate>& targets, const Outlet& outlet) {
   const std::vector<std::string> kAxes{"cell", "base_link"};
-  const bool in_base =
-      !request.wrench_axes.empty() && placeOf(request.wrench_axes, kAxes, "--wrench-axes") == 1;
+  const bool in_base = !request.wrench_axes.empty() && placeOf(request.wrench_axes, kAxes, "--wrench-axes") == 1;
   if (in_base && request.tool.empty())
     throw io::InputError({"--wrench-axes"}, request.wrench_axes, "expected --tool, too: the wrench acts at its tip");
   std::vector<compensation::NamedReading> readings;
@@ -125,10 +125,12 @@ void addTargetLoads(const MotionRequest& request, Prediction& prediction,
   for (compensation::PostureToCompensate& target : targets) {
     Vector6d wrench = sixOf(request.wrench);
     if (!request.wrenches.empty()) {
-      const auto own = std::find_if(readings.begin(), readings.end(), [&](const auto& one) { return one.id == target.id; });
+      const auto own =
+          std::find_if(readings.begin(), readings.end(), [&](const auto& one) { return one.id == target.id; });
       if (own == readings.end())
-        throw io::InputError({request.wrenches, 0, "pose"}, target.id, "expected a wrench of each joint target; of this "
-                                                                         "one there is none");
+        throw io::InputError({request.wrenches, 0, "pose"}, target.id,
+                             "expected a wrench of each joint target; of this "
+                             "one there is none");
       wrench = own->wrench_in_cell;
     }
     if (!in_base) {
@@ -136,8 +138,8 @@ void addTargetLoads(const MotionRequest& request, Prediction& prediction,
       continue;
     }
     const Eigen::Matrix3d& to_r0 = prediction.arm().geometry.r0_from_base_link.linear();
-    target.load = effects::FlangeLoad{frameOf(request.tool).translation(), to_r0 * wrench.head<3>(),
-                                      to_r0 * wrench.tail<3>()};
+    target.load =
+        effects::FlangeLoad{frameOf(request.tool).translation(), to_r0 * wrench.head<3>(), to_r0 * wrench.tail<3>()};
   }
 }
 
@@ -152,9 +154,8 @@ double roundingOf(const interchange::TaughtProgram& program, const campaign::Joi
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (!rows[i].solved) continue;
     const double unit = io::kDegree * std::pow(10.0, -interchange::decimalsOfTarget(program, i));
-    const Vector6d written = convention.figures(rows[i].commands).unaryExpr([&](double figure) {
-      return std::round(figure / unit) * unit;
-    });
+    const Vector6d written =
+        convention.figures(rows[i].commands).unaryExpr([&](double figure) { return std::round(figure / unit) * unit; });
     most = std::max(most, (tcpAt(convention.angles(written)) - tcpAt(rows[i].commands)).norm());
   }
   return most;
@@ -191,7 +192,8 @@ int compensateProgram(const MotionRequest& request, const CampaignSource& source
             request.out, rows, rounding);
       },
       [&](const auto& cautions) {
-        return reports::compensationText(prediction.campaign(), prediction.method(), rows, prediction.known(), cautions) +
+        return reports::compensationText(prediction.campaign(), prediction.method(), rows, prediction.known(),
+                                         cautions) +
                reports::programText(program, request.out, rows, rounding);
       },
       outlet);
@@ -214,13 +216,15 @@ toolpath::PathJob pathJob(const MotionRequest& request, const Outlet& outlet) {
   if (!request.cutting.empty()) job.load.cutting = cuttingOf(request.cutting);
   const int loads = int(job.path.has_wrenches) + int(!request.wrench.empty()) + int(!request.cutting.empty());
   if (loads != 1)
-    throw io::InputError({"--path"}, request.path,
-                         fmt::format("expected the process load once: fx_n to mz_nm in the path, --wrench or --cutting; {}",
-                                     loads == 0 ? "there is none" : "there is more than one"));
+    throw io::InputError(
+        {"--path"}, request.path,
+        fmt::format("expected the process load once: fx_n to mz_nm in the path, --wrench or --cutting; {}",
+                    loads == 0 ? "there is none" : "there is more than one"));
   job.load.constant = sixOf(request.wrench);
   if (!request.wrench_axes.empty()) {
     if (job.load.cutting)
-      throw io::InputError({"--wrench-axes"}, request.wrench_axes, "expected no axes: those of --cutting are the feed's");
+      throw io::InputError({"--wrench-axes"}, request.wrench_axes,
+                           "expected no axes: those of --cutting are the feed's");
     const std::vector<std::string> known(toolpath::kWrenchAxesNames.begin(), toolpath::kWrenchAxesNames.end());
     job.load.axes = static_cast<toolpath::WrenchAxes>(placeOf(request.wrench_axes, known, "--wrench-axes"));
   }

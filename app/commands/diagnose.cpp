@@ -21,6 +21,7 @@
 #include "core/diagnosis/spike_study.h"
 #include "core/identification/identify.h"
 #include "core/io/input_error.h"
+#include "core/io/read_file.h"
 #include "core/io/write_file.h"
 #include "reports/json/campaign_json.h"
 #include "reports/json/json.h"
@@ -76,7 +77,9 @@ diagnosis::Diagnosis diagnosed(const preparation::PreparedCampaign& prepared) {
 
 int diagnoseWithSpikes(DiagnoseArguments& arguments) {
   arguments.options.effects = effectsToAdd(arguments.spike);
+  requireOwnFiles({{"--picture", arguments.picture}, {"--json", arguments.json}});
   const campaign::Campaign campaign = openCampaign(arguments.campaign);
+  if (!arguments.picture.empty()) io::requireNotRead(arguments.picture);  // before the study, which takes minutes
   requireLoad(campaign);
   const diagnosis::Diagnosis diagnosis = diagnosed(preparation::prepareCampaign(campaign));
   std::function<void(std::size_t, std::size_t)> progress;

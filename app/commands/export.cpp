@@ -55,7 +55,7 @@ std::optional<robot::Robot> sweptArm(const campaign::Campaign& campaign) {
 }
 
 int exportUrdf(const UrdfArguments& arguments) {
-  requireTwoFiles(arguments.out, arguments.json);
+  requireOwnFiles({{"--out", arguments.out}, {"--json", arguments.json}});
   const preparation::PreparedCampaign prepared =
       openPrepared(arguments.campaign, arguments.raw, hashesFor(arguments.json));
   const campaign::Campaign& campaign = prepared.campaign;
@@ -122,7 +122,7 @@ struct ElasticArguments : IdentifiedArguments {
 
 int exportElastic(const ElasticArguments& arguments) {
   const MethodAndStep choice = methodAndStep(arguments.method, arguments.step);
-  requireTwoFiles(arguments.out, arguments.json);
+  requireOwnFiles({{"--out", arguments.out}, {"--json", arguments.json}});
   const preparation::PreparedCampaign prepared =
       openPrepared(arguments.campaign, arguments.raw, hashesFor(arguments.json));
   Identified found = identifiedBy(prepared, arguments.campaign, arguments.model, choice);
@@ -169,7 +169,7 @@ void addElastic(CLI::App& parent, Run& run, const std::string& format, const std
 
 int exportDcc(const IdentifiedArguments& arguments) {
   const MethodAndStep choice = methodAndStep(arguments.method, arguments.step);
-  requireTwoFiles(arguments.out, arguments.json);
+  requireOwnFiles({{"--out", arguments.out}, {"--json", arguments.json}});
   const preparation::PreparedCampaign prepared = openPrepared(arguments.campaign, arguments.raw);
   std::vector<std::string> warnings;
   const campaign::Certificate certificate = campaign::readCertificate(prepared.campaign, warnings);

@@ -211,7 +211,7 @@ void addPlan(CLI::App& app, Run& run) {
     if (load->count() > 0) asked.load = arguments->load;
     if (pull->count() > 0) asked.pull = arguments->pull;
     run = [arguments] {
-      requireTwoFiles(arguments->request.out, arguments->json);
+      requireOwnFiles({{"--out", arguments->request.out}, {"--json", arguments->json}});
       return planDay(arguments->request, sourceOf(arguments->campaign, false), commandLineOutlet(arguments->json));
     };
   });

@@ -62,6 +62,8 @@ bool isPictureOrTable(const std::string& name) {
 
 /// Pictures and tables that the report which is there now lists as its own.
 std::vector<std::string> earlierFiles(const fs::path& folder) {
+  std::error_code none;
+  if (!fs::is_regular_file(folder / "results.json", none)) return {};  // a pipe would be waited for
   std::ifstream file(folder / "results.json", std::ios::binary);
   if (!file) return {};
   // Of what may be tens of megabytes nothing else is kept.

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <memory>
 
 #include "app/command_line.h"
@@ -8,6 +9,7 @@
 #include "app/options.h"
 #include "app/output.h"
 #include "core/campaign/write_campaign.h"
+#include "core/io/read_file.h"
 #include "core/simulation/measure.h"
 #include "core/simulation/read_spec.h"
 #include "reports/json/json.h"
@@ -18,6 +20,9 @@ namespace stiffscope::app {
 int simulateDay(const SimulateRequest& request, const Outlet& outlet) {
   const simulation::SimulationSpec spec = simulation::readSimulationSpec(request.spec);
   if (!request.replace) requireNoCampaign(request.out, "expected another folder, or --replace to write over it");
+  // A description that stands where the campaign goes would be lost.
+  for (const char* const file : {"campaign.xml", "truth.json"})
+    io::requireNotRead(std::filesystem::path(request.out) / file);
   const std::vector<int> rigid = simulation::rigidJoints(spec);
   // On a day without a load rigid joints are what most have.
   if (!rigid.empty() && spec.loading) {
@@ -32,7 +37,7 @@ int simulateDay(const SimulateRequest& request, const Outlet& outlet) {
   }
   const reports::Json truth = reports::truthJson(spec);
   campaign::writeCampaign(simulation::simulate(spec), spec.urdf_file, request.out,
-                          {{"truth.json", truth.dump(1) + '\n'}});
+                          {{"truth.json", textOf(truth) + '\n'}});
   outlet.deliver([&] { return truth; }, [&] { return request.out + ": campaign written\n"; });
   return kDone;
 }

@@ -66,8 +66,10 @@ void drawSlice(const std::string& file, const campaign::Campaign& campaign, cons
 int stiffnessOf(const StiffnessArguments& arguments) {
   const MethodAndStep choice = methodAndStep(arguments.method, arguments.step);
   const workspace::WorkspaceOptions options = optionsOf(arguments);
-  for (const std::string& file : {arguments.csv, arguments.placements, arguments.picture})
-    if (!file.empty()) requireTwoFiles(file, arguments.json);
+  requireOwnFiles({{"--csv", arguments.csv},
+                   {"--placements", arguments.placements},
+                   {"--picture", arguments.picture},
+                   {"--json", arguments.json}});
   const preparation::PreparedCampaign prepared =
       openPrepared(arguments.campaign, arguments.raw, hashesFor(arguments.json));
   Identified found = identifiedBy(prepared, arguments.campaign, arguments.model, choice);

@@ -230,13 +230,14 @@ class Prepared {
 
 void writeFolderWhole(const fs::path& folder, const std::vector<FileToWrite>& files,
                       const std::vector<std::string>& superseded) try {
-  if (folder.empty()) failFolder(folder, "it names no folder");
+  if (folder.empty()) failFolder(folder, "it names no folder; expected the name of one");
   // Links are followed and a slash at the end is cut, so that the folder itself has a name beside which to write.
   fs::path target = fs::weakly_canonical(fs::absolute(folder));
   if (target.filename().empty()) target = target.parent_path();
   const fs::file_status status = fs::status(target);
-  if (fs::exists(status) && !fs::is_directory(status)) failFolder(folder, "it is no folder");
-  if (fs::exists(status) && ::access(target.c_str(), W_OK | X_OK) != 0) failFolder(folder, std::strerror(errno));
+  if (fs::exists(status) && !fs::is_directory(status)) failFolder(folder, "it is no folder; expected the name of one");
+  if (fs::exists(status) && ::access(target.c_str(), W_OK | X_OK) != 0)
+    failFolder(folder, fmt::format("{}; expected a folder that can be written", std::strerror(errno)));
   if (!fs::exists(status)) makeFolder(target.parent_path());
   const FolderTurn turn(target.parent_path());
   if (writeByExchange(target, files, superseded)) return;
@@ -246,7 +247,7 @@ void writeFolderWhole(const fs::path& folder, const std::vector<FileToWrite>& fi
   prepared.rename();
   removeFiles(target, superseded);
 } catch (const fs::filesystem_error& error) {
-  failFolder(folder, error.code().message());
+  failFolder(folder, error.code().message() + "; expected a folder that can be made and written");
 }
 
 }  // namespace stiffscope::io

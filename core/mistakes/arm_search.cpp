@@ -40,7 +40,8 @@ ArmSearch searchArm(const campaign::Campaign& campaign, const ReadingsOfDay& day
   const bool labelled = searchLabels(arm);
   if (found.fit.rms > limits.suspicious) {
     arm.mistakes = armMistakes(day, namesOf(campaign));
-    if (labelled) searchExchangedSweeps(arm);
+    searchReadTwice(arm);
+    if (labelled && found.cures.empty()) searchExchangedSweeps(arm);
     if (found.cures.empty()) searchTables(arm);
     if (found.cures.empty()) searchGroups(arm);
     if (found.cures.empty()) searchZeros(arm);
@@ -50,6 +51,7 @@ ArmSearch searchArm(const campaign::Campaign& campaign, const ReadingsOfDay& day
     if (found.cures.empty()) searchPairs(arm);
   }
   if (found.cures.empty()) searchScale(arm);
+  if (found.cures.empty()) searchMasses(arm);
   if (found.cures.empty()) searchBase(arm);
   return std::move(found);
 }

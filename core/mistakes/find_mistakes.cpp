@@ -34,7 +34,8 @@ void keepBest(const campaign::Campaign& campaign, std::vector<ArmCure>& cures) {
 }
 
 /// How near the reflectors are to one line: the least height of the triangle that has the largest.
-std::optional<Suspected> onOneLine(const campaign::Campaign& campaign, const NominalFit& fit) {
+std::optional<Suspected> onOneLine(const campaign::Campaign& campaign, const ReadingsOfDay& day,
+                                   const NominalFit& fit) {
   const auto& at = fit.reflectors_in_flange;
   if (at.size() < 3) return std::nullopt;
   double height = 0.0, longest = 0.0;
@@ -50,7 +51,7 @@ std::optional<Suspected> onOneLine(const campaign::Campaign& campaign, const Nom
   constexpr double kLine = 0.05;  // of the longest side: the turn about it is then twenty times as uncertain as others
   if (longest <= 0.0 || height > kLine * longest) return std::nullopt;
   std::vector<std::string> names;
-  for (const campaign::Target& target : campaign.targets) names.push_back(target.id);
+  for (const int target : day.campaign_target) names.push_back(campaign.targets[static_cast<std::size_t>(target)].id);
   return Suspected{"reflectors_on_line",
                    Remark(RemarkId::in_files, names),
                    Remark(RemarkId::reflectors_on_line, height, longest),
@@ -60,14 +61,15 @@ std::optional<Suspected> onOneLine(const campaign::Campaign& campaign, const Nom
 }
 
 /// Of a day of displacements in base_link, which have no points to fit the arm to: reflectors where they are declared.
-std::optional<NominalFit> declaredArm(const campaign::Campaign& campaign) {
+std::optional<NominalFit> declaredArm(const campaign::Campaign& campaign, const ReadingsOfDay& day) {
   if (!campaign.displacements || campaign.displacements->frame != campaign::PointFrame::base_link) return std::nullopt;
   NominalFit fit;
-  for (const campaign::Target& target : campaign.targets) {
+  for (const int of_campaign : day.campaign_target) {
+    const campaign::Target& target = campaign.targets[static_cast<std::size_t>(of_campaign)];
     if (!target.position_in_flange) return std::nullopt;
     fit.reflectors_in_flange.push_back(*target.position_in_flange);
   }
-  fit.done = !campaign.targets.empty();
+  fit.done = !fit.reflectors_in_flange.empty();
   return fit;
 }
 
@@ -87,7 +89,8 @@ ModelAgreement findMistakes(const campaign::Campaign& campaign) {
   ReadingsOfDay day = readingsOf(campaign);
   ArmSearch arm = searchArm(campaign, day);
   if (!arm.fit.done) {
-    if (const std::optional<NominalFit> declared = declaredArm(campaign)) addLoads(campaign, day, *declared, agreement);
+    if (const std::optional<NominalFit> declared = declaredArm(campaign, day))
+      addLoads(campaign, day, *declared, agreement);
     return agreement;
   }
   agreement.arm_miss = arm.fit.typical;
@@ -110,7 +113,7 @@ ModelAgreement findMistakes(const campaign::Campaign& campaign) {
     if (fit.group_rms[static_cast<std::size_t>(reading.group)] > kNowhere * fit.typical)
       std::erase_if(day.loaded, [&](const LoadedReading& one) { return one.pose == reading.pose; });
   }
-  if (std::optional<Suspected> line = onOneLine(campaign, fit)) {
+  if (std::optional<Suspected> line = onOneLine(campaign, day, fit)) {
     agreement.arm.push_back(*line);
     agreement.arm_contradicted = true;
   }

@@ -142,7 +142,9 @@ class Table {
     };
     for (const Unit& unit : kUnits) {
       LoadMistake mistake = start("wrench_unit");
-      mistake.things = unit.force != 1.0 && unit.moment != 1.0 && unit.force != unit.moment ? 2 : 1;
+      // Pounds with their feet or inches are one habit.
+      const bool pounds = unit.force == kPoundForce;
+      mistake.things = unit.force != 1.0 && unit.moment != 1.0 && unit.force != unit.moment && !pounds ? 2 : 1;
       mistake.meant.on_force *= unit.force;
       mistake.meant.on_moment *= unit.moment;
       mistake.where = columns(unit.moment == 1.0  ? "fx_n, fy_n, fz_n"

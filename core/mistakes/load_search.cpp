@@ -10,6 +10,7 @@
 
 #include "core/campaign/row_names.h"
 #include "core/io/units.h"
+#include "core/mistakes/arm_mistakes.h"
 #include "core/mistakes/load_mistakes.h"
 #include "core/mistakes/remarks.h"
 #include "core/numerics/parallel.h"
@@ -35,12 +36,12 @@ struct LoadTrial {
 class LoadSearcher {
  public:
   LoadSearcher(const campaign::Campaign& campaign, const ReadingsOfDay& day, const NominalFit& arm)
-      : campaign_(campaign), day_(day), loads_(day, arm), declared_(asDeclared(*campaign.load_cell)) {}
+      : campaign_(campaign), day_(day), arm_(arm), loads_(day, arm), declared_(asDeclared(*campaign.load_cell)) {}
 
   LoadSearch run() {
     if (!loads_.enough()) return std::move(found_);
     if (!forcesStandOut(campaign_)) {
-      if (searchTare()) found_.done = true;
+      if (addTare()) found_.done = true;
       return std::move(found_);
     }
     found_.done = true;
@@ -51,7 +52,8 @@ class LoadSearcher {
     addGravityTurn(trials);
     keepMending(trials);
     if (trials.empty()) {
-      if (searchTare()) return std::move(found_);
+      if (addTare()) return std::move(found_);
+      if (searchRepeatedWrenches()) return std::move(found_);
       trials = triedPoint();
       keepMending(trials);
     }
@@ -59,11 +61,22 @@ class LoadSearcher {
     if (trials.empty() || trials.front().mistake.id == "cell_point") {
       searchPostures(table);
       if (found_.cures.empty()) searchSteps();
+      if (found_.cures.empty()) searchExchangedSteps({});
       if (!found_.cures.empty()) return std::move(found_);
     }
     if (trials.empty() && isSuspicious()) {
       trials = tried(pairsOf(table));
       keepMending(trials);
+    }
+    if (trials.empty() && isSuspicious()) {
+      trials = triedTurn();
+      keepMending(trials);
+    }
+    if (trials.empty()) {
+      if (std::optional<Suspected> reversed = gravityReversed(day_, found_.fit)) {
+        found_.cures.push_back(std::move(*reversed));
+        return std::move(found_);
+      }
     }
     if (trials.empty()) return searchUnits(table), std::move(found_);
     report(trials);
@@ -75,6 +88,12 @@ class LoadSearcher {
     std::vector<LoadTrial> trials(table.size());
     numerics::onAllCores(table.size(), [&](std::size_t i) { trials[i] = {table[i], loads_.fit(table[i].meant)}; });
     return trials;
+  }
+
+  bool addTare() {
+    std::optional<Suspected> weight = weightNotTared(campaign_, day_);
+    if (weight) found_.cures.push_back(std::move(*weight));
+    return weight.has_value();
   }
 
   bool isSuspicious() const { return found_.fit.left > 0.3 || found_.fit.along_lever > kNoPoint; }
@@ -102,6 +121,35 @@ class LoadSearcher {
     const Eigen::Vector3d at = loads_.bestPoint(declared_);
     if ((at - declared_.parent_from_cell.translation()).norm() < kLeastMove) return {};
     return tried({movedCell(campaign_, at)});
+  }
+
+  /// A turn that is none of the right angles, of a load that does not hang: from the declared one, and from those right
+  /// angles that come nearest.
+  std::vector<LoadTrial> triedTurn() const {
+    if (declared_.axes_link) return {};
+    constexpr double kLeastTurn = 10.0 * io::kDegree;  // nearer, the cell may be turned in its mount
+    std::vector<LoadTrial> starts;
+    for (const SignedPermutation& one : signedPermutations()) {
+      if (!one.proper()) continue;
+      CellReading meant = declared_;
+      meant.on_force = meant.on_moment = one.map;
+      starts.push_back({turnedCell(campaign_, one.map), loads_.fit(meant)});
+    }
+    std::stable_sort(starts.begin(), starts.end(),
+                     [](const LoadTrial& a, const LoadTrial& b) { return a.fit.left < b.fit.left; });
+    constexpr std::size_t kNearest = 4;
+    std::vector<LoadMistake> turns;
+    for (std::size_t i = 0; i < std::min(kNearest, starts.size()); ++i) {
+      const Eigen::Matrix3d turn = loads_.bestTurn(starts[i].mistake.meant);
+      if (Eigen::AngleAxisd(turn).angle() < kLeastTurn) continue;
+      turns.push_back(turnedCell(campaign_, turn));
+    }
+    std::vector<LoadTrial> trials = tried(turns);
+    // They meet in one turn: the best of them.
+    std::stable_sort(trials.begin(), trials.end(),
+                     [](const LoadTrial& a, const LoadTrial& b) { return a.fit.left < b.fit.left; });
+    if (trials.size() > 1) trials.resize(1);
+    return trials;
   }
 
   /// Signs or turns with a unit, an order or another turn.
@@ -193,7 +241,11 @@ class LoadSearcher {
         return;
       }
     }
-    for (const std::size_t at : apart) searchPosture(table, at);
+    for (const std::size_t at : apart) {
+      const std::size_t before = found_.cures.size();
+      searchPosture(table, at);
+      if (found_.cures.size() == before) searchExchangedSteps(loads_.poses()[at]);
+    }
   }
 
   bool mendsPosture(const SpringFit& fit, std::size_t at) const {
@@ -201,7 +253,8 @@ class LoadSearcher {
     const double before = found_.fit.pose_off_gravity[at], after = fit.pose_off_gravity[at];
     const bool by_gravity = before > kDoesNot && after < kHangs;
     if (before < kHangs && after > kHangs) return false;
-    if (fit.left > point_leaves_) return false;
+    // A thousandfold load at one posture bends the springs to it alone.
+    if (fit.left > std::min(point_leaves_, kWorse * found_.fit.left)) return false;
     // A posture of a small load moves by what springs are not; a moment that then has another lever was right before.
     const SpringFit& as_read = found_.fit;
     if (fit.along_lever > std::max(kNoPoint, kWorse * as_read.along_lever) ||
@@ -255,7 +308,92 @@ class LoadSearcher {
     }
   }
 
-  // One load step apart from the others.
+  /// Wrenches of a posture that are those of another, digit by digit in all steps, where the flange stands otherwise:
+  /// no cell repeats to the last digit of six columns.
+  bool searchRepeatedWrenches() {
+    if (declared_.axes_link) return false;  // a weight in base_link's axes may be written without its noise
+    std::map<int, std::vector<const campaign::State*>> postures;
+    for (const campaign::State& row : campaign_.states->rows) {
+      if (row.step != 0) postures[row.pose].push_back(&row);
+    }
+    for (auto one = postures.begin(); one != postures.end(); ++one) {
+      for (auto other = postures.begin(); other != one; ++other) {
+        if (one->second.size() != other->second.size() || one->second.empty()) continue;
+        bool same = true, all_of_six = true;
+        for (std::size_t i = 0; same && i < one->second.size(); ++i) {
+          const campaign::State &a = *one->second[i], &b = *other->second[i];
+          same = a.step == b.step && a.wrench_in_cell == b.wrench_in_cell;
+          all_of_six &= a.wrench_in_cell.cwiseAbs().minCoeff() > 0.0;
+        }
+        constexpr double kOtherPosture = 2.0 * io::kDegree;
+        if (!same || !all_of_six ||
+            (one->second.front()->q - other->second.front()->q).cwiseAbs().maxCoeff() < kOtherPosture)
+          continue;
+        // The later of two is the one that was not updated, unless the springs say otherwise.
+        const auto left = [&](int pose) {
+          const auto at = std::find(loads_.poses().begin(), loads_.poses().end(), pose);
+          return at == loads_.poses().end()
+                     ? 0.0
+                     : found_.fit.pose_left[static_cast<std::size_t>(at - loads_.poses().begin())];
+        };
+        const bool later = left(one->first) >= left(other->first);
+        const int stale = later ? one->first : other->first, own = later ? other->first : one->first;
+        found_.cures.push_back({"row_order", whereOf(stale),
+                                Remark(RemarkId::wrenches_repeated, nameOf(stale), nameOf(own)),
+                                Remark(RemarkId::loads_left, left(stale), left(own)), left(stale), left(own)});
+        return true;
+      }
+    }
+    return false;
+  }
+
+  // Load steps: two exchanged, or one apart from the others.
+
+  void searchExchangedSteps(std::optional<int> pose) {
+    constexpr double kLeast = 0.3, kMends = 0.5;
+    std::size_t at = 0;
+    if (pose) {
+      at = static_cast<std::size_t>(std::find(loads_.poses().begin(), loads_.poses().end(), *pose) -
+                                    loads_.poses().begin());
+    } else if (found_.fit.left < kLeast) {
+      return;
+    }
+    std::vector<int> steps{0};
+    for (const LoadedReading& row : day_.loaded) {
+      if (std::find(steps.begin(), steps.end(), row.step) == steps.end()) steps.push_back(row.step);
+    }
+    const auto leftOf = [&](const SpringFit& fit) { return pose ? fit.pose_left[at] : fit.left; };
+    const double before = leftOf(found_.fit);
+    double best = kMends * before;
+    std::optional<Suspected> cure;
+    constexpr std::size_t kMostSteps = 8;
+    if (steps.size() > kMostSteps) return;
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      for (std::size_t k = i + 1; k < steps.size(); ++k) {
+        const int a = std::min(steps[i], steps[k]), b = std::max(steps[i], steps[k]);
+        for (const bool of_points : {false, true}) {
+          // Of two loaded steps points and wrenches say the same, and the wrenches are fewer.
+          if (of_points != (a == 0)) continue;
+          const LoadsOfDay exchanged(withStepsExchanged(day_, a, b, of_points, pose), arm_);
+          const SpringFit fit = exchanged.fit(declared_);
+          if (leftOf(fit) >= best || fit.pose_left.size() != found_.fit.pose_left.size()) continue;
+          best = leftOf(fit);
+          const std::string columns = of_points ? "step" : "fx_n to mz_nm";
+          cure = Suspected{
+              "row_order",
+              pose ? whereOf(*pose)
+                   : Remark(RemarkId::in_columns, columns,
+                            std::vector<std::string>{of_points && campaign_.loading ? campaign_.loading->file
+                                                                                    : campaign_.states->file}),
+              Remark(RemarkId::steps_exchanged, a, b, of_points),
+              Remark(RemarkId::loads_left, before, best),
+              before,
+              best};
+        }
+      }
+    }
+    if (cure) found_.cures.push_back(std::move(*cure));
+  }
 
   /// Displacements grow as the load does: a step whose load is written too large moves too little for it.
   void searchSteps() {
@@ -282,103 +420,22 @@ class LoadSearcher {
     }
   }
 
-  // The cell unloaded.
-
-  /// A weight that turns with the postures in rows without load: F = m g in the cell's axes, and a constant.
-  bool searchTare() {
-    const double sigma = campaign_.load_cell->force_sigma;
-    std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> rows;  // gravity in the cell's axes, force
-    double squares = 0.0;
-    for (const campaign::State& row : campaign_.states->rows) {
-      if (row.step != 0) continue;
-      rows.emplace_back(gravityInCell(row.q), row.wrench_in_cell.head<3>());
-      squares += rows.back().second.squaredNorm();
-    }
-    constexpr std::size_t kEnough = 6;
-    if (rows.size() < kEnough) return false;
-    Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
-    Eigen::Vector4d right = Eigen::Vector4d::Zero();
-    for (const auto& [gravity, force] : rows) {
-      Eigen::Matrix<double, 3, 4> design;
-      design << gravity, Eigen::Matrix3d::Identity();
-      normal += design.transpose() * design;
-      right += design.transpose() * force;
-    }
-    normal.diagonal().array() += 1e-9;
-    const Eigen::Vector4d found = normal.ldlt().solve(right);
-    double left = 0.0;
-    for (const auto& [gravity, force] : rows) left += (force - gravity * found[0] - found.tail<3>()).squaredNorm();
-    const double count = static_cast<double>(rows.size()), mean = std::sqrt(squares / count),
-                 rest = std::sqrt(left / count), weight = std::abs(found[0]) * day_.weight.gravity_in_base.norm();
-    constexpr double kShare = 0.1, kSigmas = 10.0;
-    const bool is_weight =
-        weight > 5.0 * rest && rest < kShare * mean && weight > kSigmas * sigma && weight > 0.5 * mean;
-    if (!is_weight) return false;
-    found_.cures.push_back(
-        {"not_tared",
-         Remark(RemarkId::in_columns, std::string("fx_n to mz_nm"), std::vector<std::string>{campaign_.states->file}),
-         Remark(RemarkId::weight_not_tared, found[0], mean, rest), Remark(), mean, rest});
-    return true;
-  }
-
-  Eigen::Vector3d gravityInCell(const Vector6d& q) const {
-    const robot::ArmPosture posture = robot::postureAt(day_.robot, q);
-    const std::string& link = declared_.axes_link ? *declared_.axes_link : declared_.parent;
-    Eigen::Matrix3d axes = robot::flangeAt(day_.robot, posture).linear();
-    for (const robot::LinkFrame& frame : day_.robot.links) {
-      if (frame.name == link)
-        axes = posture.motion[static_cast<std::size_t>(frame.body)].linear() * frame.base_from_link_at_zero.linear();
-    }
-    if (!declared_.axes_link) axes = axes * declared_.parent_from_cell.linear();
-    return axes.transpose() * day_.weight.gravity_in_base;
-  }
-
   // Units that leave the loads explained nearly as well: all in one other unit makes springs as much softer. The cell's
   // unloaded scatter against what is declared shows them, and the own weight's sag by these springs.
 
-  struct Scatter {
-    double force = 0.0, moment = 0.0;  ///< standard deviation over the declared; 0 where nothing says
-  };
-
-  Scatter unloadedScatter() const {
-    const campaign::LoadCell& cell = *campaign_.load_cell;
-    if (cell.force_sigma <= 0.0 || cell.moment_sigma <= 0.0) return {};
-    Vector6d sum = Vector6d::Zero(), squares = Vector6d::Zero();
-    double count = 0.0;
-    for (const campaign::State& row : campaign_.states->rows) {
-      if (row.step != 0) continue;
-      sum += row.wrench_in_cell;
-      squares += row.wrench_in_cell.cwiseAbs2();
-      count += 1.0;
-    }
-    constexpr double kEnough = 6.0;
-    if (count < kEnough) return {};
-    const Vector6d variance = (squares - sum.cwiseAbs2() / count) / (count - 1.0);
-    return {std::sqrt(std::max(0.0, variance.head<3>().mean())) / cell.force_sigma,
-            std::sqrt(std::max(0.0, variance.tail<3>().mean())) / cell.moment_sigma};
-  }
-
-  /// Sag of the own weight in parts of what these springs make of it; 0 where no masses are known.
-  double sagBy(const SpringFit& springs) const {
-    if (!day_.weight.links_known || day_.unloaded.empty()) return 0.0;
-    NominalFitOptions options;
-    options.springs = springs.compliance;
-    return std::max(0.0, fitNominal(day_, options).sag_factor);
-  }
-
   void searchUnits(const std::vector<LoadMistake>& table) {
-    const Scatter scatter = unloadedScatter();
+    const CellScatter scatter = unloadedScatter(campaign_);
     if (scatter.force <= 0.0 || scatter.moment <= 0.0) return;
     constexpr double kOff = 1.0, kRight = 0.4, kSagRight = 0.5, kSagOff = 0.7;  // logarithms of factors
     const auto off = [](double factor) { return std::abs(std::log(factor)); };
     if (std::max(off(scatter.force), off(scatter.moment)) < kOff) return;
-    const double sag = sagBy(found_.fit);
+    const double sag = sagBy(day_, found_.fit);
     for (const LoadMistake& mistake : table) {
       if (mistake.id != "wrench_unit") continue;
       const double forces = mistake.meant.on_force(0, 0), moments = mistake.meant.on_moment(0, 0);
       if (off(scatter.force * forces) > kRight || off(scatter.moment * moments) > kRight) continue;
       const SpringFit fit = loads_.fit(mistake.meant);
-      const double after = sagBy(fit);
+      const double after = sagBy(day_, fit);
       const bool by_sag = sag > 0.0 && off(sag) > kSagOff && after > 0.0 && off(after) < kSagRight;
       constexpr double kBetter = 0.93;
       const bool by_springs = fit.left < kBetter * found_.fit.left;
@@ -392,6 +449,7 @@ class LoadSearcher {
 
   const campaign::Campaign& campaign_;
   const ReadingsOfDay& day_;
+  const NominalFit& arm_;
   LoadsOfDay loads_;
   CellReading declared_;
   double point_leaves_ = INFINITY;  ///< of the displacements, where moving the cell's point mends

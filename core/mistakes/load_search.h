@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,23 @@ struct LoadSearch {
 /// - springs leave half of what they leave as declared, which is more than unmodelled effects make;
 /// - one point of the tool carries the load, and as declared none does.
 LoadSearch searchLoads(const campaign::Campaign& campaign, const ReadingsOfDay& day, const NominalFit& arm);
+
+// What the weights say, besides the springs.
+
+/// A weight that turns with the postures in rows without load: F = m g in the cell's axes, and a constant.
+std::optional<Suspected> weightNotTared(const campaign::Campaign& campaign, const ReadingsOfDay& day);
+
+/// Scatter of the unloaded cell over what is declared: standard deviations; 0 where nothing says.
+struct CellScatter {
+  double force = 0.0, moment = 0.0;
+};
+CellScatter unloadedScatter(const campaign::Campaign& campaign);
+
+/// Sag of the own weight in parts of what these springs make of it; 0 where no masses are known.
+double sagBy(const ReadingsOfDay& day, const SpringFit& springs);
+
+/// The own weight's sag is the opposite of what masses and springs make of it, and the day fits by that.
+std::optional<Suspected> gravityReversed(const ReadingsOfDay& day, const SpringFit& springs);
 
 /// Share of the displacements that joint springs leave beyond which the loads contradict the model. Simulated machines
 /// with every effect of the vocabulary, and with what none of them is, leave 0.15 at most.

@@ -260,16 +260,21 @@ bool enough(const ReadingsOfDay& day) {
 
 }  // namespace
 
-double NominalFit::missOf(const ReadingsOfDay& day, const UnloadedReading& reading) const {
+Eigen::Vector3d NominalFit::measuredPoint(const UnloadedReading& reading) const {
+  return scale * (base_from_points.linear() * reading.point) + base_from_points.translation();
+}
+
+Eigen::Vector3d NominalFit::modelledPoint(const ReadingsOfDay& day, const UnloadedReading& reading) const {
   const robot::ArmPosture posture = robot::postureAt(day.robot, reading.q);
-  const Eigen::Vector3d measured = scale * (base_from_points.linear() * reading.point) + base_from_points.translation();
-  Eigen::Vector3d modelled =
+  const Eigen::Vector3d rigid =
       robot::flangeAt(day.robot, posture) * reflectors_in_flange[static_cast<std::size_t>(reading.target)];
-  if (!compliance.isZero()) {
-    modelled += robot::pointJacobianAt(robot::axesAt(day.robot, posture), modelled) *
-                compliance.cwiseProduct(robot::weightTorque(day.robot, posture, day.weight));
-  }
-  return (measured - modelled).norm();
+  if (compliance.isZero()) return rigid;
+  return rigid + robot::pointJacobianAt(robot::axesAt(day.robot, posture), rigid) *
+                     compliance.cwiseProduct(robot::weightTorque(day.robot, posture, day.weight));
+}
+
+double NominalFit::missOf(const ReadingsOfDay& day, const UnloadedReading& reading) const {
+  return (measuredPoint(reading) - modelledPoint(day, reading)).norm();
 }
 
 double NominalFit::rmsButForWorst() const {

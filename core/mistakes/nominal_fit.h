@@ -31,7 +31,9 @@ struct NominalFit {
   /// one at its end that fits nowhere.
   double rmsButForWorst() const;
 
-  /// Distance of one reading from the model, m.
+  /// One reading in the base, as measured and as modelled, m; and their distance.
+  Eigen::Vector3d measuredPoint(const UnloadedReading& reading) const;
+  Eigen::Vector3d modelledPoint(const ReadingsOfDay& day, const UnloadedReading& reading) const;
   double missOf(const ReadingsOfDay& day, const UnloadedReading& reading) const;
 };
 

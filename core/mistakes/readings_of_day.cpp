@@ -154,6 +154,38 @@ void addPostures(const campaign::Campaign& campaign, ReadingsOfDay& day) {
   }
 }
 
+/// Each reflector has three unknowns of its own: of ten thousand a fit would need gigabytes.
+void keepFewTargets(ReadingsOfDay& day) {
+  constexpr std::size_t kTargets = 20;
+  std::vector<std::pair<int, int>> by_readings;  // less their count, target
+  for (int k = 0; k < day.targets; ++k) by_readings.emplace_back(0, k);
+  for (const UnloadedReading& reading : day.unloaded) --by_readings[static_cast<std::size_t>(reading.target)].first;
+  for (const LoadedReading& reading : day.loaded) {
+    for (const ReflectorMove& move : reading.moves) --by_readings[static_cast<std::size_t>(move.target)].first;
+  }
+  std::sort(by_readings.begin(), by_readings.end());
+  if (by_readings.size() > kTargets) by_readings.resize(kTargets);
+  std::vector<int> becomes(static_cast<std::size_t>(day.targets), -1);
+  for (const auto& [count, target] : by_readings) day.campaign_target.push_back(target);
+  std::sort(day.campaign_target.begin(), day.campaign_target.end());
+  for (std::size_t k = 0; k < day.campaign_target.size(); ++k)
+    becomes[static_cast<std::size_t>(day.campaign_target[k])] = static_cast<int>(k);
+  day.targets = static_cast<int>(day.campaign_target.size());
+  for (UnloadedReading& reading : day.unloaded) reading.target = becomes[static_cast<std::size_t>(reading.target)];
+  std::erase_if(day.unloaded, [](const UnloadedReading& reading) { return reading.target < 0; });
+  for (LoadedReading& reading : day.loaded) {
+    for (ReflectorMove& move : reading.moves) move.target = becomes[static_cast<std::size_t>(move.target)];
+    std::erase_if(reading.moves, [](const ReflectorMove& move) { return move.target < 0; });
+  }
+  std::erase_if(day.loaded, [](const LoadedReading& reading) { return reading.moves.empty(); });
+  // Groups without a reading are none.
+  std::map<int, int> groups;
+  for (const UnloadedReading& reading : day.unloaded) groups.emplace(reading.group, 0);
+  day.groups = 0;
+  for (auto& [group, number] : groups) number = day.groups++;
+  for (UnloadedReading& reading : day.unloaded) reading.group = groups.at(reading.group);
+}
+
 }  // namespace
 
 ReadingsOfDay readingsOf(const campaign::Campaign& campaign) {
@@ -165,6 +197,35 @@ ReadingsOfDay readingsOf(const campaign::Campaign& campaign) {
   addCircles(campaign, day);
   addWristSweep(campaign, day);
   addPostures(campaign, day);
+  keepFewTargets(day);
+  return day;
+}
+
+ReadingsOfDay withStepsExchanged(const ReadingsOfDay& as_read, int a, int b, bool of_points, std::optional<int> pose) {
+  ReadingsOfDay day = as_read;
+  std::map<std::pair<int, int>, const LoadedReading*> rows;
+  for (const LoadedReading& row : as_read.loaded) rows[{row.pose, row.step}] = &row;
+  for (LoadedReading& row : day.loaded) {
+    if (pose && row.pose != *pose) continue;
+    const int step = row.step == a ? b : row.step == b ? a : row.step;
+    if (!of_points) {
+      const auto from = rows.find({row.pose, step});
+      if (from != rows.end()) row.wrench = from->second->wrench;
+      continue;
+    }
+    // Displacements are against step 0: where that is one of the two, all have another start.
+    for (ReflectorMove& move : row.moves) {
+      const auto of = [&](int of_step) -> Eigen::Vector3d {
+        const auto from = rows.find({row.pose, of_step});
+        if (from == rows.end()) return Eigen::Vector3d::Zero();
+        for (const ReflectorMove& other : from->second->moves) {
+          if (other.target == move.target) return other.displacement;
+        }
+        return Eigen::Vector3d::Zero();
+      };
+      move.displacement = (step == 0 ? Eigen::Vector3d::Zero() : of(step)) - (a == 0 ? of(b) : Eigen::Vector3d::Zero());
+    }
+  }
   return day;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,18 +45,23 @@ struct LoadedReading {
 };
 
 /// What a mistake can be in: some of a day's readings, enough to tell a mistake by and few enough to try hundreds of
-/// them. At most six readings of a reflector in the sweep of an axis, sixty of the wrist sweep, forty postures.
+/// them. At most six readings of a reflector in the sweep of an axis, sixty of the wrist sweep, forty postures, and the
+/// twenty reflectors that are read most often.
 struct ReadingsOfDay {
   robot::Robot robot;
   robot::GravityLoad weight;  ///< in base_link axes
   std::vector<UnloadedReading> unloaded;
   std::vector<LoadedReading> loaded;
   int targets = 0, groups = 0;
+  std::vector<int> campaign_target;  ///< by target: which of the campaign's it is
 };
 
 /// Sweeps and loading that are in one frame: that of the loading, of the circle sweeps where there is none. Means over
 /// repeats. Displacements in base_link where there are no points.
 ReadingsOfDay readingsOf(const campaign::Campaign& campaign);
+
+/// The day with the readings, or the wrenches, of two load steps exchanged (a < b): of all postures, or of one.
+ReadingsOfDay withStepsExchanged(const ReadingsOfDay& as_read, int a, int b, bool of_points, std::optional<int> pose);
 
 /// The file in which the joint angles of a table stand, and the one in which its points do; empty where it is absent.
 std::string fileOfAngles(const campaign::Campaign& campaign, SourceTable table);

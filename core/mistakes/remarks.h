@@ -16,33 +16,41 @@ enum class RemarkId {
   in_urdf,       ///< nothing else
   in_cell,       ///< attribute of load_cell
   in_attribute,  ///< attribute, of which element
+  in_robot,      ///< attribute of robot
+  at_poses_in,   ///< first and last posture, columns, file
 
   // What would mend it: of joint angles and of the robot.
-  both,               ///< remarks: one remedy, another, where that one
-  turn_signs,         ///< joints, whether in all tables, so that the URDF may be wrong instead
-  order_of_joints,    ///< joint that stands under each of q1_deg..q6_deg
-  add_joint,          ///< joint, the one whose reading is to be added, the sign with which
-  shift_zero,         ///< joint, by which angle, whether in all tables
-  angles_in,          ///< unit
-  angles_of_row,      ///< whether of the row after; else of the row before
-  angles_of_posture,  ///< the same of postures
-  angles_exchanged,   ///< both postures
-  angles_backwards,   ///< axis
-  sweeps_exchanged,   ///< both axes
-  labels_exchanged,   ///< axis as labelled, axis that turns; in pairs
-  origin_off,         ///< joint, by how much, in its parent's axes at zero
-  origin_turned,      ///< joint, about which of base_link's axes, by which angle
-  scale_off,          ///< of the points against the URDF, a share above one
+  both,                ///< remarks: one remedy, another, where that one
+  turn_signs,          ///< joints, whether in all tables, so that the URDF may be wrong instead
+  order_of_joints,     ///< joint that stands under each of q1_deg..q6_deg
+  add_joint,           ///< joint, the one whose reading is to be added, the sign with which
+  shift_zero,          ///< joint, by which angle, whether in all tables
+  angles_in,           ///< unit
+  angles_of_row,       ///< whether of the row after; else of the row before
+  angles_of_posture,   ///< the same of postures
+  angles_exchanged,    ///< both postures
+  readings_exchanged,  ///< both postures, of the loading
+  angles_repeated,     ///< posture, the one whose angles it has
+  rows_lost,           ///< first posture of those whose angles are of another row, whether of the next posture's
+  angles_backwards,    ///< axis
+  sweeps_exchanged,    ///< both axes
+  labels_exchanged,    ///< axis as labelled, axis that turns; in pairs
+  origin_off,          ///< joint, by how much, in its parent's axes at zero
+  origin_turned,       ///< joint, about which of base_link's axes, by which angle
+  scale_off,           ///< of the points against the URDF, a share above one
 
   // Of points and reflectors.
   left_handed,         ///< nothing else
   axes_of_points,      ///< what stands for x, y, z
   points_in,           ///< unit
   robot_in,            ///< unit
+  masses_in,           ///< unit, sum of the masses as read, kg
   table_scale_off,     ///< of one table against the others, a share above one
   other_station,       ///< displacement m, turn rad
+  elsewhere,           ///< displacement m, turn rad: of one posture as a whole
   not_in_base,         ///< displacement m, turn rad
   reflectors_renamed,  ///< in pairs: what a reflector is called, what it is
+  reflector_twice,     ///< two names of one reflector, largest distance m
   reflectors_on_line,  ///< least height of the triangle m, its longest side m
 
   // Of the load cell and its readings.
@@ -60,6 +68,9 @@ enum class RemarkId {
   wrench_in,            ///< which: forces, moments, wrenches; unit
   wrench_of_row,        ///< WrenchRow
   wrenches_exchanged,   ///< both postures
+  wrenches_repeated,    ///< posture, the one whose wrenches it has
+  steps_exchanged,      ///< both steps, whether the points' rather than the wrenches'
+  gravity_reversed,     ///< sag in parts of what masses and springs make of it
   step_scale_off,       ///< load step, factor of its wrench against the other steps
   weight_not_tared,     ///< mass kg, mean force N, what it leaves of the unloaded forces N
 

@@ -1,26 +1,18 @@
+#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "core/campaign/row_names.h"
 #include "core/identification/warnings.h"
+#include "core/io/units.h"
 #include "core/mistakes/searched_arm.h"
 
 namespace stiffscope::mistakes {
-
-namespace {
-
-std::vector<int> groupsApart(const SearchedArm& arm) {
-  constexpr double kApart = 6.0, kLeast = 10e-3, kFew = 1.0 / 3.0;  // times the median; m; of the groups
-  std::vector<int> apart;
-  const double limit = std::max(kLeast, kApart * arm.found.fit.typical);
-  for (int g = 0; g < arm.day.groups; ++g) {
-    if (arm.found.fit.group_rms[static_cast<std::size_t>(g)] > limit) apart.push_back(g);
-  }
-  if (static_cast<double>(apart.size()) > kFew * arm.day.groups) apart.clear();
-  return apart;
-}
 
 double missOfGroup(const NominalFit& fit, const ReadingsOfDay& day, int group) {
   double squares = 0.0, count = 0.0;
@@ -56,6 +48,20 @@ Remark whereOfGroup(const campaign::Campaign& campaign, const UnloadedReading& f
                   campaign::rowName(file, line));
   }
   return Remark(RemarkId::at_sweep_of, first.axis + 1, std::string(columns), campaign::rowName(file, first.line));
+}
+
+namespace {
+
+/// At most `share` of the groups; empty where more stand apart.
+std::vector<int> groupsApart(const SearchedArm& arm, double share) {
+  constexpr double kApart = 6.0, kLeast = 10e-3;  // times the median; m
+  std::vector<int> apart;
+  const double limit = std::max(kLeast, kApart * arm.found.fit.typical);
+  for (int g = 0; g < arm.day.groups; ++g) {
+    if (arm.found.fit.group_rms[static_cast<std::size_t>(g)] > limit) apart.push_back(g);
+  }
+  if (static_cast<double>(apart.size()) > share * arm.day.groups) apart.clear();
+  return apart;
 }
 
 ReadingsOfDay backwards(ReadingsOfDay day, int group) {
@@ -111,49 +117,191 @@ void searchGroup(SearchedArm& arm, int group) {
   for (ArmCure& cure : cures) arm.add(std::move(cure), RemarkId::group_misses_arm, before);
 }
 
-bool searchExchangedAngles(SearchedArm& arm, const std::vector<int>& apart) {
-  for (std::size_t a = 0; a < apart.size(); ++a) {
-    for (std::size_t b = a + 1; b < apart.size(); ++b) {
-      const UnloadedReading first = firstOf(arm.day, apart[a]), second = firstOf(arm.day, apart[b]);
-      if (first.pose < 0 || second.pose < 0) continue;
-      ReadingsOfDay day = arm.day;
-      for (UnloadedReading& reading : day.unloaded) {
-        if (reading.pose == first.pose) reading.q = second.q;
-        if (reading.pose == second.pose) reading.q = first.q;
-      }
-      for (LoadedReading& reading : day.loaded) {
-        if (reading.pose == first.pose)
-          reading.q = second.q;
-        else if (reading.pose == second.pose)
-          reading.q = first.q;
-      }
-      const double before = missOfGroup(arm.found.fit, arm.day, apart[a]);
-      const double after =
-          std::max(missOfGroup(arm.found.fit, day, apart[a]), missOfGroup(arm.found.fit, day, apart[b]));
-      if (!mendsGroup(arm, after, before)) continue;
-      ArmCure cure;
-      cure.suspected = {"row_order",
-                        whereOfGroup(arm.campaign, first, "q1_deg to q6_deg", true),
-                        Remark(RemarkId::angles_exchanged, campaign::poseName(arm.campaign, first.pose),
-                               campaign::poseName(arm.campaign, second.pose)),
-                        {}};
-      cure.rms = after;
-      cure.pose = first.pose;
-      cure.day = std::move(day);
-      arm.add(std::move(cure), RemarkId::group_misses_arm, before);
-      return true;
-    }
+/// The rigid motion in the base that brings a group's readings onto the model; empty where fewer than three reflectors
+/// show it, or none does.
+std::optional<Eigen::Isometry3d> motionOf(const SearchedArm& arm, int group) {
+  std::vector<Eigen::Vector3d> from, to;
+  for (const UnloadedReading& reading : arm.day.unloaded) {
+    if (reading.group != group) continue;
+    from.push_back(arm.found.fit.measuredPoint(reading));
+    to.push_back(arm.found.fit.modelledPoint(arm.day, reading));
   }
-  return false;
+  if (from.size() < 3) return std::nullopt;
+  Eigen::Matrix3Xd measured(3, from.size()), modelled(3, from.size());
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    measured.col(static_cast<Eigen::Index>(i)) = from[i];
+    modelled.col(static_cast<Eigen::Index>(i)) = to[i];
+  }
+  const Eigen::Isometry3d motion(Eigen::umeyama(measured, modelled, false));
+  const double left = std::sqrt((motion * measured - modelled).squaredNorm() / static_cast<double>(from.size()));
+  if (!mendsGroup(arm, left, missOfGroup(arm.found.fit, arm.day, group))) return std::nullopt;
+  return motion;
+}
+
+/// Of postures that stand apart, all by one rigid motion: the station, or the robot, moved before them.
+bool searchMovedPostures(SearchedArm& arm, const std::vector<int>& apart) {
+  constexpr double kAlike = 20e-3, kTurned = 0.5 * io::kDegree;  // m, rad: ten times what geometry errors make of it
+  constexpr std::size_t kFew = 2;
+  std::vector<int> poses;
+  std::optional<Eigen::Isometry3d> first;
+  for (const int group : apart) {
+    const std::optional<Eigen::Isometry3d> motion = motionOf(arm, group);
+    if (!motion || firstOf(arm.day, group).pose < 0) return false;
+    if (!first) first = motion;
+    const Eigen::Isometry3d between = first->inverse() * *motion;
+    if (between.translation().norm() > kAlike || Eigen::AngleAxisd(between.linear()).angle() > kTurned) return false;
+    poses.push_back(firstOf(arm.day, group).pose);
+  }
+  if (poses.size() < kFew) return false;
+  std::sort(poses.begin(), poses.end());
+  ArmCure cure;
+  cure.suspected = {
+      "other_station",
+      Remark(RemarkId::at_poses_in, campaign::poseName(arm.campaign, poses.front()),
+             campaign::poseName(arm.campaign, poses.back()), std::string("x_mm, y_mm, z_mm"),
+             fileOfPoints(arm.campaign, SourceTable::loading)),
+      Remark(RemarkId::other_station, first->translation().norm(), Eigen::AngleAxisd(first->linear()).angle()),
+      {}};
+  cure.day = arm.day;
+  // In the frame of the points.
+  const Eigen::Isometry3d moved = arm.found.fit.base_from_points.inverse() * *first * arm.found.fit.base_from_points;
+  const auto isMoved = [&](int pose) { return std::find(poses.begin(), poses.end(), pose) != poses.end(); };
+  for (UnloadedReading& reading : cure.day.unloaded) {
+    if (isMoved(reading.pose)) reading.point = moved * reading.point;
+  }
+  for (LoadedReading& reading : cure.day.loaded) {
+    if (!isMoved(reading.pose)) continue;
+    for (ReflectorMove& move : reading.moves) move.displacement = moved.linear() * move.displacement;
+  }
+  cure.rms = fitNominal(cure.day).rms;
+  arm.add(std::move(cure));
+  return true;
+}
+
+/// One posture that no usual mistake brings back, but a motion as a whole.
+void searchMotion(SearchedArm& arm, int group) {
+  const UnloadedReading& first = firstOf(arm.day, group);
+  const std::optional<Eigen::Isometry3d> motion = first.pose >= 0 ? motionOf(arm, group) : std::nullopt;
+  if (!motion) return;
+  Eigen::Vector3d at = Eigen::Vector3d::Zero(), there = at;
+  double count = 0.0;
+  for (const UnloadedReading& reading : arm.day.unloaded) {
+    if (reading.group != group) continue;
+    at += arm.found.fit.measuredPoint(reading);
+    there += arm.found.fit.modelledPoint(arm.day, reading);
+    count += 1.0;
+  }
+  ArmCure cure;
+  cure.suspected = {
+      "other_station",
+      whereOfGroup(arm.campaign, first, "x_mm, y_mm, z_mm", false),
+      Remark(RemarkId::elsewhere, (there - at).norm() / count, Eigen::AngleAxisd(motion->linear()).angle()),
+      {}};
+  cure.pose = first.pose;
+  cure.day = arm.day;
+  cure.rms = arm.found.fit.typical;
+  arm.add(std::move(cure), RemarkId::group_misses_arm, missOfGroup(arm.found.fit, arm.day, group));
+}
+
+/// Without the readings of one reflector at a posture, or in a table.
+ReadingsOfDay withoutReflector(ReadingsOfDay day, int target, std::optional<int> pose,
+                               std::optional<SourceTable> table) {
+  std::erase_if(day.unloaded, [&](const UnloadedReading& one) {
+    return one.target == target && (pose ? one.pose == *pose : one.table == table);
+  });
+  for (LoadedReading& reading : day.loaded) {
+    if (pose ? reading.pose != *pose : table != SourceTable::loading) continue;
+    std::erase_if(reading.moves, [&](const ReflectorMove& move) { return move.target == target; });
+  }
+  return day;
 }
 
 }  // namespace
 
 void searchGroups(SearchedArm& arm) {
-  const std::vector<int> apart = groupsApart(arm);
+  if (searchLostRow(arm)) return;
+  constexpr double kSome = 1.0 / 3.0, kMany = 0.6;  // of the groups
+  if (searchMovedPostures(arm, groupsApart(arm, kMany))) return;
+  const std::vector<int> apart = groupsApart(arm, kSome);
   if (apart.empty()) return;
   if (searchExchangedAngles(arm, apart)) return;
-  for (const int group : apart) searchGroup(arm, group);
+  for (const int group : apart) {
+    if (searchRepeatedAngles(arm, group)) continue;
+    const std::size_t before = arm.found.cures.size();
+    searchGroup(arm, group);
+    if (arm.found.cures.size() == before) searchMotion(arm, group);
+  }
+}
+
+bool searchReadTwice(SearchedArm& arm) {
+  constexpr double kOne = 2e-3;      // m: nearer than any two reflectors stand
+  constexpr double kOfStates = 0.9;  // of the states of a table
+  const auto at = [](const UnloadedReading& reading) {
+    return std::pair(reading.group, std::vector(reading.q.begin(), reading.q.end()));
+  };
+  struct Pair {
+    double states = 0.0, near = 0.0, apart = 0.0;
+  };
+  const auto nameOf = [&](int target) {
+    return campaign::targetName(arm.campaign, arm.day.campaign_target[static_cast<std::size_t>(target)]);
+  };
+  bool found = false;
+  for (int a = 0; a < arm.day.targets; ++a) {
+    for (int b = a + 1; b < arm.day.targets; ++b) {
+      std::map<SourceTable, Pair> tables;
+      std::map<int, Pair> postures;
+      std::map<decltype(at(arm.day.unloaded.front())), const UnloadedReading*> of_a;
+      for (const UnloadedReading& reading : arm.day.unloaded) {
+        if (reading.target == a) of_a[at(reading)] = &reading;
+      }
+      for (const UnloadedReading& reading : arm.day.unloaded) {
+        const auto other = reading.target == b ? of_a.find(at(reading)) : of_a.end();
+        if (other == of_a.end()) continue;
+        const double apart = (reading.point - other->second->point).norm();
+        for (Pair* pair : {&tables[reading.table], &postures[reading.pose]}) {
+          pair->states += 1.0;
+          pair->near += apart < kOne ? 1.0 : 0.0;
+          if (apart < kOne) pair->apart = std::max(pair->apart, apart);
+        }
+      }
+      const auto take = [&](Remark where, const Pair& pair, std::optional<int> pose, std::optional<SourceTable> table) {
+        ArmCure cure;
+        cure.suspected = {"reflectors_exchanged",
+                          std::move(where),
+                          Remark(RemarkId::reflector_twice, nameOf(a), nameOf(b), pair.apart),
+                          {}};
+        cure.pose = pose;
+        cure.rms = INFINITY;
+        // Either may be the one that was not read: without it the others fit.
+        for (const int absent : {a, b}) {
+          ReadingsOfDay day = withoutReflector(arm.day, absent, pose, table);
+          const double rms = fitNominal(day).rms;
+          if (rms >= cure.rms) continue;
+          cure.rms = rms;
+          cure.day = std::move(day);
+        }
+        arm.add(std::move(cure));
+        found = true;
+      };
+      bool in_table = false;
+      for (const auto& [table, pair] : tables) {
+        if (pair.near < kOfStates * pair.states || pair.near < 3.0) continue;
+        in_table = true;
+        take(Remark(RemarkId::in_columns, std::string("target"),
+                    std::vector<std::string>{fileOfPoints(arm.campaign, table)}),
+             pair, {}, table);
+      }
+      for (const auto& [pose, pair] : postures) {
+        if (in_table || pose < 0 || pair.near < 1.0) continue;
+        take(whereOfGroup(arm.campaign,
+                          *std::find_if(arm.day.unloaded.begin(), arm.day.unloaded.end(),
+                                        [pose = pose](const UnloadedReading& one) { return one.pose == pose; }),
+                          "target", false),
+             pair, pose, {});
+      }
+    }
+  }
+  return found;
 }
 
 void searchExchangedSweeps(SearchedArm& arm) {

@@ -245,6 +245,19 @@ void searchScale(SearchedArm& arm) {
   arm.add(std::move(cure));
 }
 
+void searchMasses(SearchedArm& arm) {
+  constexpr double kHeaviest = 20e3;  // kg: several times the heaviest arms that are made
+  double sum = 0.0;
+  for (const robot::BodyMass& body : arm.day.weight.bodies) sum += body.mass_kg;
+  if (sum < kHeaviest) return;
+  ArmCure cure;
+  cure.suspected = {"robot_unit", Remark(RemarkId::in_urdf), Remark(RemarkId::masses_in, std::string("g"), sum), {}};
+  cure.day = arm.day;
+  for (robot::BodyMass& body : cure.day.weight.bodies) body.mass_kg *= 1e-3;
+  cure.rms = fitNominal(cure.day).rms;
+  arm.add(std::move(cure));
+}
+
 void searchBase(SearchedArm& arm) {
   const bool in_base = arm.campaign.loading ? arm.campaign.loading->frame == campaign::PointFrame::base_link
                        : arm.campaign.circle_sweeps

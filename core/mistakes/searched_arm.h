@@ -47,6 +47,15 @@ struct SearchedArm {
   void add(ArmCure cure, RemarkId shows = RemarkId::misses_arm, std::optional<double> before = {});
 };
 
+// One group of readings: a posture, the sweep of an axis, a part of the wrist sweep.
+const UnloadedReading& firstOf(const ReadingsOfDay& day, int group);
+/// How far its readings are from the model, root mean square, m.
+double missOfGroup(const NominalFit& fit, const ReadingsOfDay& day, int group);
+/// Whether what is left of a group's `before` is so small that what left it is a cure.
+bool mendsGroup(const SearchedArm& arm, double after, double before);
+Remark whereOfGroup(const campaign::Campaign& campaign, const UnloadedReading& first, const char* columns,
+                    bool of_angles);
+
 /// Whether it is written in the columns of joint angles, not in those of points or names.
 bool isOfAngles(const ArmMistake& mistake);
 const char* columnsOf(const ArmMistake& mistake);
@@ -58,8 +67,16 @@ void searchTables(SearchedArm& arm);
 /// Two of them at once.
 void searchPairs(SearchedArm& arm);
 
-/// One posture or one sweep that stands apart from the others, which the fit then stands on.
+/// Two names for one reflector, in a table or at a posture. Returns whether there are.
+bool searchReadTwice(SearchedArm& arm);
+/// Postures or sweeps that stand apart from the others, which the fit then stands on: one by one, or alike.
 void searchGroups(SearchedArm& arm);
+/// Rows of joint angles at the wrong postures: two exchanged, one repeated, all from some posture on. `apart`: groups
+/// that stand apart. Each returns whether it found some.
+bool searchExchangedAngles(SearchedArm& arm, const std::vector<int>& apart);
+bool searchRepeatedAngles(SearchedArm& arm, int group);
+bool searchLostRow(SearchedArm& arm);
+
 /// Readings of the sweeps of two axes exchanged, each under the other's angles.
 void searchExchangedSweeps(SearchedArm& arm);
 /// Sweeps whose label names another axis than the one that turns. Returns whether each is under the axis that does.
@@ -75,6 +92,8 @@ void searchTableScales(SearchedArm& arm);
 void searchStations(SearchedArm& arm);
 /// Points and URDF of one shape and another size.
 void searchScale(SearchedArm& arm);
+/// Masses of the URDF in grams: an arm heavier than any.
+void searchMasses(SearchedArm& arm);
 /// Points that are declared to be in base_link and are elsewhere.
 void searchBase(SearchedArm& arm);
 

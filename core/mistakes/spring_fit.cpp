@@ -74,9 +74,14 @@ Vector6d LoadsOfDay::torqueOf(const State& state, const Applied& load) {
   return torque;
 }
 
+Eigen::Matrix3d LoadsOfDay::axesOf(const State& state, const CellReading& cell) const {
+  return cell.axes_link ? linkOf(state, *cell.axes_link).linear()
+                        : Eigen::Matrix3d(parentOf(state, cell).linear() * cell.parent_from_cell.linear());
+}
+
 LoadsOfDay::Applied LoadsOfDay::applied(const State& state, const CellReading& cell, const Vector6d& wrench) const {
   const Eigen::Isometry3d at = parentOf(state, cell) * cell.parent_from_cell;
-  const Eigen::Matrix3d axes = (cell.axes_link ? linkOf(state, *cell.axes_link) : at).linear();
+  const Eigen::Matrix3d axes = axesOf(state, cell);
   const Eigen::Vector3d force = cell.moments_first ? wrench.tail<3>() : wrench.head<3>(),
                         moment = cell.moments_first ? wrench.head<3>() : wrench.tail<3>();
   return {axes * (cell.on_force * force), axes * (cell.on_moment * moment), at.translation()};
@@ -96,26 +101,22 @@ std::optional<Eigen::Matrix3d> LoadsOfDay::turnToGravity(const CellReading& cell
   return u * Eigen::Vector3d(1.0, 1.0, sense).asDiagonal() * v.transpose();
 }
 
-Eigen::Vector3d LoadsOfDay::bestPoint(const CellReading& cell) const {
-  CellReading moved = cell;
-  Vector6d c = fit(moved).compliance;
-  // Bilinear in springs and point: Gauss-Newton in both.
+/// Bilinear in springs and three parameters of the cell: Gauss-Newton in both. `by_parameters(state, load)` are the
+/// torques' derivatives, 6x3; `take` takes a step up.
+template <class ByParameters, class Take>
+void LoadsOfDay::fitCell(CellReading& cell, const ByParameters& by_parameters, const Take& take) const {
+  Vector6d c = fit(cell).compliance;
   constexpr int kRounds = 12;
   for (int round = 0; round < kRounds; ++round) {
     Eigen::Matrix<double, 9, 9> normal = Eigen::Matrix<double, 9, 9>::Zero();
     Eigen::Matrix<double, 9, 1> right = Eigen::Matrix<double, 9, 1>::Zero();
     for (const State& state : states_) {
-      const Applied load = applied(state, moved, state.wrench);
-      const Eigen::Matrix3d parent = parentOf(state, moved).linear();
+      const Applied load = applied(state, cell, state.wrench);
       const Vector6d torque = torqueOf(state, load);
-      Eigen::Matrix<double, 6, 3> by_point;
-      for (std::size_t j = 0; j < 6; ++j) {
-        // z . (d x F) = d . (F x z)
-        by_point.row(static_cast<Eigen::Index>(j)) = load.force.cross(state.axes[j].direction).transpose() * parent;
-      }
+      const Eigen::Matrix<double, 6, 3> columns = by_parameters(state, load);
       for (const Move& move : state.moves) {
         Eigen::Matrix<double, 3, 9> rows;
-        rows << move.jacobian * torque.asDiagonal(), move.jacobian * c.asDiagonal() * by_point;
+        rows << move.jacobian * torque.asDiagonal(), move.jacobian * c.asDiagonal() * columns;
         const Eigen::Vector3d left = move.displacement - rows.leftCols<6>() * c;
         normal += rows.transpose() * rows;
         right += rows.transpose() * left;
@@ -127,9 +128,48 @@ Eigen::Vector3d LoadsOfDay::bestPoint(const CellReading& cell) const {
     normal.diagonal().array() += 1e-6;
     const Eigen::Matrix<double, 9, 1> step = normal.ldlt().solve(right.cwiseQuotient(scale)).cwiseQuotient(scale);
     c += step.head<6>();
-    moved.parent_from_cell.translation() += Eigen::Vector3d(step.tail<3>());
+    take(Eigen::Vector3d(step.tail<3>()));
   }
+}
+
+Eigen::Vector3d LoadsOfDay::bestPoint(const CellReading& cell) const {
+  CellReading moved = cell;
+  const auto columns = [&](const State& state, const Applied& load) {
+    const Eigen::Matrix3d parent = parentOf(state, moved).linear();
+    Eigen::Matrix<double, 6, 3> by_point;
+    for (std::size_t j = 0; j < 6; ++j) {
+      // z . (d x F) = d . (F x z)
+      by_point.row(static_cast<Eigen::Index>(j)) = load.force.cross(state.axes[j].direction).transpose() * parent;
+    }
+    return by_point;
+  };
+  fitCell(moved, columns, [&](const Eigen::Vector3d& step) { moved.parent_from_cell.translation() += step; });
   return moved.parent_from_cell.translation();
+}
+
+Eigen::Matrix3d LoadsOfDay::bestTurn(const CellReading& cell) const {
+  CellReading turned = cell;
+  const auto columns = [&](const State& state, const Applied& load) {
+    // A small turn d in the cell's axes: z . (A d x M + r x (A d x F)) = d . A^T (M x z + F x (z x r)), r from the
+    // axis.
+    const Eigen::Matrix3d axes = axesOf(state, turned);
+    Eigen::Matrix<double, 6, 3> by_turn;
+    for (std::size_t j = 0; j < 6; ++j) {
+      const Eigen::Vector3d z = state.axes[j].direction, r = load.point - state.axes[j].point;
+      by_turn.row(static_cast<Eigen::Index>(j)) =
+          (load.moment.cross(z) + load.force.cross(z.cross(r))).transpose() * axes;
+    }
+    return by_turn;
+  };
+  fitCell(turned, columns, [&](const Eigen::Vector3d& step) {
+    constexpr double kMostStep = 0.5;  // rad
+    const double angle = std::min(step.norm(), kMostStep);
+    if (angle <= 0.0) return;
+    const Eigen::Matrix3d by = Eigen::AngleAxisd(angle, step.normalized()).toRotationMatrix();
+    turned.on_force = by * turned.on_force;
+    turned.on_moment = by * turned.on_moment;
+  });
+  return turned.on_force;
 }
 
 namespace {

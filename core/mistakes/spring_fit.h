@@ -50,6 +50,8 @@ class LoadsOfDay {
   std::optional<Eigen::Matrix3d> turnToGravity(const CellReading& cell) const;
   /// The point of the cell in its parent by which springs explain the loads best, m.
   Eigen::Vector3d bestPoint(const CellReading& cell) const;
+  /// The turn about the cell's own axes by which springs explain the loads best, from the one that `cell` has.
+  Eigen::Matrix3d bestTurn(const CellReading& cell) const;
   SpringFit fit(const CellReading& cell) const;
 
   /// The same with the wrenches of two postures exchanged, step by step.
@@ -81,6 +83,9 @@ class LoadsOfDay {
   /// base_from_link; the flange's where the robot has no such link.
   Eigen::Isometry3d linkOf(const State& state, const std::string& name) const;
   Eigen::Isometry3d parentOf(const State& state, const CellReading& cell) const;
+  Eigen::Matrix3d axesOf(const State& state, const CellReading& cell) const;
+  template <class ByParameters, class Take>
+  void fitCell(CellReading& cell, const ByParameters& by_parameters, const Take& take) const;
   static Vector6d torqueOf(const State& state, const Applied& load);
   Applied applied(const State& state, const CellReading& cell, const Vector6d& wrench) const;
   template <class WrenchOf>

@@ -91,10 +91,13 @@ BlindResult runBlind(const BlindOptions& options, const Diagnose& diagnose, cons
                      const Distance& distance) {
   namespace fs = std::filesystem;
   const fs::path folder = options.out / "cases";
-  if (fs::exists(folder) && !fs::exists(options.out / "seal.txt")) {
+  if (std::error_code none; fs::exists(folder, none) && !fs::exists(options.out / "seal.txt", none)) {
     throw std::runtime_error(folder.string() + ": exists and is not an earlier run's; expected a new folder");
   }
-  fs::remove_all(folder);
+  std::error_code error;
+  fs::remove_all(folder, error);
+  if (error && fs::exists(folder, error))
+    throw std::runtime_error(folder.string() + ": cannot be removed: expected a folder that can be written");
   io::makeFolder(folder);
   const DayKind& days = options.unloaded ? unloadedDays() : loadedDays();
   const std::vector<CasePlan> plans = planCases(options.cases, options.seed, options.as_is_share, days);

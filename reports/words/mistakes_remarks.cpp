@@ -161,6 +161,10 @@ std::string mistakesWords(mistakes::RemarkId id, const RemarkValues& values) {
       return fmt::format("attribute {} of load_cell in campaign.xml", values.name(0));
     case RemarkId::in_attribute:
       return fmt::format("attribute {} in campaign.xml of the tables {}", values.name(0), files(values.names(1)));
+    case RemarkId::in_robot:
+      return fmt::format("attribute {} of robot in campaign.xml", values.name(0));
+    case RemarkId::at_poses_in:
+      return fmt::format("poses {} to {}, {} of {}", values.name(0), values.name(1), values.name(2), values.name(3));
     case RemarkId::both:
       return fmt::format("{}; and in the {}: {}", words(values.remarks(0).at(0)), words(values.remarks(0).at(2)),
                          words(values.remarks(0).at(1)));
@@ -182,6 +186,15 @@ std::string mistakesWords(mistakes::RemarkId id, const RemarkValues& values) {
                                   : "angles of a posture stand in the row of the posture before";
     case RemarkId::angles_exchanged:
       return fmt::format("exchange the angles of poses {} and {}", values.name(0), values.name(1));
+    case RemarkId::readings_exchanged:
+      return fmt::format("exchange the readings of poses {} and {}", values.name(0), values.name(1));
+    case RemarkId::angles_repeated:
+      return fmt::format("pose {0} has the angles of pose {1}, and not its readings: write those of pose {0}",
+                         values.name(0), values.name(1));
+    case RemarkId::rows_lost:
+      return fmt::format("from pose {} on each posture has the angles of the {}: a row of the log is {}",
+                         values.name(0), values.count(1) != 0 ? "next" : "one before",
+                         values.count(1) != 0 ? "lost" : "too many");
     case RemarkId::angles_backwards:
       return fmt::format("the angles of the sweep of axis {} run backwards: its last row has those of the first",
                          values.count(0));
@@ -212,6 +225,8 @@ std::string mistakesWords(mistakes::RemarkId id, const RemarkValues& values) {
                          values.name(0) == "m" ? ", or the URDF's lengths are in mm" : "");
     case RemarkId::robot_in:
       return fmt::format("its lengths are in {}: write m", values.name(0));
+    case RemarkId::masses_in:
+      return fmt::format("the arm's masses are in {}, {:.3g} in all: write kg", values.name(0), values.number(1));
     case RemarkId::table_scale_off: {
       const double percent = 100.0 * values.number(0);
       return fmt::format("the points of this table are {:.1f} % too {} against the others", std::abs(percent),
@@ -232,6 +247,11 @@ std::string mistakesWords(mistakes::RemarkId id, const RemarkValues& values) {
           "read from another station, or after the tracker or the robot moved, by {:.0f} mm and {} deg: "
           "refer the points to the station of the other tables",
           millimetresOf(values.number(0)), roundedDegrees(values.number(1)));
+    case RemarkId::elsewhere:
+      return fmt::format(
+          "its readings stand {:.0f} mm and {} deg away as a whole: the tracker or the robot moved, or these are the "
+          "angles of another posture",
+          millimetresOf(values.number(0)), roundedDegrees(values.number(1)));
     case RemarkId::not_in_base:
       return fmt::format(
           "the points are not in the base, but in a frame {:.0f} mm and {} deg away: take "
@@ -239,6 +259,9 @@ std::string mistakesWords(mistakes::RemarkId id, const RemarkValues& values) {
           millimetresOf(values.number(0)), roundedDegrees(values.number(1)));
     case RemarkId::reflectors_renamed:
       return fmt::format("mend the names: {}", exchangedNames(values.names(0)));
+    case RemarkId::reflector_twice:
+      return fmt::format("{} and {} are one reflector there, read twice ({:.2f} mm apart at most)", values.name(0),
+                         values.name(1), millimetresOf(values.number(2)));
     case RemarkId::reflectors_on_line:
       return fmt::format(
           "the reflectors stand on one line but for {:.1f} mm of {:.0f} mm: the turn about it is not "
@@ -275,6 +298,15 @@ std::string mistakesWords(mistakes::RemarkId id, const RemarkValues& values) {
       return wrenchOfRow(static_cast<mistakes::WrenchRow>(values.count(0)));
     case RemarkId::wrenches_exchanged:
       return fmt::format("exchange the wrenches of poses {} and {}", values.name(0), values.name(1));
+    case RemarkId::wrenches_repeated:
+      return fmt::format("pose {0} has the wrenches of pose {1}, digit by digit: write those of pose {0}",
+                         values.name(0), values.name(1));
+    case RemarkId::steps_exchanged:
+      return fmt::format("exchange the {} of steps {} and {}", values.count(2) != 0 ? "readings" : "wrenches",
+                         values.count(0), values.count(1));
+    case RemarkId::gravity_reversed:
+      return fmt::format("gravity points the other way: the own weight bends the arm by {:.2f} of what its masses say",
+                         values.number(0));
     case RemarkId::misses_arm:
       return fmt::format("the readings then miss the URDF's arm by {:.2f} mm rms instead of {:.4g} mm",
                          millimetresOf(values.number(1)), millimetresOf(values.number(0)));

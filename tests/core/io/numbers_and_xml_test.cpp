@@ -121,9 +121,10 @@ TEST(WriteFile, SaysWhichFileAndWhy) {
     return "";
   };
   const std::string name = folder.path().string();
-  EXPECT_EQ(why(folder.path() / "no" / "a"), name + "/no/a: cannot be written: No such file or directory");
-  EXPECT_EQ(why(folder.path()), name + ": cannot be written: it is a directory");
-  EXPECT_EQ(why(""), ": cannot be written: it names no file");
+  EXPECT_EQ(why(folder.path() / "no" / "a"),
+            name + "/no/a: cannot be written: expected a folder that is there; there is no " + name + "/no");
+  EXPECT_EQ(why(folder.path()), name + ": cannot be written: it is a directory; expected the name of a file");
+  EXPECT_EQ(why(""), ": cannot be written: it names no file; expected the name of one");
   if (std::filesystem::exists("/dev/full")) {
     EXPECT_EQ(why("/dev/full"), "/dev/full: cannot be written: No space left on device");
   }

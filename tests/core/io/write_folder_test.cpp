@@ -96,14 +96,16 @@ TEST(WriteFolder, SaysWhichFolderAndWhy) {
     }
     return "";
   };
-  EXPECT_EQ(why(scratch.path() / "file"), (scratch.path() / "file").string() + ": cannot be written: it is no folder");
-  EXPECT_EQ(why(""), ": cannot be written: it names no folder");
+  EXPECT_EQ(why(scratch.path() / "file"),
+            (scratch.path() / "file").string() + ": cannot be written: it is no folder; expected the name of one");
+  EXPECT_EQ(why(""), ": cannot be written: it names no folder; expected the name of one");
   EXPECT_NE(why(scratch.path() / "file" / "below"), "");
   if (::geteuid() == 0) return;  // root writes everywhere
   fs::create_directory(scratch.path() / "closed");
   fs::permissions(scratch.path() / "closed", fs::perms::owner_read | fs::perms::owner_exec);
   EXPECT_EQ(why(scratch.path() / "closed"),
-            (scratch.path() / "closed").string() + ": cannot be written: Permission denied");
+            (scratch.path() / "closed").string() +
+                ": cannot be written: Permission denied; expected a folder that can be written");
 }
 
 /// Status of a child that runs `work`; what it throws becomes 3.
