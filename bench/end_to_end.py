@@ -2,12 +2,15 @@
 """end_to_end.py STIFFSCOPE FOLDER OUT.json: whole commands at three sizes, as long as one waits for them (the clock; both
 sides may use every core), the least of some runs, beside the scripts that do the same on the same campaign, run in turns with
 them. Stops where their numbers are not ours."""
-import json, pathlib, subprocess, sys, time
+import json, os, pathlib, subprocess, sys, tempfile, time
 import campaigns
 from same_result import compared
 
 # Least squares in both: only rounding is between them.
 ESTIMATE = 1e-6
+# Of a day of absolute readings: the script weighs the sweeps by directions of its start, ours by those of the solution, which
+# all but Partial Pose's calibrated geometry takes over.
+BY_SWEEPS, BY_CALIBRATION = 2e-4, 1e-5
 # Of a standard uncertainty: both weigh by the tracker's noise, along directions that differ by the noise.
 FRAMES = 0.5
 # Ours weighs by the tracker's noise beside what the model leaves, the script's readings all weigh alike.
@@ -17,13 +20,18 @@ IDENTIFY = campaigns.HERE / "by_pandas/identify.py"
 
 
 def timed(*command):
-    """Output and seconds."""
-    before = time.perf_counter()
-    done = subprocess.run([str(word) for word in command], capture_output=True, text=True)
-    after = time.perf_counter()
-    if done.returncode > 1 or (done.returncode and command[0] == sys.executable):
-        sys.exit(f"{command}: {done.stderr}")
-    return done.stdout, after - before
+    """Output, seconds and the peak of resident memory in MiB."""
+    with tempfile.TemporaryFile("w+") as output, tempfile.TemporaryFile("w+") as errors:
+        before = time.perf_counter()
+        process = subprocess.Popen([str(word) for word in command], stdout=output, stderr=errors)
+        _, status, usage = os.wait4(process.pid, 0)
+        after = time.perf_counter()
+        process.returncode = os.waitstatus_to_exitcode(status)
+        for file in (output, errors):
+            file.seek(0)
+        if not 0 <= process.returncode <= 1 or (process.returncode and command[0] == sys.executable):
+            sys.exit(f"{command}: {errors.read()}")
+        return output.read(), after - before, usage.ru_maxrss / 1024
 
 
 def in_turns(*commands):
@@ -32,8 +40,43 @@ def in_turns(*commands):
     return [min(times) for times in zip(*rounds)]
 
 
+def peak(*command):
+    """The least of some runs, in MiB: what a heap keeps for later depends on the threads' luck."""
+    return min(timed(*command)[2] for _ in range(3))
+
+
 def loaded(file):
     return json.loads(pathlib.Path(file).read_text())
+
+
+def ordinary(folder, row):
+    """Ours with uncertainties, outlying postures and subsets; the script stiffnesses and shares alone."""
+    result, theirs = work / "identify.json", work / "by-script.json"
+    command = (binary, "identify", folder, "--springs-only")
+    ours, script = in_turns(command, (sys.executable, campaigns.HERE / "by_pandas/absolute.py", folder, theirs))
+    timed(*command, "--json", result)
+    row["ours"].append(ours)
+    row["memory"].append(peak(*command))
+    row["against"].setdefault("pandas, numpy and scipy, vectorised, values alone", []).append(script)
+    a, b = loaded(result), loaded(theirs)
+    for name, method in b["methods"].items():
+        borne, own = BY_CALIBRATION if name == "pp" else BY_SWEEPS, a["methods"][name]
+        pairs = list(zip(own["stiffness_nm_per_rad"], method["stiffness_nm_per_rad"]))
+        pairs += [(own[ours_at]["all_postures"], method[at]) for ours_at, at in (("compensated_at_targets", "compensated_at_targets"),
+                                                                             ("compensated", "compensated_at_wrist"))]
+        for k, other in pairs:
+            if (k is None) != (other is None) or (k is not None and not abs(other / k - 1.0) < borne):
+                sys.exit(f"{folder}, {name}: {other}, ours {k}")
+
+
+def alone(*command):
+    """A command without anything beside it."""
+    def measure(folder, row):
+        whole = (binary, *(folder if word is None else word for word in command))
+        _, seconds, memory = zip(*(timed(*whole) for _ in range(3)))
+        row["ours"].append(min(seconds))
+        row["memory"].append(min(memory))
+    return measure
 
 
 def identify(folder, row):
@@ -114,14 +157,20 @@ def report(folder, row):
     row["ours"].append(timed(binary, "report", folder, "--out", work / "report")[1])
 
 
+THREE = (100, 1000, 10000)
 rows = []
 for what, sizes, make, measure in (
+        ("`identify --springs-only` of an ordinary day", THREE, campaigns.day, ordinary),
+        ("`identify` of an ordinary day", THREE, campaigns.day, alone("identify", None)),
+        ("`audit` of an ordinary day", THREE, campaigns.day, alone("audit", None)),
+        ("`frames --springs-only` of an ordinary day", THREE, campaigns.day, alone("frames", None, "--springs-only")),
         ("`frames`", (20, 200, 2000), campaigns.sweeps, frames), ("`report`", (19, 190, 1900), campaigns.day, report),
         ("`calibrate`, beside a script of the geometry alone", (100, 1000, 10000), campaigns.unloaded, calibrate),
-        ("`identify --neglect-kc`, beside scripts of the stiffnesses alone", (100, 1000, 10000), campaigns.differences, estimate_only),
-        ("`identify`", (100, 1000, 10000), campaigns.differences, printed),
-        ("`identify --json`", (100, 1000, 10000), campaigns.differences, identify)):
-    row = {"what": what, "sizes": [str(size) for size in sizes], "ours": [], "against": {}}
+        ("the easy form, displacements: `identify --neglect-kc`, beside scripts of the stiffnesses alone", THREE, campaigns.differences,
+         estimate_only),
+        ("the easy form: `identify`", THREE, campaigns.differences, printed),
+        ("the easy form: `identify --json`", THREE, campaigns.differences, identify)):
+    row = {"what": what, "sizes": [str(size) for size in sizes], "ours": [], "memory": [], "against": {}}
     for size in sizes:
         measure(make(binary, work, size), row)
     rows.append(row)

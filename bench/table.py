@@ -25,7 +25,8 @@ ROWS = (
     ("Diagnosis", "diagnosis", "postures", {}),
     ("Chart", "chart as PNG", "postures of four bars", {"matplotlib": "chart"}),
 )
-COMMANDS = {"`frames`": "readings a circle, 50 times as many of the wrist", "`report`": "postures"}  # commands' sizes
+# Commands' sizes, by how their row begins.
+COMMANDS = {"`frames`": "readings a circle, 50 times as many of the wrist", "the easy form": "postures of 14 loads"}
 
 
 def spoken(seconds):
@@ -58,8 +59,10 @@ def growth(times):
     return ", ".join(f"{b / a:.1f}" for a, b in zip(times, times[1:]))
 
 
-def line(what, sizes, ours, against, rates=()):
+def line(what, sizes, ours, against, rates=(), memory=()):
     times = ", ".join(spoken(t) for t in ours)
+    if memory:
+        times += f" ({', '.join(f'{peak:.0f}' for peak in memory)} MiB)"
     if rates:
         times += f" ({', '.join(f'{rate:.0f}' for rate in rates)} MB/s)"
     beside = list(against.items()) or [("", [])]
@@ -85,8 +88,9 @@ def lines(folder):
                         [rates[name][s] for s in sizes] if name in rates else ())
     file = folder / "end_to_end.json"
     for row in json.loads(file.read_text()) if file.exists() else ():
-        unit = COMMANDS.get(row["what"], "postures of 14 loads")
-        yield from line(row["what"], f"{', '.join(f'{int(s):,}' for s in row['sizes'])} {unit}", row["ours"], row["against"])
+        unit = next((unit for begin, unit in COMMANDS.items() if row["what"].startswith(begin)), "postures")
+        yield from line(row["what"], f"{', '.join(f'{int(s):,}' for s in row['sizes'])} {unit}", row["ours"], row["against"],
+                        memory=row["memory"])
 
 
 folder = pathlib.Path(sys.argv[1])
