@@ -25,7 +25,7 @@ Eigen::MatrixXd pseudoInverse(const Eigen::MatrixXd& a);
 double mahalanobisSquared(const Eigen::Vector3d& v, const Eigen::Matrix3d& covariance);
 double mahalanobisSquared(const Eigen::VectorXd& v, const Eigen::MatrixXd& covariance);
 
-/// Of a symmetric matrix, of which the lower half is read; eigenvalues ascend.
+/// Eigenvalues, ascending, and eigenvectors of a symmetric matrix, whose lower half is read.
 struct SymmetricEigen {
   Eigen::VectorXd values;
   Eigen::MatrixXd vectors;  ///< columns of length 1

@@ -24,7 +24,7 @@ FrameError frameError(const Eigen::Isometry3d& in_from_true, const Eigen::Isomet
 /// What a frame's error does to the coordinates of a point x in it: -rotation x x - origin. 3x6.
 Eigen::Matrix<double, 3, 6> pointByFrameError(const Eigen::Vector3d& x);
 
-/// The same of a free vector d, a displacement or a direction: -rotation x d. The shift of the origin does nothing.
+/// What it does to a free vector d, a displacement or a direction: -rotation x d. The shift of the origin does nothing.
 Eigen::Matrix<double, 3, 6> vectorByFrameError(const Eigen::Vector3d& d);
 
 /// The rigid motion of a rotation vector and a displacement at `centre`.

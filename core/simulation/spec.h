@@ -64,7 +64,7 @@ struct JointSoftening {
 struct JointGear {
   double stiffness = 0.0;    ///< Nm/rad
   double lost_motion = 0.0;  ///< rad in all
-  // Of the reading of the motor's side against that of the link's:
+  // The reading of the motor's side against that of the link's:
   double encoder_sigma = 0.0;   ///< rad, in every state
   double encoder_offset = 0.0;  ///< rad, always
 };
