@@ -41,7 +41,7 @@ DeflectionAvoided deflectionAvoidedAtTargets(const identification::Identificatio
                                              const identification::Identification& after,
                                              const MatchedPostures& matched, const BootstrapOptions& options = {});
 
-/// How much of the deflection at the reflectors a joint takes away that gives less: the share avoided by a unit of
+/// How much of the deflection at the reflectors a stiffer joint avoids: the share avoided by a unit of
 /// c_before
 /// - c_after, 1/(rad/Nm), joint by joint. With d the displacements of a reflector and e = (d_b + d_a) / (|d_b| +
 /// |d_a|),

@@ -75,7 +75,7 @@ constexpr int kToolBody = 7;
 /// A small rigid motion of the arm from one body outwards, in R0, per unit of a parameter.
 struct BodyTwist {
   int first_body = 1;  ///< it and all bodies beyond it move as one
-  /// Whether the axis about which that body turns moves as well: it does where something further in gives (a
+  /// Whether the axis about which that body turns moves as well: it does where something further in deflects (a
   /// base, a link's tip), not where its bearing does.
   bool with_axis = false;
   Eigen::Vector3d pivot = Eigen::Vector3d::Zero();

@@ -23,8 +23,8 @@ enum class BudgetSource {
   load_cell_gain,  ///< as declared
   masses,          ///< the URDF's, as declared
   tracker_scale,   ///< as declared
-  standing_load,   ///< joints go on giving while a load stands (course_of_day.h)
-  over_day,        ///< joints give more or less as the day goes on
+  standing_load,   ///< joints go on deflecting while a load stays on (course_of_day.h)
+  over_day,        ///< compliances grow or shrink over the day
   apparent,        ///< between this model and joint springs alone, where no model explains the gap
 };
 

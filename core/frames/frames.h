@@ -97,7 +97,8 @@ struct FramesCovariance {
 
   /// How one declared standard uncertainty of the URDF's masses, common to all, moves each through the sag.
   Eigen::VectorXd by_masses;
-  /// By what could give besides joint springs under the own weight (extended_model::hiddenFrames); empty: not weighed.
+  /// By what could deflect besides joint springs under the gravity load (extended_model::hiddenFrames); empty: not
+  /// weighed.
   Eigen::MatrixXd hidden;
   /// Relative standard uncertainty of the tracker's scale as declared; 1 K of air temperature that is not known makes
   /// 1e-6 (Edlen's equation of the refractive index of air).
@@ -146,8 +147,8 @@ Frames measureFrames(const campaign::Campaign& campaign);
 /// so far. Its error is that of `so_far` shrunk about a thousandfold. Where masses are not known, `so_far` with a note.
 /// `covariance` of the compliances, where it is given and finite, is propagated into that of the frames, by differences
 /// of the whole measurement. It knows nothing of what is wrong with a sag by joint springs alone: bearings that
-/// give across their axes bend the arm too, and falsify the springs; LinkGeometry::distance_by_sag shows the stake, and
-/// FramesCovariance::hidden weighs it.
+/// deflect across their axes bend the arm too, and falsify the springs; LinkGeometry::distance_by_sag shows the stake,
+/// and FramesCovariance::hidden weighs it.
 Frames refineFrames(const campaign::Campaign& campaign, const Frames& so_far, const Vector6d& compliance,
                     const std::optional<Matrix6d>& covariance = std::nullopt);
 
