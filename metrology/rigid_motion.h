@@ -9,6 +9,15 @@ namespace stiffscope::metrology {
 /// [v x]: the matrix by which v x w is a product with w.
 Eigen::Matrix3d crossMatrix(const Eigen::Vector3d& v);
 
+/// The rotation R that maximises trace(R^T M), which is nearest to a map M, and M's singular values, descending. Proper
+/// where M turns right hands to left, too: the least singular direction takes the sign (S. Umeyama, IEEE Transactions
+/// on Pattern Analysis and Machine Intelligence 13, 1991, 376). Determined where the second singular value is not zero.
+struct NearestRotation {
+  Eigen::Matrix3d rotation;
+  Eigen::Vector3d singular_values;
+};
+NearestRotation nearestRotation(const Eigen::Matrix3d& map);
+
 /// R0 from two measured axes: z0 along axis 1; origin at the foot, on axis 1, of the common perpendicular to axis 2;
 /// y0 along the part of axis 2 at right angles to z0; x0 = y0 x z0 (paper, II.D). The caller directs both axes.
 /// Returns frame_from_r0 for the frame in which the axes are given. Assumes axes that are not parallel.
