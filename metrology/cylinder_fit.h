@@ -19,8 +19,8 @@ struct Cylinder {
 struct FittedCylinder : FitQuality {
   static constexpr std::array kParameters{"point_x", "point_y", "point_z", "axis_x", "axis_y", "axis_z", "radius"};
   Cylinder cylinder;
-  /// Of (point, direction, radius), rank 5: the point has no uncertainty along the axis, the unit vector none
-  /// in its length.
+  /// Covariance of (point, direction, radius), rank 5: the point has no uncertainty along the axis, the unit vector
+  /// none in its length.
   std::optional<Eigen::Matrix<double, 7, 7>> covariance;
 };
 

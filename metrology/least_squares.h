@@ -81,7 +81,7 @@ class Model {
 
   virtual ~Model() = default;
   virtual Size size() const = 0;
-  /// Of the i-th point of a group with the group's own parameters.
+  /// Evaluates residuals and derivatives at the i-th point of a group, by the group's own parameters.
   virtual void observe(std::size_t i, const Eigen::Vector3d& point, const double* own, Observation& seen) const = 0;
   /// Moves the shared parameters from where the model stands.
   virtual void move(const Eigen::VectorXd& step) = 0;
@@ -89,8 +89,8 @@ class Model {
   virtual void undo() = 0;
 };
 
-/// Of the i-th point of a group, divided by the standard deviations (the Cholesky factor of the residuals'
-/// covariance) where there are covariances.
+/// The observation of the i-th point of a group, divided by the standard deviations (the Cholesky factor of the
+/// residuals' covariance) where there are covariances.
 Observation whitened(const Model& model, const double* own, const LocalPoints& local, const LocalGroup& group,
                      std::size_t i);
 

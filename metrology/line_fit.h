@@ -14,7 +14,7 @@ namespace stiffscope::metrology {
 struct FittedLine : FitQuality {
   static constexpr std::array kParameters{"point_x", "point_y", "point_z", "axis_x", "axis_y", "axis_z"};
   Line line;
-  /// Of (point, direction), rank 4: the point has no uncertainty along the line, the unit vector none in its
+  /// Covariance of (point, direction), rank 4: the point has no uncertainty along the line, the unit vector none in its
   /// length.
   std::optional<Eigen::Matrix<double, 6, 6>> covariance;
 };

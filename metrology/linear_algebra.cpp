@@ -17,11 +17,19 @@ Eigen::MatrixXd solveSymmetric(const Eigen::MatrixXd& a, const Eigen::Ref<const 
 
 Vector6d solveSymmetric6(const Matrix6d& a, const Vector6d& b) { return a.ldlt().solve(b); }
 
+Eigen::MatrixXd solvePositive(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  const Eigen::LLT<Eigen::MatrixXd> cholesky(a);
+  if (cholesky.info() != Eigen::Success) return solveSymmetric(a, b);
+  return cholesky.solve(b);
+}
+
 Vector6d solvePositive(const Matrix6d& a, const Vector6d& b) {
   const Eigen::LLT<Matrix6d> cholesky(a);
   if (cholesky.info() != Eigen::Success) return solveSymmetric6(a, b);
   return cholesky.solve(b);
 }
+
+Eigen::MatrixXd choleskyLower(const Eigen::MatrixXd& a) { return a.llt().matrixL(); }
 
 Vector6d solveLu(const Matrix6d& a, const Vector6d& b) { return a.partialPivLu().solve(b); }
 
@@ -29,14 +37,22 @@ Matrix6d solveLu(const Matrix6d& a, const Matrix6d& b) { return a.partialPivLu()
 
 Matrix6d inverseOf(const Matrix6d& a) { return a.inverse(); }
 
-Eigen::VectorXd leastSquaresSolution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
-  return a.completeOrthogonalDecomposition().solve(b);
+Eigen::VectorXd leastSquaresSolution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b,
+                                     std::optional<double> threshold) {
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
+  if (threshold) decomposition.setThreshold(*threshold);
+  decomposition.compute(a);
+  return decomposition.solve(b);
 }
 
 Eigen::MatrixXd pseudoInverse(const Eigen::MatrixXd& a) { return a.completeOrthogonalDecomposition().pseudoInverse(); }
 
 double mahalanobisSquared(const Eigen::Vector3d& v, const Eigen::Matrix3d& covariance) {
   return v.dot(covariance.ldlt().solve(v));
+}
+
+double mahalanobisSquared(const Vector6d& v, const Matrix6d& covariance) {
+  return v.dot(solveSymmetric6(covariance, v));
 }
 
 double mahalanobisSquared(const Eigen::VectorXd& v, const Eigen::MatrixXd& covariance) {

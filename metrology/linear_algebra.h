@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 
 // Decompositions of Eigen that many files use, compiled once: each costs a compiler seconds wherever it is named.
 namespace stiffscope {
@@ -10,22 +11,29 @@ Eigen::MatrixXd solveSymmetric(const Eigen::MatrixXd& a, const Eigen::Ref<const 
 Eigen::Matrix<double, 6, 1> solveSymmetric6(const Eigen::Matrix<double, 6, 6>& a, const Eigen::Matrix<double, 6, 1>& b);
 
 /// Solution of A x = b for a positive definite A: Cholesky, and where that breaks down solveSymmetric.
+Eigen::MatrixXd solvePositive(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 Eigen::Matrix<double, 6, 1> solvePositive(const Eigen::Matrix<double, 6, 6>& a, const Eigen::Matrix<double, 6, 1>& b);
+
+/// L of A = L L^T for a positive definite A, of which the lower half is read: Cholesky.
+Eigen::MatrixXd choleskyLower(const Eigen::MatrixXd& a);
 
 /// Solution of A x = b for an invertible A: LU with partial pivoting.
 Eigen::Matrix<double, 6, 1> solveLu(const Eigen::Matrix<double, 6, 6>& a, const Eigen::Matrix<double, 6, 1>& b);
 Eigen::Matrix<double, 6, 6> solveLu(const Eigen::Matrix<double, 6, 6>& a, const Eigen::Matrix<double, 6, 6>& b);
 Eigen::Matrix<double, 6, 6> inverseOf(const Eigen::Matrix<double, 6, 6>& a);
 
-/// The x of least length among those that minimise |A x - b|: complete orthogonal decomposition.
-Eigen::VectorXd leastSquaresSolution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
+/// The x of least length among those that minimise |A x - b|: complete orthogonal decomposition. Directions that A
+/// stretches by less than `threshold` of what it stretches most count as not seen; without it, those of rounding.
+Eigen::VectorXd leastSquaresSolution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b,
+                                     std::optional<double> threshold = {});
 Eigen::MatrixXd pseudoInverse(const Eigen::MatrixXd& a);
 
 /// v^T C^-1 v: the squared distance of v from zero in parts of its covariance C (Mahalanobis).
 double mahalanobisSquared(const Eigen::Vector3d& v, const Eigen::Matrix3d& covariance);
+double mahalanobisSquared(const Eigen::Matrix<double, 6, 1>& v, const Eigen::Matrix<double, 6, 6>& covariance);
 double mahalanobisSquared(const Eigen::VectorXd& v, const Eigen::MatrixXd& covariance);
 
-/// Of a symmetric matrix, of which the lower half is read; eigenvalues ascend.
+/// Eigenvalues, ascending, and eigenvectors of a symmetric matrix, whose lower half is read.
 struct SymmetricEigen {
   Eigen::VectorXd values;
   Eigen::MatrixXd vectors;  ///< columns of length 1

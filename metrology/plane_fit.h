@@ -19,8 +19,8 @@ struct Plane {
 struct FittedPlane : FitQuality {
   static constexpr std::array kParameters{"point_x", "point_y", "point_z", "normal_x", "normal_y", "normal_z"};
   Plane plane;
-  /// Of (point, normal), rank 3: the point has uncertainty along the normal only, the unit vector none in its
-  /// length.
+  /// Covariance of (point, normal), rank 3: the point has uncertainty along the normal only, the unit vector none in
+  /// its length.
   std::optional<Eigen::Matrix<double, 6, 6>> covariance;
 };
 

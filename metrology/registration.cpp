@@ -6,6 +6,7 @@
 
 #include "metrology/least_squares.h"
 #include "metrology/remarks.h"
+#include "metrology/rigid_motion.h"
 
 namespace stiffscope::metrology {
 
@@ -44,12 +45,10 @@ std::optional<Eigen::Matrix3d> rotationOfTriangles(const std::vector<Eigen::Vect
 
 /// Of least squares by the singular vectors of `cross`; empty for points on one line.
 std::optional<Eigen::Matrix3d> rotationOf(const Eigen::Matrix3d& cross) {
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(cross, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const NearestRotation nearest = nearestRotation(cross);
   constexpr double kOnOneLine = 1e-12;
-  if (!(svd.singularValues()[1] > kOnOneLine * svd.singularValues()[0])) return std::nullopt;
-  // The sign on the least singular direction keeps the rotation proper (Umeyama 1991).
-  const Eigen::Vector3d signs(1.0, 1.0, (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0);
-  return svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
+  if (!(nearest.singular_values[1] > kOnOneLine * nearest.singular_values[0])) return std::nullopt;
+  return nearest.rotation;
 }
 
 }  // namespace

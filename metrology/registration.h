@@ -19,7 +19,7 @@ struct RigidRegistration {
 RigidRegistration registerRigid(const std::vector<Eigen::Vector3d>& source, const std::vector<Eigen::Vector3d>& to);
 
 struct WeightedRegistration : RigidRegistration {
-  /// Of a small motion after the found one, in the `to` frame: rotation vector (rad) about the mean of `to`,
+  /// Covariance of a small motion after the found one, in the `to` frame: rotation vector (rad) about the mean of `to`,
   /// then shift (m).
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   Eigen::Vector3d pivot = Eigen::Vector3d::Zero();  ///< the mean of `to`, about which that rotation is

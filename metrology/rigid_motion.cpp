@@ -1,11 +1,19 @@
 #include "metrology/rigid_motion.h"
 
+#include <Eigen/SVD>
+
 #include "metrology/lines.h"
 
 namespace stiffscope::metrology {
 
 Eigen::Matrix3d crossMatrix(const Eigen::Vector3d& v) {
   return (Eigen::Matrix3d() << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0).finished();
+}
+
+NearestRotation nearestRotation(const Eigen::Matrix3d& map) {
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(map, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::Vector3d signs(1.0, 1.0, (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0);
+  return {svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose(), svd.singularValues()};
 }
 
 Eigen::Isometry3d baseFrame(const Line& axis_1, const Line& axis_2) {

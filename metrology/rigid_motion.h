@@ -9,6 +9,15 @@ namespace stiffscope::metrology {
 /// [v x]: the matrix by which v x w is a product with w.
 Eigen::Matrix3d crossMatrix(const Eigen::Vector3d& v);
 
+/// The rotation R that maximises trace(R^T M), which is nearest to a map M, and M's singular values, descending. Proper
+/// where M turns right hands to left, too: the least singular direction takes the sign (S. Umeyama, IEEE Transactions
+/// on Pattern Analysis and Machine Intelligence 13, 1991, 376). Determined where the second singular value is not zero.
+struct NearestRotation {
+  Eigen::Matrix3d rotation;
+  Eigen::Vector3d singular_values;
+};
+NearestRotation nearestRotation(const Eigen::Matrix3d& map);
+
 /// R0 from two measured axes: z0 along axis 1; origin at the foot, on axis 1, of the common perpendicular to axis 2;
 /// y0 along the part of axis 2 at right angles to z0; x0 = y0 x z0 (paper, II.D). The caller directs both axes.
 /// Returns frame_from_r0 for the frame in which the axes are given. Assumes axes that are not parallel.
@@ -24,7 +33,7 @@ FrameError frameError(const Eigen::Isometry3d& in_from_true, const Eigen::Isomet
 /// What a frame's error does to the coordinates of a point x in it: -rotation x x - origin. 3x6.
 Eigen::Matrix<double, 3, 6> pointByFrameError(const Eigen::Vector3d& x);
 
-/// The same of a free vector d, a displacement or a direction: -rotation x d. The shift of the origin does nothing.
+/// What it does to a free vector d, a displacement or a direction: -rotation x d. The shift of the origin does nothing.
 Eigen::Matrix<double, 3, 6> vectorByFrameError(const Eigen::Vector3d& d);
 
 /// The rigid motion of a rotation vector and a displacement at `centre`.

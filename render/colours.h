@@ -47,7 +47,7 @@ inline constexpr std::array<Colour, 4> kSeries{{{20, 40, 80}, {213, 80, 0}, {86,
 
 }  // namespace colours
 
-/// The colours of a scene, on light paper or on dark. Of each, measured, predicted and residual vectors differ
+/// The colours of a scene, on light paper or on dark. In each, measured, predicted and residual vectors differ
 /// by 14 in lightness L* at least and stay apart for red-, green- and blue-blind eyes (a test).
 struct Palette {
   Colour paper, ink, faint_ink, grid;

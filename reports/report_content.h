@@ -19,7 +19,7 @@
 namespace stiffscope::reports {
 
 /// A campaign as it was used, with what was identified from it, how the audit judges the readings, and what was
-/// done to them beforehand, how the station moved before that was taken off, and what the model misses. Refers to
+/// done to them beforehand, how the station moved before that was corrected for, and what the model misses. Refers to
 /// all of these; the pointers may be null. Readings of sweeps and nests are shown; load states are shown as the
 /// identification's cases, the rows of their tables need not be there.
 struct ReportCampaign {
@@ -55,7 +55,7 @@ struct AvoidedByEncoders : comparison::DeflectionAvoided {
   bool residual_is_noise = false;  ///< else shares of the inactive compliance are of apparent stiffnesses
 };
 
-/// Of the first campaign with the double encoders inactive (before) against the first with them active
+/// What the double encoders avoid, by the first campaign with them inactive (before) and the first with them active
 /// (after). Empty without such a pair; not available, with the reason, where they are of two machines or have
 /// no posture in common.
 std::optional<AvoidedByEncoders> avoidedByEncoders(const std::vector<ReportCampaign>& campaigns);

@@ -14,7 +14,7 @@ render::PointChart accuracyCurves(const reports::ReportCampaign& one);
 reports::Figure describeAccuracyCurves(const reports::ReportCampaign& one);
 
 /// Places of the reflectors in base_link from above and from the side, coloured by the 3-D error, a column a model; one
-/// scale of colours and of lengths. Of many readings a part is drawn.
+/// scale of colours and of lengths. A part of very many readings is drawn.
 render::PointChart accuracyMap(const reports::ReportCampaign& one);
 reports::Figure describeAccuracyMap(const reports::ReportCampaign& one);
 

@@ -32,7 +32,7 @@ std::size_t medianCase(const reports::ReportCampaign& one);
 render::ArmScene postureScene(const reports::ReportCampaign& one, std::size_t index,
                               std::optional<identification::Method> method);
 
-/// The same of that median posture, by the method that the report shows.
+/// The scene of the median posture (medianCase), by the method that the report shows.
 render::ArmScene deflectionScene(const reports::ReportCampaign& one);
 
 /// All postures, pale, with the displacement vectors of P_wrist alone (of the first reflector where P_wrist
@@ -55,12 +55,12 @@ inline constexpr std::size_t kMostArrows = 90;  ///< of a scene; more in one pic
 /// To one scale; both fit both, so that they are seen alike.
 void seeAlike(GapScenes& scenes);
 
-/// Empty where nothing was diagnosed or nothing found. Of very many arrows only every so many postures' are
-/// drawn.
+/// Empty where nothing was diagnosed or nothing found. Where there are very many arrows, those of evenly
+/// chosen postures are drawn.
 std::optional<GapScenes> gapScenes(const reports::ReportCampaign& one);
 
-/// The same of a day without a load: what the calibrated geometry leaves at each reflector, and what is left with the
-/// effects in the model. Of a day that could be calibrated; empty where nothing is left.
+/// The scenes of a day without a load: what the calibrated geometry leaves at each reflector, and what is left with the
+/// effects in the model. Empty where the day could not be calibrated or nothing is left.
 std::optional<GapScenes> accuracyScenes(const reports::ReportCampaign& one);
 
 reports::Figure describeAccuracyBefore(const reports::ReportCampaign& one, const GapScenes& scenes);

@@ -42,7 +42,7 @@ render::SpreadChart subsetSpreads(const reports::ReportCampaign& one, bool with_
 
 reports::Figure describeSubsetSpreads(const reports::ReportCampaign& one);
 
-/// |displacement| per posture with the double encoders inactive and active, mm. Of an available one.
+/// |displacement| per posture with the double encoders inactive and active, mm. `avoided` must be available.
 render::GroupedBarChart encoderBars(const reports::AvoidedByEncoders& avoided);
 
 reports::Figure describeEncoderBars(const reports::AvoidedByEncoders& avoided);
@@ -92,8 +92,8 @@ reports::Figure describeStiffnessSlice(const reports::ReportCampaign& one);
 render::IntervalChart postureStiffnessChart(const reports::ReportCampaign& one);
 reports::Figure describePostureStiffness(const reports::ReportCampaign& one);
 
-/// The sweeps' readings as the frames of the identification were fitted to: the own weight's sag taken off
-/// where it was taken off there.
+/// The sweeps' readings to which the frames of the identification were fitted: corrected for the gravity sag
+/// where they were corrected there.
 frames::RigidPoints rigidSweeps(const reports::ReportCampaign& one);
 
 /// The circles of every measured axis with their radial residuals, rho - r, magnified: a ring a reflector,

@@ -61,7 +61,7 @@ struct OpenedMaterial {
 OpenedMaterial openMaterial(const campaign::Campaign& campaign, const ViewOptions& options);
 
 /// The circle sweeps, an axis each: the arm as it stood in the middle of the sweep, with the readings of all
-/// sweeps as dots, those of this one in full colour. The arm is drawn rigid, without its own weight's sag. No
+/// sweeps as dots, those of this one in full colour. The arm is drawn rigid, without its gravity sag. No
 /// frames, and the reason in `lacking`, where the campaign has no circle sweeps or they do not place R0.
 ViewMaterial sweepMaterial(const campaign::Campaign& campaign, const frames::Frames& frames);
 

@@ -27,7 +27,7 @@ struct AccuracyClass {
   double score = 0.0;        ///< fall of BIC against the model without it; larger is better
   double size = 0.0;         ///< rms per coordinate of what it explains beside the others, m
   diagnosis::Shrink shrink;  ///< of the rms of the positions' residual, held out, besides what stands before it
-  double explained = 0.0;    ///< the same in variance, less noise
+  double explained = 0.0;    ///< that in variance, less noise
   bool in_verdict = false;
   std::vector<calibration::EffectPart> parts;  ///< of the first effect, as fitted
   std::vector<double> sizes, sds;              ///< of their terms, in their units
@@ -63,7 +63,7 @@ struct AccuracyDiagnosis {
   std::vector<UntestableEffect> not_testable;
   AccuracyGap gap;
   diagnosis::Shrink shrink_together;  ///< by all of the verdict
-  /// Of what the geometry leaves, and of what is left with the verdict's effects beside it.
+  /// Where the residual of the geometry lies, and that of the geometry with the verdict's effects.
   std::vector<diagnosis::WhereTable> where, where_after;
   std::vector<Remark> next;
   double size_limit = 0.0;            ///< below it an effect is too small to matter, m rms per coordinate

@@ -20,7 +20,7 @@ inline constexpr calibration::CalibrationOptions kDiagnosisFolds{.folds = 2, .fo
 AccuracyDiagnosis diagnoseAccuracy(const preparation::PreparedCampaign& prepared,
                                    const calibration::CalibrationOptions& options = kDiagnosisFolds);
 
-/// The same of a campaign as it was read, prepared first.
+/// Diagnoses a campaign as it was read, which is prepared first.
 AccuracyDiagnosis diagnoseAccuracy(const campaign::Campaign& campaign,
                                    const calibration::CalibrationOptions& options = kDiagnosisFolds);
 

@@ -24,7 +24,7 @@ enum class Purpose { identify, calibrate };
 ///   unloaded_positions or return_to_zero;
 /// - the load cell shows the load: tare, gravity_direction or moment_lever.
 ///
-/// Of a day without a load:
+/// For a day without a load:
 ///
 /// - the readings are of the URDF's arm: arm_model;
 /// - a reading is worth what is declared: repeatability_along, repeatability_across, rigid_tool or return_to_zero;
@@ -47,11 +47,11 @@ struct AuditReport {
 /// core/audit/limits.h.
 ///
 /// The checks look at the campaign that identification sees (core/preparation/prepare.h): without rejected
-/// readings, the station's motion taken off where floor nests show it, so that one cause gives one finding;
+/// readings, corrected for the station's motion where floor nests show it, so that one cause makes one finding;
 /// for the same reason repeats that scatter by more than is declared replace the declared noise in the other
 /// checks.
 AuditReport audit(campaign::Campaign campaign);
-/// Of what is prepared already. Long sweeps are never copied.
+/// Audits what is prepared already. Long sweeps are never copied.
 AuditReport audit(const preparation::PreparedCampaign& prepared);
 
 /// Whether some check found what cannot be.

@@ -38,7 +38,7 @@ struct PostureReadBack {
 struct AbsoluteFit {
   bool done = false;
   Remark reason;                                     ///< why not
-  bool sag_known = false;                            ///< masses and stiffnesses gave the own weight's sag
+  bool sag_known = false;                            ///< masses and stiffnesses determine the gravity sag
   int positions = 0;                                 ///< that took part
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< mean of the positions
   Vector6d shift = Vector6d::Zero();                 ///< rotation vector (rad) then displacement at `centre` (m)
@@ -69,8 +69,8 @@ struct AuditInput {
   std::optional<metrology::TrackerNoise> noise = {};
   std::vector<campaign::StatePoints> states = {};  ///< reflectors in every state of sweeps and loading
   std::optional<int> step = {};                    ///< heaviest load step
-  frames::Frames frames = {};                      ///< sag taken off where it can be
-  frames::RigidPoints rigid = {};                  ///< the sweeps' readings, sag taken off where it can be
+  frames::Frames frames = {};                      ///< corrected for the sag where possible
+  frames::RigidPoints rigid = {};                  ///< the sweeps' readings, corrected for the sag where possible
   identification::LoadedArm arm = {};   ///< in the swept geometry, under `step`; no cases where there are none
   AbsoluteFit absolute = {};            ///< unloaded positions against forward kinematics
   mistakes::ModelAgreement model = {};  ///< of the day as a whole, and what would mend it

@@ -16,7 +16,7 @@ namespace stiffscope::audit {
 /// The readings of one reflector while one axis turns, with their rows.
 struct SweptCircle {
   int target = 0;
-  metrology::CirclePoints readings;  ///< sag taken off where it can be
+  metrology::CirclePoints readings;  ///< corrected for the sag where possible
   std::vector<std::size_t> lines;
 };
 

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <tinyxml2.h>
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <numbers>
 #include <sstream>
 #include <stdexcept>
 #include <vector>
@@ -60,6 +62,19 @@ Eigen::Isometry3d originOf(const XMLElement& joint) {
   return motion;
 }
 
+/// The least rotation that brings direction `from` to `to`: about their common normal. Half a turn about any where they
+/// are opposite.
+Eigen::Matrix3d rotationBetween(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  const Eigen::Vector3d start = from.normalized(), end = to.normalized();
+  const double cosine = end.dot(start);
+  constexpr double kOpposite = 1e-12;
+  if (cosine < kOpposite - 1.0) return Eigen::AngleAxisd(std::numbers::pi, start.unitOrthogonal()).toRotationMatrix();
+  // Twice the cosine of half the angle; half of it and the sine along the normal are the quaternion.
+  const double half = std::sqrt((1.0 + cosine) * 2.0);
+  const Eigen::Vector3d vector = start.cross(end) * (1.0 / half);
+  return Eigen::Quaterniond(half * 0.5, vector.x(), vector.y(), vector.z()).toRotationMatrix();
+}
+
 void setOrigin(XMLElement& joint, const Eigen::Isometry3d& motion) {
   XMLElement* origin = joint.FirstChildElement("origin");
   if (origin == nullptr) origin = joint.InsertNewChildElement("origin");
@@ -94,8 +109,7 @@ std::string calibratedUrdf(std::string_view bytes, const std::string& file, cons
         placed = flange_moved * as_built;
       } else {
         const Eigen::Vector3d& direction = nominal.axes_in_base_at_zero[turning].direction;
-        placed.linear() =
-            Eigen::Quaterniond::FromTwoVectors(direction, axis.direction).toRotationMatrix() * as_built.linear();
+        placed.linear() = rotationBetween(direction, axis.direction) * as_built.linear();
         placed.translation() = metrology::nearestPoint(axis, as_built.translation());
       }
       ++turning;

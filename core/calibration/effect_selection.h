@@ -18,7 +18,7 @@ struct SelectionOptions {
   /// fraction of the noise.
   double least_gain = 0.003;
   int search_parts = 6, most_parts = 40;  ///< of one effect, while the effects are sought and at the end
-  /// Of those that tell which effects there are, and of those that tell how many parts each has: what is found grows
+  /// Postures that tell which effects there are, and postures that tell how many parts each has: what is found grows
   /// with the root of their number, time with it.
   std::size_t search_postures = 400, most_postures = 2000;
   int inner_folds = 5;
@@ -56,8 +56,7 @@ struct SelectedEffects {
   std::vector<double> before;
   /// Sums of that by each division into folds, the outer folds first: of the geometry, and with all effects.
   std::vector<double> before_by_division, after_by_division;
-  /// Of each effect that the day can be asked for: what it would have to explain to be named, in parts of what is then
-  /// left.
+  /// For each effect that the day can show, what it would have to explain to be named, in parts of what is then left.
   std::vector<std::pair<UnloadedEffect, double>> detectable;
 };
 

@@ -75,8 +75,9 @@ struct EffectPart {
   double penalty = 0.0;          ///< in BIC: its terms, and the alternatives that were tried
 };
 
-/// What may be asked of one effect. Of `parts` any number may be present, found one by one; `wholes` are other forms of
-/// the effect, each complete, of which one may be present instead: all joints twist at once, a drift is a polynomial.
+/// The forms that one effect may have. Any number of `parts` may be present, found one by one; `wholes` are other forms
+/// of the effect, each complete, of which one may be present instead: all joints twist at once, a drift is a
+/// polynomial.
 struct EffectFamily {
   UnloadedEffect effect = {};
   std::vector<EffectPart> parts = {}, wholes = {};

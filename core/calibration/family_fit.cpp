@@ -1,6 +1,5 @@
 #include "core/calibration/family_fit.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -240,6 +239,21 @@ std::optional<FamilyFit::Candidate> FamilyFit::bestPart(std::size_t family, cons
   return candidateOf(*best);
 }
 
+namespace {
+
+/// By how much unknowns with the normal matrix N and right side r lower the sum of squares: r^T N^-1 r.
+template <int kWidth>
+double explainedSquares(const Eigen::Matrix<double, kWidth, 1>& right,
+                        const Eigen::Matrix<double, kWidth, kWidth>& normal) {
+  if constexpr (kWidth == 1) {
+    return right[0] * (right[0] / normal(0, 0));
+  } else {
+    return mahalanobisSquared(right, normal);
+  }
+}
+
+}  // namespace
+
 /// Sums over the postures from there on, for all starts in one pass.
 template <int kWidth>
 std::pair<double, double> FamilyFit::bestOf(const Start& start, const LinearModel& model) const {
@@ -258,7 +272,7 @@ std::pair<double, double> FamilyFit::bestOf(const Start& start, const LinearMode
     if (by_model.rows() > 0) across.noalias() -= by_model.transpose() * by_model;
     constexpr double kSquares = LinearisedDay::kAliased * LinearisedDay::kAliased;
     if ((across.diagonal().array() <= kSquares * start.own[k - kFewestAside].array()).any()) continue;
-    const double gain = right.dot(Eigen::LDLT<Square>(across).solve(right));
+    const double gain = explainedSquares(right, across);
     if (gain > best.first) best = {gain, day_.timeBefore(k)};
   }
   return best;

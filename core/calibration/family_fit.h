@@ -29,7 +29,7 @@ class FamilyFit {
   std::optional<LinearModel> fit(std::size_t family, const LinearModel& others, const Products& beside,
                                  double equations) const;
 
-  /// Of the family's form with the fewest terms.
+  /// Penalty of the family's form with the fewest terms.
   double leastPenalty(std::size_t family) const;
 
   /// Fall of -2 log likelihood of `equations` normal residuals when their squares fall from one to the other.

@@ -40,8 +40,8 @@ class FittedDay {
   std::vector<const EffectTerm*> terms_;
 };
 
-/// Of where readings are modelled, by some of (steps, sizes), whitened. Whatever moves all that a posture shows is a
-/// small motion, found once for all of its reflectors.
+/// Whitened derivatives of the modelled readings by some of (steps, sizes). Whatever moves all that a posture shows is
+/// a small motion, found once for all of its reflectors.
 class ReadingDerivatives {
  public:
   using Rows = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor>;
@@ -54,7 +54,7 @@ class ReadingDerivatives {
 
   /// The posture of the readings that follow.
   void enter(const frames::PlacedPosture& placed, const Eigen::Ref<const AnglesByTerms>& by_terms);
-  /// Of a reading of it. Valid until the next call.
+  /// Rows of a reading of that posture. Valid until the next call.
   const Rows& of(const Posture& posture, const ReflectorAt& at, const Eigen::Matrix3d& whitening);
 
  private:

@@ -53,7 +53,7 @@ class LinearisedDay {
 
   LinearModel geometryAlone() const;
 
-  /// Of a residual of one coordinate by which the rows are whitened, rms, m.
+  /// The rms noise of one coordinate by which the rows are whitened, m.
   double noise() const;
 
   /// Whitened columns of terms, the geometry not yet projected off.

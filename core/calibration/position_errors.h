@@ -24,13 +24,13 @@ struct ReadingError {
   const Eigen::Vector3d& of(CalibratedModel model) const { return left[static_cast<std::size_t>(model)]; }
 };
 
-/// Of all readings that were not rejected, in the order of the day. None where there is no calibration.
+/// Errors of all readings that were not rejected, in the order of the day. None where there is no calibration.
 std::vector<ReadingError> readingErrors(const Calibration& calibration);
 
 /// Lengths of what a model leaves of each reading, ascending, m.
 std::vector<double> errorLengths(const std::vector<ReadingError>& errors, CalibratedModel model);
 
-/// Of each posture the reading that `model` misses most, largest first; at most `most` of them.
+/// The reading of each posture that `model` misses most, largest first; at most `most` of them.
 std::vector<ReadingError> worstPostures(const std::vector<ReadingError>& errors, CalibratedModel model,
                                         std::size_t most);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "metrology/linear_algebra.h"
 #include "metrology/tail_probability.h"
 
 namespace stiffscope::comparison {
@@ -13,7 +14,7 @@ namespace {
 /// Fits one cause after the other to one change, in parts of its covariance.
 class Fitting {
  public:
-  explicit Fitting(const FoundChange& found) : found_(found), lower_(found.covariance.llt().matrixL()) {
+  explicit Fitting(const FoundChange& found) : found_(found), lower_(choleskyLower(found.covariance)) {
     white_ = lower_.triangularView<Eigen::Lower>().solve(found.change);
   }
 

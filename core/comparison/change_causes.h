@@ -38,8 +38,8 @@ std::vector<CauseEvidence> causesOfMachine(const GeometryNumbers& numbers, const
                                            const std::vector<Eigen::Index>& seen, const FoundChange& found,
                                            const Eigen::MatrixXd& moves);
 
-/// Of reflectors that moved: all turned about axis 6 together (`by_turn`, m/rad), which joint 6's zero does too, or
-/// each by itself. Best first.
+/// Causes by reflectors that moved: all turned about axis 6 together (`by_turn`, m/rad), which joint 6's zero does too,
+/// or each by itself. Best first.
 std::vector<CauseEvidence> causesOfReflectors(const Eigen::VectorXd& by_turn, const FoundChange& found);
 
 }  // namespace stiffscope::comparison

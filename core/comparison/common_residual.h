@@ -16,8 +16,8 @@ struct CommonResidual {
   // Where postures correspond (six or more), by fits to these; else not numbers:
   double of_difference = 0.0;  ///< of what after leaves less what before leaves
   double correlation = 0.0;    ///< of the two
-  /// Of no misfit in common: one-sided, Student's t of the postures' products r_b . r_a, whose mean is zero where both
-  /// are noise.
+  /// p-value of no misfit in common: one-sided, Student's t of the postures' products r_b . r_a, whose mean is zero
+  /// where both are noise.
   double recurs_p = 0.0;
 
   /// Nothing in common (5 %), and in neither state above three times the tracker's noise. Without postures that

@@ -59,8 +59,8 @@ struct StiffnessChange {
   bool same_postures = false;  ///< differences are of fits on the postures that correspond
   bool by_models = false;      ///< they are not: differences are of the two models, with their intervals
   std::size_t postures = 0;    ///< that correspond
-  /// Of the share of the deflection avoided at the reflectors, what the joints' `avoided` leave; not a number where
-  /// none of these is one.
+  /// What the joints' `avoided` leave of the share of the deflection avoided at the reflectors; not a number where none
+  /// of these is one.
   double avoided_rest = 0.0;
 };
 

@@ -41,7 +41,7 @@ DeflectionAvoided deflectionAvoidedAtTargets(const identification::Identificatio
                                              const identification::Identification& after,
                                              const MatchedPostures& matched, const BootstrapOptions& options = {});
 
-/// How much of the deflection at the reflectors a joint takes away that gives less: the share avoided by a unit of
+/// How much of the deflection at the reflectors a stiffer joint avoids: the share avoided by a unit of
 /// c_before
 /// - c_after, 1/(rad/Nm), joint by joint. With d the displacements of a reflector and e = (d_b + d_a) / (|d_b| +
 /// |d_a|),
@@ -49,7 +49,7 @@ DeflectionAvoided deflectionAvoidedAtTargets(const identification::Identificatio
 /// A the mean of the method's equations of both states, so that with u_j = sum e . A_j / sum |d_b| over postures (and
 /// the mean over reflectors) sum_j u_j (c_b,j - c_a,j) and a rest make up the share avoided. The rest is noise, what
 /// loads and postures differ in, and what is no joint spring. Zero where no posture corresponds, or the method's
-/// equations are not of all load cases. Of an available method.
+/// equations are not of all load cases. The method must be available.
 Vector6d avoidedByUnit(const campaign::Campaign& before_campaign, const identification::Identification& before,
                        const campaign::Campaign& after_campaign, const identification::Identification& after,
                        identification::Method method, const MatchedPostures& matched);

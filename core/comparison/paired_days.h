@@ -49,8 +49,8 @@ class PairedDays {
   std::size_t postures_common = 0;
   bool same_postures = false;  ///< fitted on the common readings alone
   std::array<calibration::ArmFit, 2> fits;
-  /// Of each fit's unknowns: by what it leaves, or on the same postures by what the difference of both leaves, where
-  /// what the model misses cancels; then each has half of it.
+  /// Covariance of each fit's unknowns: by what it leaves, or on the same postures by what the difference of both
+  /// leaves, where what the model misses cancels; then each has half of it.
   std::array<Eigen::MatrixXd, 2> covariances;
   std::array<double, 2> left{};  ///< rms of the 3-D position by each fit, m
   std::array<double, 2> rows{};  ///< equations of each fit
@@ -61,7 +61,7 @@ class PairedDays {
   void fit();
   void fitDay(std::size_t k, const std::vector<calibration::EffectPart>& parts);
   void setCovariances();
-  /// Of the covariance that whitens a day's residuals what the tracker declares.
+  /// Share of the covariance that whitens a day's residuals which the tracker declares.
   double noiseShare(std::size_t k) const;
   /// What the residuals of the two days differ by in each posture of day k, in parts of that day's covariance.
   std::vector<Eigen::VectorXd> differences(std::size_t k, const FitEquations& equations) const;

@@ -53,7 +53,7 @@ struct PairedFit {
   Uncertain difference(int joint) const { return combination(joint, -1.0, 1.0); }
   /// 1 - c_a / c_b, to first order: the share of the compliance before that the state after no longer has.
   Uncertain shareTaken(int joint) const;
-  /// Of the scatter errors of c_b and c_a.
+  /// Correlation of the scatter errors of c_b and c_a.
   double correlation(int joint) const;
 };
 

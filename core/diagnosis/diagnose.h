@@ -29,11 +29,11 @@ struct DiagnoseOptions {
 /// it shrinks. Never throws for what the data lacks: effects that cannot be tested say what is missing.
 /// Throws InputError where the campaign has no loads at all, as identify does.
 Diagnosis diagnose(const campaign::Campaign& campaign, const DiagnoseOptions& options = {});
-/// Of a campaign that is of no more use: of a long day's readings those that take no part go before the equations come.
+/// Takes the campaign over: a long day's readings that take no part are freed before the equations are made.
 Diagnosis diagnose(campaign::Campaign&& campaign, const DiagnoseOptions& options = {});
-/// Of a day that is prepared already, as identification and audit see it.
+/// Diagnoses a day that is prepared already, as identification and audit see it.
 Diagnosis diagnose(const preparation::PreparedCampaign& prepared, const DiagnoseOptions& options = {});
-/// Of a study that is there already: studyGap of this day, thinned where it is long, with these options' GapOptions.
+/// Diagnoses by an existing study: studyGap of this day, thinned where it is long, with these options' GapOptions.
 Diagnosis diagnose(const preparation::PreparedCampaign& prepared, const GapStudy& study,
                    const DiagnoseOptions& options = {});
 

@@ -24,11 +24,11 @@ struct Shrink {
 struct EffectClass {
   std::vector<effects::Effect> effects;
   std::string detail;  ///< the pair, the reflector, the joint that it names; empty where nothing is named
-  /// Fall of BIC against the model without it; larger is better. Of the geometry, which no deflection is fitted by: the
-  /// square of its rms over the tolerance, times the loading's equations.
+  /// Fall of BIC against the model without it; larger is better. For the geometry, which no deflection is fitted by:
+  /// the square of its rms over the tolerance, times the loading's equations.
   double score = 0.0;
   Shrink shrink;               ///< of the deflection's rms
-  double explained = 0.0;      ///< the same in variance, less noise
+  double explained = 0.0;      ///< that in variance, less noise
   Shrink shrink_of_positions;  ///< of unloaded absolute positions' misfit; all zero where they are not held
                                ///< against the arm
   bool in_verdict = false;
@@ -128,10 +128,10 @@ struct Diagnosis {
   bool positions_tested = false;
   std::vector<WhereTable> where, where_positions;  ///< of what stiffnesses alone leave
   std::vector<WhereTable> where_after;             ///< of the deflection, with the verdict's effects in the model
-  /// By stiffnesses alone (where the station's motion was taken off: of the readings as they were), and with the
+  /// By stiffnesses alone (of the readings as they were, where they were corrected for the station), and with the
   /// verdict's effects.
   std::vector<PointGap> at_points;
-  WhereTable as_measured;  ///< by posture, of the readings as they were; no rows where nothing was taken off
+  WhereTable as_measured;  ///< by posture, of the readings as they were; no rows where nothing was corrected for
   std::vector<NextMeasurement> next;
   GeometryError geometry;
 
@@ -146,8 +146,9 @@ struct Diagnosis {
   double model_error = 0.0;         ///< rms per coordinate that no effect explains, at the largest load, m; 0: none
   double geometric_stiffness_share = 0.0;
   Shrink shrink_together;  ///< by all that the fit chose
-  /// Nm/rad, by springs alone and with the verdict's effects, with the standard uncertainty. Of the joint fit of all
-  /// load steps; where a model of identification is at hand (extended_model::stateStiffnesses) of its method.
+  /// Nm/rad, by springs alone and with the verdict's effects, with the standard uncertainty: those of the joint fit of
+  /// all load steps; where a model of identification is at hand (extended_model::stateStiffnesses), those of its
+  /// method.
   Vector6d stiffness_before = Vector6d::Zero(), stiffness_after = Vector6d::Zero();
   Vector6d stiffness_after_sd = Vector6d::Zero();
   std::array<bool, 6> identifiable{};

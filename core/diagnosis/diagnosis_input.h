@@ -27,7 +27,8 @@ DiagnosisInput diagnosisInput(const preparation::PreparedCampaign& prepared);
 /// Nests that show no motion by themselves still bound a drift: their rate, with its weight, takes part in the
 /// fit as a reading of trackerDrift's parameters (readings move against what brings them back). Nothing where
 /// there is no rate, or no absolute positions that a drift would move; nothing where the nests do show a
-/// motion, which is taken off instead. Puts the sweeps' epoch between the first round and the loading.
+/// motion, which the readings are corrected for instead. Puts the sweeps' epoch between the first round and the
+/// loading.
 void boundDriftByNests(DiagnosisInput& start, SystemInput& input);
 
 /// What the fit starts from: geometry and stiffnesses as identification has them; what the campaign's states

@@ -35,7 +35,7 @@ ComplianceExpected complianceExpected(const Vector6d& identified);
 
 /// What the gap stands on, fixed for one diagnosis.
 struct SystemInput {
-  const campaign::Campaign& campaign;  ///< screened; the station's motion taken off where nests show it
+  const campaign::Campaign& campaign;  ///< screened, corrected for the station's motion where nests show it
   metrology::TrackerNoise noise;       ///< by the repeats where there are enough, else as declared
   double force_sigma = 0.0, moment_sigma = 0.0;
   std::vector<effects::EffectModel> models;
@@ -45,7 +45,7 @@ struct SystemInput {
   /// What nests say of trackerDrift's parameters: their values, and the inverse covariance of these.
   Vector6d drift = Vector6d::Zero();
   Matrix6d drift_weight = Matrix6d::Zero();
-  const preparation::DriftModel* wandering = nullptr;  ///< of which the interpolated motion was taken off; null: none
+  const preparation::DriftModel* wandering = nullptr;  ///< whose interpolated motion was corrected for; null: none
 };
 
 /// Where one round of linearisation stands.
@@ -72,7 +72,7 @@ struct GapPosture {
   Eigen::MatrixXd noise;
   Eigen::MatrixXd position_lower;  ///< Cholesky factor of that of the position rows, inflated
   numerics::LowerTriangle normal;
-  Eigen::Matrix<double, 7, 7> stiffness_normal;  ///< the same of deflection rows alone, over the compliances
+  Eigen::Matrix<double, 7, 7> stiffness_normal;  ///< normal equations of deflection rows alone, over the compliances
 
   /// Sum of the noise's variances of `rows` rows from `first` on, m^2.
   double noiseSquares(Eigen::Index first, Eigen::Index rows) const;

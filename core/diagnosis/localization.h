@@ -18,9 +18,9 @@ struct GapAsMeasured {
   std::vector<HeldOut> left;  ///< by posture of `fit`: before, of these readings; after, of `fit` with `after`
 };
 
-/// Of the readings with the motion of the station put back; `after`: parameters (allParameters) of the equations of
-/// `fit`. The stiffnesses are fitted in the arm as the sweeps have it: a geometry left free would follow the station.
-/// Empty where nothing can be fitted.
+/// The gap of the readings with the motion of the station put back; `after`: parameters (allParameters) of the
+/// equations of `fit`. The stiffnesses are fitted in the arm as the sweeps have it: a geometry left free would follow
+/// the station. Empty where nothing can be fitted.
 std::optional<GapAsMeasured> gapAsMeasured(const preparation::PreparedCampaign& prepared, const SystemInput& input,
                                            const GapFit& fit, const Eigen::VectorXd& after);
 
@@ -29,7 +29,7 @@ std::optional<GapAsMeasured> gapAsMeasured(const preparation::PreparedCampaign& 
 /// equations of `fit`.
 Gap deflectionGap(const GapFit& alone, const StiffnessesAlone& before, const GapFit& fit, const Eigen::VectorXd& after);
 
-/// The same of the unloaded absolute positions; all zero where they are not held against the arm.
+/// The gap of the unloaded absolute positions; all zero where they are not held against the arm.
 Gap positionGap(const GapFit& alone, const StiffnessesAlone& before, const GapFit& fit, const Eigen::VectorXd& after);
 
 /// Where the gap lies that stiffnesses alone leave: the deflection's by reflector, axes of R0, axes of the

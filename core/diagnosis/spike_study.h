@@ -48,9 +48,10 @@ struct SpikeStudy {
 };
 
 /// Adds effects (SpikedDay) to the readings and diagnoses each spiked day from the start, as if it had been read so.
-/// `baseline`: the diagnosis of the campaign; its effects stay in the readings. Of a long day the postures that the
-/// diagnosis looks at. A spiked day that cannot be diagnosed has no answer. Runs on all cores; the same seed gives the
-/// same counts on any number of them. `progress`: told how many days of how many are done, from one thread at a time.
+/// `baseline`: the diagnosis of the campaign; its effects stay in the readings. A long day is studied on the postures
+/// that the diagnosis looks at. A spiked day that cannot be diagnosed has no answer. Runs on all cores; the same seed
+/// gives the same counts on any number of them. `progress`: told how many days of how many are done, from one thread at
+/// a time.
 SpikeStudy spikeStudy(const campaign::Campaign& campaign, const Diagnosis& baseline, const SpikeOptions& options,
                       const std::function<void(std::size_t done, std::size_t total)>& progress = {});
 

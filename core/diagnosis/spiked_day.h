@@ -36,7 +36,7 @@ struct Spike {
 /// no columns, turns or shifts what lies beyond a joint by a wrong zero or length, in every reading alike.
 ///
 /// Size is in the unit of DetectableSize: sqrt(theta^T N theta / n) times the noise of one state's displacement, N the
-/// whitened normal equations of X over the day's n equations, theta at first order. Of kinematic_error: rms per
+/// whitened normal equations of X over the day's n equations, theta at first order. For kinematic_error: rms per
 /// coordinate of what base and reflectors cannot follow in the unloaded positions (GeometryError::rms).
 ///
 /// It shares its equations with the diagnosis. What it shows is whether an effect that follows them is seen and told

@@ -42,15 +42,15 @@ struct ArmState {
 /// All states of one posture in the order of the load steps; the first is unloaded.
 using PostureStates = std::vector<ArmState>;
 
-/// The geometry's part of a state: posture, axes, flange and own weight at q with the own weight's sag, its
+/// The geometry's part of a state: posture, axes, flange and gravity load at q with the gravity sag, its
 /// joints turned by `joint_offset` (rad) besides.
 ArmState stateAt(const frames::LoadingGeometry& geometry, const Vector6d& q, const Vector6d& joint_offset);
 
-/// The same at joint angles `turned`, its bodies moved.
+/// The geometry's part of a state at joint angles `turned`, its bodies moved.
 ArmState stateMoved(const frames::LoadingGeometry& geometry, const Vector6d& q, const Vector6d& turned,
                     const BodyMotions& moved);
 
-/// The same of a state that is there already: what does not hang on angles and bodies stays.
+/// Brings an existing state there: what does not depend on angles and bodies stays.
 void moveTo(const frames::LoadingGeometry& geometry, const Vector6d& turned, const BodyMotions& moved, ArmState& state);
 
 /// The posture at these angles with its bodies moved.

@@ -75,7 +75,7 @@ constexpr int kToolBody = 7;
 /// A small rigid motion of the arm from one body outwards, in R0, per unit of a parameter.
 struct BodyTwist {
   int first_body = 1;  ///< it and all bodies beyond it move as one
-  /// Whether the axis about which that body turns moves as well: it does where something further in gives (a
+  /// Whether the axis about which that body turns moves as well: it does where something further in deflects (a
   /// base, a link's tip), not where its bearing does.
   bool with_axis = false;
   Eigen::Vector3d pivot = Eigen::Vector3d::Zero();
@@ -131,9 +131,9 @@ std::string parameterUnit(const EffectPart& part, std::size_t k);
 
 /// What an effect is a property of; that decides where its fitted size belongs.
 enum class EffectNature {
-  machine,      ///< how the machine gives: taken off the readings, and added to every predicted deflection
+  machine,      ///< how the machine deflects: readings are corrected for it, every predicted deflection has it
   load,         ///< where the load acts on the tool: the declared point is corrected, for planned loads too
-  measurement,  ///< a fault of the day's measurement: taken off the readings; the machine does not do it
+  measurement,  ///< a fault of the day's measurement: readings are corrected for it, predictions lack it
   geometry,     ///< lengths and zeros: every identification has the measured ones already, nothing is added
 };
 

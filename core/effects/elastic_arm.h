@@ -33,7 +33,7 @@ struct ToolLoad {
 /// The arm on its joint springs and with what effects of the machine add, at rest, finite rotations: joint
 /// springs turn by c tau plus the angles of effects that turn joints; a bearing's tilt, a link's tip and the
 /// base move what lies beyond them, the plate the tool. Each by the effect's own equation, its moments and
-/// axes taken where the deflected arm has them, so that what one gives changes what the others carry; found
+/// axes taken where the deflected arm has them, so that what one deflects changes what the others carry; found
 /// by fixed-point iteration to 1e-10 rad, a contraction of a hundredth a step.
 class ElasticArm {
  public:
@@ -61,10 +61,10 @@ class ElasticArm {
 /// alone). Empty where the arm does not come to rest.
 using RestingFlange = std::function<std::optional<Eigen::Isometry3d>(const Vector6d& commands, const FlangeLoad& load)>;
 
-/// An arm that gives at more than its joint springs.
+/// An arm with effects that deflect besides its joint springs.
 struct EffectDeflection {
   RestingFlange flange;
-  Matrix6d spring_covariance = Matrix6d::Zero();  ///< of the joint compliances, what gives besides taken as known
+  Matrix6d spring_covariance = Matrix6d::Zero();  ///< of the joint compliances, the effects taken as known
   /// The arm moved by one standard deviation along each independent direction of what else is uncertain,
   /// joint springs following: what such a move changes in a result is a standard uncertainty of it.
   std::vector<RestingFlange> varied;

@@ -13,7 +13,7 @@
 
 namespace stiffscope::elastic_model {
 
-/// What a chain is made from: one method's geometry and stiffnesses, and what gives besides.
+/// What a chain is made from: one method's geometry and stiffnesses, and the effects beside them.
 struct ElasticSource {
   const campaign::Campaign& campaign;
   const frames::LoadingGeometry& geometry;            ///< the method's own, in R0

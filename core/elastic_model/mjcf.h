@@ -11,10 +11,10 @@ namespace stiffscope::elastic_model {
 inline constexpr double kDriveGain = 1e3;
 
 /// The chain as a model of MuJoCo (MJCF, its XML reference: body, inertial, joint, site, position): base_link is the
-/// world; a drive is a hinge with its limits and a position actuator of the joint's angle, which gives by a thousandth
-/// of what the stiffest spring does; a spring is a hinge or slide with `stiffness`, springref 0. Bodies without a mass
-/// have kStandInMass and kStandInInertia. SI and radians; numbers read back as they are. `comments` go to the head of
-/// the file, a comment each.
+/// world; a drive is a hinge with its limits and a position actuator of the joint's angle, which deflects by a
+/// thousandth of what the stiffest spring does; a spring is a hinge or slide with `stiffness`, springref 0. Bodies
+/// without a mass have kStandInMass and kStandInInertia. SI and radians; numbers read back as they are. `comments` go
+/// to the head of the file, a comment each.
 std::string mjcf(const ElasticChain& chain, const std::vector<std::string>& comments);
 
 }  // namespace stiffscope::elastic_model

@@ -26,10 +26,10 @@ class UnfitEffect : public std::runtime_error {
 };
 
 /// Throws UnfitEffect where an effect cannot be tested with what the campaign has, naming what is missing, or where it
-/// cannot be told from stiffnesses and geometry in these postures. No effect to fit: `added` is empty. Of a long day
+/// cannot be told from stiffnesses and geometry in these postures. No effect to fit: `added` is empty. On a long day
 /// (diagnosis::isLong) they are fitted to the postures that the diagnosis takes; `day` has all.
 EffectFit fitEffects(const preparation::PreparedCampaign& prepared, const RequestedEffects& wanted);
-/// Of a campaign as it was read, which is prepared first.
+/// Fits to a campaign as it was read, which is prepared first.
 EffectFit fitEffects(const campaign::Campaign& campaign, const RequestedEffects& wanted);
 
 /// What was fitted to diagnosis::spreadForDiagnosis(whole), for the whole day: `day` in the numbers of its postures.

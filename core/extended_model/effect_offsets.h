@@ -10,16 +10,16 @@ namespace stiffscope::extended_model {
 /// How far the fitted effects move reflectors, in R0, m: state by state of one posture, own weight's part included.
 class PostureOffsets {
  public:
-  /// Of effects of the machine where `machine`, and of what shifts readings where `readings`.
+  /// Which effects count: of the machine where `machine`, those that shift readings where `readings`.
   struct Which {
     bool machine = true, readings = true;
   };
 
   PostureOffsets(const EffectFit& effects, const effects::PostureStates& posture, Which which);
 
-  /// Of a reflector that stands at `place` unloaded, one a state. The machine's part is the difference between where
-  /// the arm with its effects stands and where joint springs alone would have it (ElasticArm), readings' the fit's own
-  /// linear model.
+  /// Offsets of a reflector that is at `place` unloaded, one a state. The machine's part is the difference between
+  /// where the arm with its effects stands and where joint springs alone would have it (ElasticArm), readings' the
+  /// fit's own linear model.
   std::vector<Eigen::Vector3d> of(int target, const Eigen::Vector3d& place) const;
 
  private:
@@ -50,8 +50,8 @@ Eigen::MatrixXd displacementByEffects(const diagnosis::SystemInput& input, const
                                       std::size_t state, const std::vector<int>& targets,
                                       const std::vector<Eigen::Vector3d>& places);
 
-/// The same at joint angles q (rad) under a load that the day need not have measured, by each column of `steps` (of
-/// EffectFit::free): of reflectors that stand at `targets_in_flange`, of the campaign's in their order. R0, m.
+/// Displacements at joint angles q (rad) under a load that the day need not have measured, by each column of `steps`
+/// (of EffectFit::free): of reflectors that stand at `targets_in_flange`, of the campaign's in their order. R0, m.
 Eigen::MatrixXd displacementBySteps(const EffectFit& effects, const Eigen::MatrixXd& steps, const Vector6d& q,
                                     const effects::FlangeLoad& load,
                                     const std::vector<Eigen::Vector3d>& targets_in_flange);

@@ -26,8 +26,8 @@ struct PosteriorOptions {
 /// Prior: the horseshoe (Carvalho, Polson and Scott, Biometrika 97, 2010, 465), x_i ~ N(0, l_i^2 t_g^2) with l_i ~
 /// C+(0, 1) for the parameter and t_g ~ C+(0, kUsual) for its effect g; x_i > 0 where that is physics. Most effects of
 /// a machine are too small to matter and some are large: this prior says just that. Where the data do not see a
-/// parameter it stays as small as its effect's others; where they see it, the heavy tails leave it as it is. Of a
-/// parameter that is declared with a standard uncertainty the prior is normal with that.
+/// parameter it stays as small as its effect's others; where they see it, the heavy tails leave it as it is. The
+/// prior of a parameter that is declared with a standard uncertainty is normal with that.
 ///
 /// By Gibbs sampling: the parameters of either sign jointly, those that are positive one after the other with the
 /// former integrated out, the scales by their inverse gamma mixtures (Makalic and Schmidt, IEEE Signal Processing

@@ -12,7 +12,7 @@ ExtendedModel extendModel(const campaign::Campaign& campaign, EffectFit effects,
                           const identification::IdentifyOptions& options);
 
 /// The model that the data support: the effects that the joint fit of a diagnosis chooses, joint springs alone where it
-/// chooses none, and in the intervals what could still hide (hidden_effects.h). Of a long day the effects are chosen,
+/// chooses none, and in the intervals what could still hide (hidden_effects.h). On a long day the effects are chosen,
 /// and what could hide is weighed, on the postures that the diagnosis looks at; values are of all.
 ///
 /// `prepared`: screened and corrected for drift. `campaign`: what is identified from, `prepared.campaign` or the same

@@ -25,10 +25,10 @@ struct EffectSpread {
 /// and the three methods run on the rest as on any campaign. All that asks for other sizes of the effects goes through
 /// the methods' equations A c + E theta = b (method_equations.h). What then stands in `with`:
 ///  - uncertainty: the scatter between postures that is left, what frames and calibration share, and, as a part of its
-///    own, sum_k d_k d_k^T over the columns of EffectSpread. Of least squares the two add exactly, because the springs'
+///    own, sum_k d_k d_k^T over the columns of EffectSpread. In least squares the two add exactly, because the springs'
 ///    estimate at given effects is uncorrelated with the effects' own; that the effects are weighted otherwise than the
 ///    methods leaves a little. Degrees of freedom that the effects' parameters take are counted in sigma and scatter;
-///  - displacements are the machine's: with faults of the measurement taken off, with what the machine does besides its
+///  - displacements are the machine's: corrected for faults of the measurement, with what the machine does besides its
 ///    springs left in. Shares compensated are of these;
 ///  - subsets: the effects' parameters are fitted anew on each subset's postures, so that held out is held out.
 /// Parts that were chosen because they stand out stay chosen in all of this.

@@ -23,8 +23,8 @@ enum class BudgetSource {
   load_cell_gain,  ///< as declared
   masses,          ///< the URDF's, as declared
   tracker_scale,   ///< as declared
-  standing_load,   ///< joints go on giving while a load stands (course_of_day.h)
-  over_day,        ///< joints give more or less as the day goes on
+  standing_load,   ///< joints go on deflecting while a load stays on (course_of_day.h)
+  over_day,        ///< compliances grow or shrink over the day
   apparent,        ///< between this model and joint springs alone, where no model explains the gap
 };
 
@@ -59,7 +59,7 @@ struct HiddenDraws {
   std::vector<bool> declared;           ///< whether its size is known beforehand
   Eigen::MatrixXd off;                  ///< theta - theta_fit
 
-  /// Of one method's compliances.
+  /// Errors of one method's compliances.
   struct OfMethod {
     std::vector<Eigen::Index> possible;                   ///< draws in which no stiffness is negative
     Eigen::Matrix<double, 6, Eigen::Dynamic> compliance;  ///< c of these draws less the estimate's, rad/Nm
@@ -71,7 +71,7 @@ struct HiddenDraws {
 /// How far the data let anything besides the fitted model move the stiffnesses.
 struct HiddenEffects {
   double lack_of_fit = 0.0;  ///< chi2 per equation of the loading that joint springs alone leave
-  double left_over = 0.0;    ///< the same of the model
+  double left_over = 0.0;    ///< that of the model
   /// Share of the gap beyond noise that the model leaves, and whether that is too much to call the model an
   /// explanation: then the intervals hold what joint springs alone say, too.
   double unexplained_share = 0.0;

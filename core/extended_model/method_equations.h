@@ -22,7 +22,7 @@ struct CaseEffects {
 std::vector<CaseEffects> caseEffects(const EffectFit& effects, const Eigen::MatrixXd& steps,
                                      const identification::Identification& result);
 
-/// The same of any parameters of a study's equations, a step each of its own unit; `by_machine` empty. In postures that
+/// Effects of any parameters of a study's equations, a step each of its own unit; `by_machine` empty. In postures that
 /// the study does not have (not every reflector read in all load steps) nothing moves.
 std::vector<CaseEffects> caseEffects(const diagnosis::GapStudy& study, const EffectColumns& columns,
                                      const identification::Identification& result);

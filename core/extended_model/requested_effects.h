@@ -28,16 +28,16 @@ struct RequestedEffects {
   std::vector<Remark> notes;
 };
 
-/// Of words such as `bearing_tilt`, `bearing_tilt:3`, `joint_coupling:2-3`, `target_motion:P12`; an effect that
+/// Effects by words such as `bearing_tilt`, `bearing_tilt:3`, `joint_coupling:2-3`, `target_motion:P12`; an effect that
 /// comes again with another detail has both. Throws InputError with the nearest known name.
 RequestedEffects requestedEffects(const std::vector<std::string>& words, const campaign::Campaign& campaign);
 
-/// What a diagnosis names. Of effects that it cannot tell apart the first, which fits best. Nothing, and why,
+/// What a diagnosis names: the first, which fits best, of effects that it cannot tell apart. Nothing, and why,
 /// where it names none, or only `unknown`.
 RequestedEffects namedBy(const diagnosis::Diagnosis& diagnosis);
 
 /// What the joint fit of a diagnosis has chosen, part by part; without what the nests put in, which preparation has
-/// taken off the readings.
+/// corrected the readings for.
 RequestedEffects chosenBy(const diagnosis::GapStudy& study);
 
 }  // namespace stiffscope::extended_model

@@ -26,7 +26,7 @@ struct SeenCombination {
   double sd = 0.0;     ///< standard uncertainty of `value`, rad/Nm
 };
 
-/// Of each identifiable joint the parameter whose combination with the compliance is known best, where it is known at
+/// For each identifiable joint the parameter whose combination with the compliance is known best, where it is known at
 /// least three times better than the compliance itself: the ratio that leaves least of the draws, least squares about
 /// the fit. `moved` and `off`: how far the compliances (6 x draws) and the parameters (one a row) are from the fit;
 /// `own`: covariance of the compliances by everything else, which the combination keeps.

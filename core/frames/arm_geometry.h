@@ -17,7 +17,7 @@ struct LoadingGeometry {
   std::optional<Eigen::Matrix3d> displacements_in_r0;  ///< turns the `displacements` table's vectors into R0
   Eigen::Isometry3d r0_from_base_link = Eigen::Isometry3d::Identity();
   robot::GravityLoad weight;
-  Vector6d compliance = Vector6d::Zero();  ///< for the own weight's sag, rad/Nm; zero: rigid
+  Vector6d compliance = Vector6d::Zero();  ///< for the gravity sag, rad/Nm; zero: rigid
 
   /// Joint angles with the sag in.
   Vector6d sagged(const Vector6d& q) const { return robot::saggedAngles(arm, q, weight, compliance); }

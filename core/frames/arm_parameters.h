@@ -59,7 +59,7 @@ struct PlacedArm {
   explicit PlacedArm(const AxesAtStart& start, const Eigen::Vector3d& centre = Eigen::Vector3d::Zero());
   PlacedArm(const AxesAtStart& start, const Eigen::Vector3d& centre, const AxesSteps& axes_by, const Vector6d& base_by);
 
-  /// Of everything that is seen, by a small change of base parameter k: turns of the readings move it the other way.
+  /// Motion of everything that is seen by a small change of base parameter k: it moves against the readings' frame.
   SmallMotion byBase(std::size_t k) const;
 };
 
@@ -75,12 +75,12 @@ class PlacedPosture {
 
   Eigen::Vector3d position(const Eigen::Vector3d& at_zero) const { return posture_.motion[6] * at_zero; }
 
-  // Of a point of the flange that stands at `position` now.
+  // Derivatives of a point of the flange that is at `position` now.
   Eigen::Matrix<double, 3, ArmParameters::kAxes> byAxes(const Eigen::Vector3d& position) const;
   Eigen::Matrix<double, 3, ArmParameters::kBase> byBase(const Eigen::Vector3d& position) const;
   Eigen::Matrix3d byTarget() const { return posture_.motion[6].linear(); }
   Matrix36d byAngles(const Eigen::Vector3d& position) const;
-  /// Of the flange by a small turn of joint j.
+  /// Motion of the flange by a small turn of joint j.
   SmallMotion byJoint(std::size_t j) const;
   /// How body b (0: the base, 6: the flange) stands turned from where it is at zero.
   Eigen::Matrix3d turnOf(std::size_t body) const { return posture_.motion[body].linear(); }

@@ -40,7 +40,7 @@ struct WristCentre {
   std::vector<int> targets;  ///< of the spheres
   std::vector<WristTableRow> table;  ///< Table I
   Eigen::Vector3d table_mean_in_r0 = Eigen::Vector3d::Zero();
-  /// Of the mean: the rows' readings are independent of each other, R0 is common to them. R0 axes, m^2.
+  /// Covariance of the mean: the rows' readings are independent of each other, R0 is common to them. R0 axes, m^2.
   Eigen::Matrix3d table_mean_covariance = Eigen::Matrix3d::Zero();
 
   // Side by side with the sphere centre, all at q (docs/method.md, Wrist centre).
@@ -65,15 +65,16 @@ struct LinkGeometry {
   Eigen::Vector3d at_point_in_r0 = Eigen::Vector3d::Zero();  ///< on the first axis; only meant for near_parallel
   /// Standard uncertainties by FramesCovariance; empty where an axis was not measured.
   std::optional<double> distance_sd, angle_sd;
-  double distance_sag_sd = 0.0;  ///< what of distance_sd comes from the stiffnesses by which the sag was taken off, m
-  double distance_by_sag = 0.0;  ///< how far taking off the sag moved the distance, m: an error of its model is of this
+  double distance_sag_sd = 0.0;  ///< part of distance_sd by the stiffnesses with which the sag was corrected for, m
+  double distance_by_sag =
+      0.0;  ///< how far correcting for the sag moved the distance, m: an error of its model is of this
   double nominal_distance = 0.0;  ///< of the URDF, by the same rule
   double nominal_angle = 0.0;
 };
 
 /// Link i between axes i+1 and i+2 of the arm (paper, II.D: link lengths by circle-point). For axes within a degree of
 /// parallel the common perpendicular's place is undetermined: their distance is taken in the plane normal to the first,
-/// at the foot on it of the common perpendicular with the axis before (Hayati). Of three axes within a degree of
+/// at the foot on it of the common perpendicular with the axis before (Hayati). For three axes within a degree of
 /// parallel that foot is undetermined too, kilometres away: there the point of the axis before is carried over.
 std::array<LinkGeometry, 5> linkGeometry(const robot::Robot& nominal, const ArmInR0& arm);
 
@@ -91,12 +92,13 @@ struct FramesCovariance {
   static constexpr Eigen::Index kR0 = 0, kDistances = 6, kAngles = 11, kWristCentre = 16, kRadii = 19;
 
   Eigen::MatrixXd readings;  ///< by the noise of the sweeps' readings
-  Eigen::MatrixXd sag;       ///< by the covariance of the stiffnesses with which the arm's sag was taken off
+  Eigen::MatrixXd sag;       ///< by the covariance of the stiffnesses with which the sag was corrected for
   Eigen::VectorXd by_scale;  ///< how a relative error of the tracker's scale, common to all readings, moves each
 
   /// How one declared standard uncertainty of the URDF's masses, common to all, moves each through the sag.
   Eigen::VectorXd by_masses;
-  /// By what could give besides joint springs under the own weight (extended_model::hiddenFrames); empty: not weighed.
+  /// By what could deflect besides joint springs under the gravity load (extended_model::hiddenFrames); empty: not
+  /// weighed.
   Eigen::MatrixXd hidden;
   /// Relative standard uncertainty of the tracker's scale as declared; 1 K of air temperature that is not known makes
   /// 1e-6 (Edlen's equation of the refractive index of air).
@@ -133,7 +135,7 @@ struct Frames {
   Eigen::Vector3d tcp_in_flange = Eigen::Vector3d::Zero();  ///< P_TCP: where axis 6 pierces the flange plane
   robot::GravityLoad weight;                                ///< in R0
   bool sag_removed = false;                                 ///< readings were referred to the rigid arm
-  double largest_sag = 0.0;                                 ///< of a reading of the sweeps, taken off, m
+  double largest_sag = 0.0;                                 ///< largest correction of a reading of the sweeps, m
   Remark sag_note;                                          ///< why not, or with which stiffnesses
   FramesCovariance covariance;  ///< of R0, links and wrist; the arm's own sag is in it as far as stiffnesses tell
 };
@@ -141,20 +143,20 @@ struct Frames {
 /// With the arm taken as rigid under its own weight.
 Frames measureFrames(const campaign::Campaign& campaign);
 
-/// Once more with the sag taken off the readings: by the joint compliances given (rad/Nm) and the arm as measured so
-/// far. Its error is that of `so_far` shrunk about a thousandfold. Where masses are not known, `so_far` with a note.
+/// Measures again with the readings corrected for the sag by these joint compliances (rad/Nm) and the arm as measured
+/// so far. Its error is that of `so_far` shrunk about a thousandfold. Where masses are not known, `so_far` with a note.
 /// `covariance` of the compliances, where it is given and finite, is propagated into that of the frames, by differences
 /// of the whole measurement. It knows nothing of what is wrong with a sag by joint springs alone: bearings that
-/// give across their axes bend the arm too, and falsify the springs; LinkGeometry::distance_by_sag shows the stake, and
-/// FramesCovariance::hidden weighs it.
+/// deflect across their axes bend the arm too, and falsify the springs; LinkGeometry::distance_by_sag shows the stake,
+/// and FramesCovariance::hidden weighs it.
 Frames refineFrames(const campaign::Campaign& campaign, const Frames& so_far, const Vector6d& compliance,
                     const std::optional<Matrix6d>& covariance = std::nullopt);
 
 /// How the numbers of FramesCovariance differ between two measurements of the same sweeps, in their order.
 Eigen::VectorXd framesDifference(const Frames& from, const Frames& to);
 
-/// What these sweeps give with the sag of `frames` taken off by these compliances, less `frames`: the numbers of
-/// FramesCovariance in their order. Of a campaign with the tables and targets that `frames` was measured from.
+/// The frames by these sweeps, corrected for the sag of `frames` by these compliances, less `frames`: the numbers of
+/// FramesCovariance in their order. The campaign has the tables and targets that `frames` was measured from.
 Eigen::VectorXd framesChange(const campaign::Campaign& campaign, const Frames& frames, const Vector6d& compliance);
 
 /// r0_from_points for a table: the measured frame for readings in the sweeps' frame; for readings in base_link with

@@ -21,7 +21,7 @@ struct UnloadedPosition {
   int readings = 0;
 };
 
-/// Of step 0, in the order of poses, then targets. Empty without `loading` or `states`.
+/// Positions in load step 0, in the order of poses, then targets. Empty without `loading` or `states`.
 std::vector<UnloadedPosition> unloadedPositions(const campaign::Campaign& campaign);
 
 /// Where the base stands in the loading's readings, and the reflectors on the flange, found from postures
@@ -55,7 +55,7 @@ struct GeometryCalibration {
 };
 
 /// Partial Pose's first step (Wu, Klimchik et al.; paper IV.B): ArmParameters by least squares on where the
-/// reflectors stand unloaded in all postures (step 0), with the own weight's sag at `start.compliance` in the
+/// reflectors stand unloaded in all postures (step 0), with the gravity sag at `start.compliance` in the
 /// model; weighted by the tracker's covariance where it is declared. Solved by Ceres (Levenberg-Marquardt). Parameters
 /// that the positions do not see (the axes can be shifted against base and tool) are found from the rank of the
 /// Jacobian, fixed and named. Not done, with the reason: without absolute unloaded points, with fewer positions than

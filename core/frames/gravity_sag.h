@@ -37,7 +37,7 @@ class SagModel {
 struct RigidPoints {
   std::vector<Eigen::Vector3d> circle_sweeps;
   std::vector<Eigen::Vector3d> wrist_sweep;
-  double largest_sag = 0.0;  ///< taken off a reading, m
+  double largest_sag = 0.0;  ///< largest correction of a reading, m
 };
 
 RigidPoints rigidPoints(const campaign::Campaign& campaign, const SagModel& sag);

@@ -41,7 +41,8 @@ metrology::Line turnedBack(const std::vector<metrology::Line>& axes_at_zero, con
 /// The tracker's noise as the metrology package takes it.
 metrology::TrackerNoise trackerNoise(const campaign::Tracker& tracker);
 
-/// Of the six axes' parameters at zero, four an axis in the order of MeasuredLine, at MeasuredAxis::at_zero. m, rad.
+/// Covariance of the six axes' parameters at zero, four an axis in the order of MeasuredLine, at MeasuredAxis::at_zero.
+/// m, rad.
 using AxesCovariance = Eigen::Matrix<double, 24, 24>;
 
 /// Law of propagation (GUM 5.2.2) from the fits, which are independent of each other, to the axes at zero, which are

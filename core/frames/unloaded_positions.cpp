@@ -7,6 +7,7 @@
 #include "core/robot/kinematics.h"
 #include "metrology/linear_algebra.h"
 #include "metrology/registration.h"
+#include "metrology/rigid_motion.h"
 
 namespace stiffscope::frames {
 
@@ -56,12 +57,10 @@ std::optional<BaseFromPostures> baseFromPostures(const LoadingGeometry& geometry
     const Eigen::Matrix3d by_model = seen.posture.motion[6].linear() * first.posture.motion[6].linear().transpose();
     cross += robot::rotationVector(*turn) * robot::rotationVector(by_model).transpose();
   }
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(cross, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const metrology::NearestRotation nearest = metrology::nearestRotation(cross);
   constexpr double kOneAxis = 1e-3;
-  if (!(svd.singularValues()[1] > kOneAxis * svd.singularValues()[0])) return std::nullopt;
-  const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0;
-  const Eigen::Matrix3d points_from_base =
-      svd.matrixU() * Eigen::Vector3d(1.0, 1.0, sign).asDiagonal() * svd.matrixV().transpose();
+  if (!(nearest.singular_values[1] > kOneAxis * nearest.singular_values[0])) return std::nullopt;
+  const Eigen::Matrix3d& points_from_base = nearest.rotation;
 
   // point = R (M x_k + m) + t is linear in t and the x_k.
   const auto size = static_cast<Eigen::Index>(3 + 3 * target_count);

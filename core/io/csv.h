@@ -39,7 +39,7 @@ class CsvMarks {
  private:
   static constexpr int kBlock = 64;
 
-  // Of what it is given, so that an object of this class can stay in registers.
+  // Static, so that an object of this class can stay in registers.
   static std::uint64_t marksOfBlock(const char* block, const char* end);
 
   const char *end_, *block_ = nullptr;

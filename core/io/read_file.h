@@ -58,7 +58,7 @@ struct TextFile {
 /// files are read on all cores.
 TextFile readTextFileWithStamp(const std::filesystem::path& path, std::size_t largest = kLargestTable);
 
-/// The same of a file in any encoding: nothing is asked of its bytes.
+/// The bytes of a file in any encoding, unchecked, with its stamp.
 TextFile readBytesWithStamp(const std::filesystem::path& path, std::size_t largest = kLargestTable);
 
 /// The bytes alone.

@@ -11,12 +11,7 @@ namespace stiffscope::numerics {
 std::vector<int> columnsInSpanOfEarlier(const Eigen::MatrixXd& jacobian, const std::vector<int>& order);
 
 /// [A y]^T [A y] of whitened equations; half of it computed, the rest mirrored.
-inline Eigen::MatrixXd normalMatrix(const Eigen::MatrixXd& equations) {
-  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(equations.cols(), equations.cols());
-  normal.selfadjointView<Eigen::Lower>().rankUpdate(equations.transpose());
-  normal.triangularView<Eigen::StrictlyUpper>() = normal.transpose();
-  return normal;
-}
+Eigen::MatrixXd normalMatrix(const Eigen::MatrixXd& equations);
 
 /// Half of a symmetric matrix, its lower triangle column by column: of many matrices that are only summed.
 class LowerTriangle {

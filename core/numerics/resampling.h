@@ -16,12 +16,12 @@ namespace stiffscope::numerics {
 /// How often each takes part.
 using Weights = std::vector<double>;
 
-/// Value below which `share` of the ascending values lie, linear between neighbours. Of at least one value.
+/// Value below which `share` of the ascending values lie, linear between neighbours. Needs at least one value.
 double quantile(const std::vector<double>& ascending, double share);
 
-/// The middle one of the values; of an even number the mean of the two in the middle. 0 of none.
+/// The middle value; for an even number of values the mean of the two in the middle, 0 for none.
 double median(std::vector<double> values);
-/// The same, of an even number the higher of the two. Of at least one value.
+/// The middle value; for an even number of values the higher of the two in the middle. Needs at least one value.
 double upperMedian(std::vector<double> values);
 
 /// A random index below `count`; the bias of % is below 1e-15 for a few thousand.

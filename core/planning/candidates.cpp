@@ -12,6 +12,7 @@
 #include "core/io/input_error.h"
 #include "core/io/units.h"
 #include "core/robot/wrench.h"
+#include "metrology/linear_algebra.h"
 
 namespace stiffscope::planning {
 
@@ -85,11 +86,9 @@ Eigen::Vector3d hookOf(const std::vector<std::pair<robot::ArmPosture, robot::Wre
     normal += force.squaredNorm() * Eigen::Matrix3d::Identity() - force * force.transpose();
     right += force.cross(moment);
   }
-  Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix3d> solver;
-  solver.setThreshold(
-      1e-4);  // forces within half a degree of one line of the flange leave the place along it open: nearest
-  solver.compute(normal);
-  return solver.solve(right);
+  // Forces within half a degree of one line of the flange leave the place along it open: nearest.
+  constexpr double kOneLine = 1e-4;
+  return leastSquaresSolution(normal, right, kOneLine);
 }
 
 void placeLoad(const campaign::Campaign& campaign, const identification::Identification* identified,
@@ -398,7 +397,7 @@ Candidate candidateAt(const PlanningArm& arm, const Vector6d& q, const Eigen::Ve
     across += own.transpose() * weighed;
   }
   // The inverse of S + E E^T by Woodbury.
-  if (moves.cols() > 0) candidate.information -= across.transpose() * among.llt().solve(across);
+  if (moves.cols() > 0) candidate.information -= across.transpose() * solvePositive(among, across);
   return candidate;
 }
 

@@ -67,8 +67,8 @@ struct PlanningArm {
 PlanningArm planningArm(const campaign::Campaign& campaign, const identification::Identification* identified,
                         const PlanningInputs& inputs);
 
-/// The same of a day without a load, in base_link: R0 is base_link, nothing hangs, and of `inputs` only tracker, its
-/// noise and repeats count.
+/// The arm of a day without a load, in base_link: R0 is base_link, nothing hangs, and only the tracker, its noise and
+/// the repeats of `inputs` count.
 PlanningArm unloadedPlanningArm(const campaign::Campaign& campaign, const PlanningInputs& inputs);
 
 /// What a person at the robot would keep to. Lengths m, angles rad.
@@ -107,9 +107,9 @@ struct Candidate {
   Vector6d q = Vector6d::Zero();                        ///< rad
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< of the load, unit, R0
   identification::LoadCase load_case;                   ///< posture and wrench, R0; no readings
-  /// Of the compliances c: A^T S^-1 A over the posture's reflectors, A = J_m diag(J_w^T W) as in paper (12), S the
-  /// covariance of their displacements: noise and misfit, and E E^T with E the moves by the effects' uncertainty
-  /// (EffectDoubt), as if a new draw of them in every posture. (Nm/rad)^2.
+  /// Information on the compliances c: A^T S^-1 A over the posture's reflectors, A = J_m diag(J_w^T W) as in paper
+  /// (12), S the covariance of their displacements: noise and misfit, and E E^T with E the moves by the effects'
+  /// uncertainty (EffectDoubt), as if a new draw of them in every posture. (Nm/rad)^2.
   Matrix6d information = Matrix6d::Zero();
 };
 
@@ -125,7 +125,7 @@ struct CandidateDraw {
 /// where not one keeps them all.
 CandidateDraw drawCandidates(const PlanningArm& arm, const PostureRules& rules, int count, std::uint64_t seed);
 
-/// The same of a posture that is given.
+/// The candidate of a given posture.
 Candidate candidateAt(const PlanningArm& arm, const Vector6d& q, const Eigen::Vector3d& direction);
 
 /// Unit directions in R0 that a load may have.

@@ -183,7 +183,7 @@ double UnloadedInformation::orderValue(const std::vector<Vector6d>& sequence,
   const Eigen::VectorXd usual = usual_.tail(ordered);
   own = (usual.asDiagonal() * own * usual.asDiagonal()).eval();
   own += Eigen::MatrixXd::Identity(ordered, ordered);
-  return 2.0 * Eigen::MatrixXd(own.llt().matrixL()).diagonal().array().log().sum();
+  return 2.0 * choleskyLower(own).diagonal().array().log().sum();
 }
 
 UnloadedSight UnloadedInformation::sightOf(const std::vector<Vector6d>& sequence, bool details) const {

@@ -41,7 +41,7 @@ class UnloadedInformation {
   /// Mean of J^T J over workspace and reflectors: trace(C W) is the variance of a position.
   const Eigen::MatrixXd& workspace() const { return workspace_; }
 
-  /// Of a sequence; `measured`: a day before it.
+  /// What a sequence sees; `measured`: a day before it.
   UnloadedSight sightOf(const std::vector<Vector6d>& sequence, bool details) const;
   /// Logarithm of the determinant of the information on effects that depend on the order (backlash, read-back, drift,
   /// growth, scale), usual sizes 1; `steady_inverse`: covariance of everything else by these postures.

@@ -122,7 +122,7 @@ class UnloadedPlanner {
                        const Eigen::MatrixXd& weighted) {
     Eigen::MatrixXd among = rows * covariance * rows.transpose();
     among.diagonal().array() += 1.0;
-    return among.llt().solve(rows * weighted * rows.transpose()).trace();
+    return solvePositive(among, rows * weighted * rows.transpose()).trace();
   }
 
   static Eigen::MatrixXd inverse(const Eigen::MatrixXd& normal) {

@@ -22,7 +22,7 @@ struct CartesianStiffness {
   Matrix6d compliance = Matrix6d::Zero();
   bool invertible = false;                ///< false in a singularity, and where a joint counts as rigid
   Matrix6d stiffness = Matrix6d::Zero();  ///< K_x = C_x^-1, paper (4); (6) without K_c. Zero if not invertible
-  /// Of the translational block of C_x: a force alone acts, the flange is free to turn. Softest direction
+  /// By the translational block of C_x: a force alone acts, the flange is free to turn. Softest direction
   /// first.
   std::array<PrincipalStiffness, 3> principal;
   double anisotropy() const { return principal[2].stiffness / principal[0].stiffness; }

@@ -27,7 +27,7 @@ using ArmAxes = std::array<metrology::Line, 6>;
 /// Rigid forward kinematics: motion[b] = exp(xi_1 q_1) ... exp(xi_b q_b). q in rad.
 ArmPosture postureAt(const Robot& robot, const Vector6d& q);
 
-/// The same of axes at zero, all bodies carried along by a motion of the base: motion[0] is that.
+/// Forward kinematics of axes at zero, with all bodies carried along by a motion of the base, which is motion[0].
 ArmPosture postureAt(const ArmAxes& axes_at_zero, const Vector6d& q, const Eigen::Isometry3d& base);
 
 /// Joint axis `joint` (0..5) in the base frame at this posture.

@@ -11,7 +11,7 @@
 
 namespace stiffscope::simulation {
 
-/// A force (N, base_link axes) that keeps size and direction while the machine gives under it.
+/// A force (N, base_link axes) that keeps size and direction while the machine deflects under it.
 struct DeadForce {
   Eigen::Vector3d point_in_flange = Eigen::Vector3d::Zero();
   Eigen::Vector3d force_in_base = Eigen::Vector3d::Zero();
@@ -55,7 +55,7 @@ double loadPotential(const AppliedLoad& load, const Eigen::Vector3d& point_in_ba
 struct Placement {
   std::array<Eigen::Isometry3d, 7> body_motions;  ///< nominal place at zero -> place now, base_link; [0] the base
   Eigen::Isometry3d tool_motion;                  ///< the same beyond the last link element: flange and tool
-  std::vector<Eigen::Isometry3d> before_giving;   ///< base_from_element of each element, before it gives
+  std::vector<Eigen::Isometry3d> before_giving;   ///< base_from_element of each element, before it deflects
 };
 
 Placement place(const ElasticMachine& machine, const Vector6d& q, const Eigen::VectorXd& x);
@@ -71,7 +71,7 @@ double potentialEnergy(const ElasticMachine& machine, const Vector6d& q, const A
                        const Eigen::VectorXd& x, Anchors anchors = nullptr);
 
 /// dPi/dx, exact (no differences): with F and M the sum of forces and of moments about the element's
-/// displaced origin of everything beyond, and R the element's axes before giving,
+/// displaced origin of everything beyond, and R the element's axes before deflecting,
 ///   dPi/du = K_u d - R' F,   dPi/dr = K_r d - J_l(r)' R' M      (leftJacobian of rotation.h),
 /// and curves and shared springs straight in their coordinates.
 Eigen::VectorXd energyGradient(const ElasticMachine& machine, const Vector6d& q, const AppliedLoad& load,
@@ -118,7 +118,7 @@ struct MachineState {
 /// The stable equilibrium under own weight, tool and load with the motors held at q: the minimum of the
 /// potential energy, with finite rotations, nearest the unstrained machine. Newton's method with the analytic
 /// Hessian of the elastic energy where that leads there in a few shrinking steps, which it does while the
-/// machine gives little. Else the Hessian is taken by central differences of the exact gradient (curves
+/// machine deflects little. Else the Hessian is taken by central differences of the exact gradient (curves
 /// aside), shifted where it is not positive definite until it is, and a step that raises the energy is
 /// halved. A load beyond buckling has no such minimum nearby: either one far away is found (see
 /// `deformation`), or `converged` is false.

@@ -66,8 +66,8 @@ void slip(const TorqueCurve& curve, double twist, double* anchors);
 /// more than torques.size().
 std::vector<TorqueCurve::Stage> stagesByTorque(const std::vector<double>& torques, const std::vector<double>& rates);
 
-/// A place where the machine gives: up to three translations u (m) and a rotation vector r (rad) of what lies
-/// beyond it, both in the element's frame as it was before giving: x -> Exp(r) x + u. Its strain energy is
+/// A place where the machine deflects: up to three translations u (m) and a rotation vector r (rad) of what lies
+/// beyond it, both in the element's frame as it was before deflecting: x -> Exp(r) x + u. Its strain energy is
 /// 1/2 d' K d, d = (u, r).
 struct ElasticElement {
   std::string name;

@@ -14,9 +14,9 @@
 #include "core/robot/robot.h"
 #include "core/simulation/temperature.h"
 
-// How one joint gives and turns. SI and radians.
+// How one joint deflects and turns. SI and radians.
 
-// The described machine: how it gives, how its geometry and masses differ from nominal. SI and radians.
+// The described machine: how it deflects, how its geometry and masses differ from nominal. SI and radians.
 
 // A described machine and the day it is measured, in SI and radians: what read_spec.h reads from XML.
 // Everything that is drawn at random is a sigma here; machine.h and measure.h draw it from `seed`.
@@ -64,7 +64,7 @@ struct JointSoftening {
 struct JointGear {
   double stiffness = 0.0;    ///< Nm/rad
   double lost_motion = 0.0;  ///< rad in all
-  // Of the reading of the motor's side against that of the link's:
+  // The reading of the motor's side against that of the link's:
   double encoder_sigma = 0.0;   ///< rad, in every state
   double encoder_offset = 0.0;  ///< rad, always
 };
@@ -95,7 +95,7 @@ struct ZeroWarming {
   double per_kelvin = 0.0, lag = 0.0;  ///< rad/K, s
 };
 
-/// How one joint gives and turns. Absent: it does not. What follows `bearing` needs `torsion`, but for the gear and
+/// How one joint deflects and turns. Absent: it does not. What follows `bearing` needs `torsion`, but for the gear and
 /// what follows that.
 struct JointStiffness {
   std::optional<double> torsion;  ///< about its axis, Nm/rad; with a gear, of what lies beyond the second encoder
@@ -208,7 +208,7 @@ struct ThermalGrowth {
   double per_kelvin = 0.0;                   ///< m/K; needs SimulationSpec::temperature
 };
 
-/// Material that gives at once only in part: of every change of the elastic coordinates the share `share`
+/// Material that deflects at once only in part: of every change of the elastic coordinates the share `share`
 /// comes late, as exp(-t / time_constant) from the change of load.
 struct Creep {
   double share = 0.0, time_constant = 0.0;
@@ -222,7 +222,7 @@ struct MachineSpec {
   std::vector<LinkBeam> links;                      ///< in order of joint
   std::optional<ToolPlate> tool_plate;
   std::optional<LoosePlate> loose_plate;
-  std::vector<SharedSpring> shared_springs;  ///< between joints whose torsion gives
+  std::vector<SharedSpring> shared_springs;  ///< between joints with torsion
   std::vector<LinkSpring> link_springs;
   std::vector<ThermalGrowth> growths;
   std::optional<Creep> creep;

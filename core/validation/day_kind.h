@@ -27,7 +27,7 @@ struct Vocabulary {
 
 /// How large an effect is on one machine, beside the same machine without it.
 struct Sizing {
-  /// Of the same specification with the effect. Throws InputError where that machine does not stand.
+  /// Size of the effect in the same specification with it. Throws InputError where that machine does not stand.
   std::function<EffectSize(const simulation::SimulationSpec& with)> measure;
   double background = 0.0;  ///< of the machine without it, in the same unit
 };

@@ -34,7 +34,7 @@ std::string armUrdf(const ArmModel& model);
 /// One machine and its day, with nothing wrong beyond what every machine has: link lengths within 10 % of a
 /// catalogue arm's, joint stiffness spread by a quarter; axes a tenth of a mm and six thousandths of a degree
 /// from nominal, as an arm has them that nobody calibrated; and, well under what the tracker sees in a
-/// deflection, bearings that give a thousandth of what the joints do.
+/// deflection, bearings that deflect a thousandth of what the joints do.
 /// The day: circle sweeps of six axes (24 stops), a wrist sweep (120 stops), 24 postures with three loads and
 /// a return to zero, three reflectors, three repeats, four nests. The load hangs, or a cable pulls it towards
 /// one of six directions, another one a posture.

@@ -32,7 +32,7 @@ struct EffectDraw {
 EffectDraw drawEffect(effects::Effect effect, const simulation::SimulationSpec& machine,
                       numerics::RandomStream& random);
 
-/// What an arm as it is has of an effect, at half its usual size, at strength 1. Of torsion k in the joint (Nm/rad):
+/// What an arm as it is has of an effect, at half its usual size, at strength 1. For torsion k in the joint (Nm/rad):
 ///   bearing_tilt     every joint; across its axis 2 k times 8 to 18, in place of the machine's own
 ///   link_compliance  upper arm and forearm; EI / L = 2 k times 4 to 10, of the joint that the link follows (at most
 ///                    joint 3's), GJ / L half to twice EI / L

@@ -28,7 +28,7 @@ struct EffectSize {
   double deflection = 0.0;
   double positions = 0.0;
   double nests = 0.0;  ///< positions over tracker noise alone
-  /// Of a day without a load (geometry_sizer.h): what the URDF misses the more, over what it misses of every machine.
+  /// On a day without a load (geometry_sizer.h): what the URDF misses the more, over what it misses of every machine.
   double geometry = 0.0;
   /// 1 - rms after / rms before of the displacements' residuals (plain, m) when the effect is known and taken
   /// out, six compliances fitted both times to the other postures than the one judged, as a promise for

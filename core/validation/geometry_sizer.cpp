@@ -6,6 +6,7 @@
 #include "core/simulation/machine.h"
 #include "core/simulation/rotation.h"
 #include "core/validation/noise_free.h"
+#include "metrology/linear_algebra.h"
 
 namespace stiffscope::validation {
 
@@ -141,7 +142,7 @@ VectorXd GeometrySizer::leftHeldOut(const VectorXd& gap) const {
   for (const int fold : {0, 1}) {
     const std::vector<Index> held = rowsOf(pose_of_, fold), fitted = rowsOf(pose_of_, 1 - fold);
     const MatrixXd by = columns_(fitted, Eigen::all);
-    const VectorXd found = by.completeOrthogonalDecomposition().solve(white(fitted));
+    const VectorXd found = leastSquaresSolution(by, white(fitted));
     left(held) -= columns_(held, Eigen::all) * found;
   }
   return left.cwiseProduct(sigma_);
@@ -153,7 +154,7 @@ double GeometrySizer::noiseHeldOut() const {
   for (const int fold : {0, 1}) {
     const std::vector<Index> held = rowsOf(pose_of_, fold), fitted = rowsOf(pose_of_, 1 - fold);
     const MatrixXd by = columns_(fitted, Eigen::all);
-    const MatrixXd spread = columns_(held, Eigen::all) * by.completeOrthogonalDecomposition().pseudoInverse();
+    const MatrixXd spread = columns_(held, Eigen::all) * pseudoInverse(by);
     variance(held) += spread.rowwise().squaredNorm();
   }
   return true_noise_factor_ * rms(variance.cwiseSqrt().cwiseProduct(sigma_));

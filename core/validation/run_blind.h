@@ -27,7 +27,7 @@ struct BlindEvents {
   std::function<void(const std::string& hash)> frozen;                   ///< before the labels are opened
 };
 
-/// Of a campaign outside the vocabulary: how many noises its gap lies away from what any one effect can do.
+/// How many noises the gap of a campaign outside the vocabulary lies away from what any one effect can do.
 using Distance = std::function<double(const campaign::Campaign&)>;
 
 struct BlindResult {

@@ -28,7 +28,7 @@ struct Answer {
   std::string failure;            ///< why there is no answer
 };
 
-/// What a diagnosis said, the name of the case aside. Of a day without a load a URDF that misses by more than the
+/// What a diagnosis said, the name of the case aside. On a day without a load a URDF that misses by more than the
 /// stated limit is an entry, kinematic_error.
 Answer answerOf(const diagnosis::Verdict& verdict, const std::vector<diagnosis::EffectClass>& classes = {});
 Answer answerOf(const accuracy::AccuracyDiagnosis& given);
@@ -62,8 +62,8 @@ struct Label {
   double noise_factor = 1.0;               ///< true noise of the tracker over declared
   double background = 0.0;
   std::string arm, loading;
-  /// Of the joints' springs, Nm/rad: where the stiffness changes with torque or time, that without torque at the
-  /// start of the day. What an interval of an identification has to hold.
+  /// Stiffness of the joints' springs, Nm/rad: where the stiffness changes with torque or time, that without torque at
+  /// the start of the day. What an interval of an identification has to hold.
   std::array<double, 6> stiffness{};
 };
 

@@ -49,7 +49,7 @@ class Mesh {
 /// The sizes that make an arm of lines look like one, from its length.
 struct ArmProportions {
   explicit ArmProportions(const ArmPose& pose);
-  /// Of the links, `along` metres from the first joint.
+  /// Radius of the links `along` metres from the first joint.
   double radiusAt(double along) const;
 
   double length = 0;

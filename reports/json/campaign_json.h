@@ -14,8 +14,8 @@ Json campaignJson(const campaign::Campaign& campaign);
 /// `active`, `inactive` or `unspecified`, as the campaign format spells it.
 const char* nameOf(campaign::DoubleEncoder state);
 
-/// What was done to the readings: raw, rejected readings with file, line and reason, and the station's drift
-/// as it was taken off, or why it was not.
+/// What was done to the readings: raw, rejected readings with file, line and reason, and the drift of
+/// the station that they were corrected for, or why not.
 Json preparationJson(const preparation::Preparation& preparation);
 
 /// A result with `preparation` added: what was done to the readings that it comes from.

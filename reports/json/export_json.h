@@ -29,7 +29,8 @@ Json exportJson(const campaign::Campaign& campaign, const ExportedModel& exporte
 /// The same for a terminal.
 std::string exportText(const campaign::Campaign& campaign, const ExportedModel& exported);
 
-/// Of a calibrated URDF: `campaign`, `format`, `file`, `geometry`: unloaded_postures or sweeps; and for a terminal.
+/// What was exported as a calibrated URDF: `campaign`, `format`, `file`, `geometry`: unloaded_postures or sweeps; and
+/// for a terminal.
 Json urdfExportJson(const campaign::Campaign& campaign, const std::string& file, bool by_postures);
 std::string urdfExportText(const campaign::Campaign& campaign, const std::string& file, bool by_postures);
 

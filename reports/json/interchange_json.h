@@ -20,16 +20,17 @@ struct NamedPoints {
 /// the file does not say is null. The file has to live as long as the document.
 JsonDocument pointsJson(const interchange::PointFile& file);
 
-/// The same of one file; of several `files`, with `file` in each.
+/// Contents of one file; of several `files`, with `file` in each.
 JsonDocument pointsJson(const std::vector<NamedPoints>& files);
 
 /// import.json beside an imported campaign: `start` (the tracker's date and time at time_s = 0), `files` (name, role,
 /// format, encoding, sha256), `clocks` (log, offset_s of the robot's clock against the tracker's, uncertainty_s: the
 /// offset lies within it, stated, readings, inside, standstills, misfit_mm), `misfit_mm` by table (distances between
 /// the reflectors' places against the nominal arm's), `stated_sigma_um` (median standard uncertainty that the
-/// files state), `stated_over_declared` (the same over the declared noise), `rows` by table (a list for each of its
-/// rows, in order: file, by its place in `files`, line, last_line), `wrenches` (the same of the rows of states, where a
-/// file of loads has them), `skipped` (file, line, reason), `warnings`. The day has to live as long as the document.
+/// files state), `stated_over_declared` (that over the declared noise), `rows` by table (a list for each of its
+/// rows, in order: file, by its place in `files`, line, last_line), `wrenches` (the origin of the rows of states, where
+/// a file of loads has them), `skipped` (file, line, reason), `warnings`. The day has to live as
+/// long as the document.
 JsonDocument importJson(const interchange::ImportedDay& day);
 
 /// The same for a terminal, without the rows.

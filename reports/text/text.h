@@ -91,7 +91,7 @@ std::string calibrationCsv(const calibration::Calibration& calibration);
 std::string comparisonText(const campaign::Campaign& before, const campaign::Campaign& after,
                            const comparison::Comparison& comparison);
 
-/// The same of two days without a load: what moved in the geometry.
+/// The comparison of two days without a load: what moved in the geometry.
 std::string geometryChangeText(const campaign::Campaign& before, const campaign::Campaign& after,
                                const comparison::GeometryChange& change);
 
@@ -177,7 +177,7 @@ std::string planCsv(const planning::Plan& plan);
 /// The same as the `postures` element of a simulation's specification.
 std::string planXml(const planning::Plan& plan);
 
-/// The same of a day without a load: pose, q1_deg..q6_deg, in the order of the day.
+/// The plan of a day without a load: pose, q1_deg..q6_deg, in the order of the day.
 std::string unloadedPlanText(const campaign::Campaign& campaign, const planning::UnloadedPlan& plan);
 std::string unloadedPlanCsv(const planning::UnloadedPlan& plan);
 std::string unloadedPlanXml(const planning::UnloadedPlan& plan);

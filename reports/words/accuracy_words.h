@@ -18,7 +18,7 @@ std::string millimetres(double metres);
 /// Accuracy by each model, what the diagnosis finds, what the audit says: a sentence each.
 std::string accuracyVerdict(const ReportCampaign& one);
 
-/// The same of a day of sweeps alone: the axes that were found.
+/// The result of a day of sweeps alone: the axes that were found.
 std::string sweepsVerdict(const ReportCampaign& one);
 
 /// Largest difference of a distance between measured axes from the nominal one, m.

@@ -9,8 +9,8 @@ namespace stiffscope::reports {
 /// Ends the source of every limit by chance; a page says it once.
 inline constexpr const char* kChanceIsShared = "; 1 % false findings over the whole audit, shared by all that is tried";
 
-/// What was done to the readings, in sentences: how many were left out and what drift was taken off, or why
-/// none; "raw" where that was asked for.
+/// What was done to the readings, in sentences: how many were left out and which drift was corrected for, or
+/// why none; "raw" where that was asked for.
 std::string preparationWords(const preparation::Preparation& preparation);
 
 /// The same for people, wrapped, with file, line and reason of each rejected reading (of the first ten) on

@@ -15,7 +15,7 @@ std::vector<std::string> doubtsOfTheMachine(const std::vector<ReportCampaign>& c
 
 /// The result in plain words, one or two sentences a campaign: which joint stiffnesses are known, by which
 /// method, what share of the deflection they compensate at which point; then what the double encoders avoid, and what
-/// the diagnosis finds besides joint springs. Of days without a load their accuracy, of sweeps alone the axes.
+/// the diagnosis finds besides joint springs. For days without a load their accuracy, for sweeps alone the axes.
 std::string verdictOf(const std::vector<ReportCampaign>& campaigns, const std::optional<AvoidedByEncoders>& avoided);
 
 }  // namespace stiffscope::reports

@@ -22,4 +22,11 @@ std::vector<int> columnsInSpanOfEarlier(const Eigen::MatrixXd& jacobian, const s
   return found;
 }
 
+Eigen::MatrixXd normalMatrix(const Eigen::MatrixXd& equations) {
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(equations.cols(), equations.cols());
+  normal.selfadjointView<Eigen::Lower>().rankUpdate(equations.transpose());
+  normal.triangularView<Eigen::StrictlyUpper>() = normal.transpose();
+  return normal;
+}
+
 }  // namespace stiffscope::numerics
