@@ -36,7 +36,9 @@ void addFrames(CLI::App& app, Run& run) {
     run = [arguments] {
       const preparation::PreparedCampaign prepared = openPrepared(arguments->campaign, arguments->raw);
       std::optional<extended_model::ExtendedModel> model;
-      if (identification::whatLoadsLack(prepared.campaign).empty()) model = modelOf(prepared, arguments->model, {});
+      // Nothing of subsets is shown.
+      if (identification::whatLoadsLack(prepared.campaign).empty())
+        model = modelOf(prepared, arguments->model, identification::valuesOnly({}));
       const campaign::Campaign& campaign = prepared.campaign;
       const frames::Frames frames = model ? model->with.frames : identification::solvedFrames(campaign);
       const auto json = [&] {
