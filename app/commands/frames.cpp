@@ -23,7 +23,9 @@ int framesOf(const CampaignSource& source, const ModelChoice& choice, const Outl
   const auto opened = source.open();
   const preparation::PreparedCampaign& prepared = *opened;
   std::optional<extended_model::ExtendedModel> model;
-  if (identification::whatLoadsLack(prepared.campaign).empty()) model = modelOf(prepared, choice, {});
+  // Nothing of subsets is shown.
+  if (identification::whatLoadsLack(prepared.campaign).empty())
+    model = modelOf(prepared, choice, identification::valuesOnly({}));
   const campaign::Campaign& campaign = prepared.campaign;
   const frames::Frames frames = model ? model->with.frames : identification::solvedFrames(campaign);
   const auto json = [&] {

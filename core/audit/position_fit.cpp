@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "core/audit/remarks.h"
 #include "core/frames/arm_parameters.h"
 #include "core/frames/position_equations.h"
 #include "core/numerics/distributions.h"
+#include "core/numerics/parallel.h"
 #include "core/numerics/resampling.h"
 #include "core/preparation/finding.h"
 #include "metrology/linear_algebra.h"
@@ -25,20 +27,56 @@ struct Normal {
   int rows = 0;
 };
 
-/// Weight of each posture in the common fit; 0 for one that is left out.
-using Weights = std::map<int, double>;
+/// Weight in the common fit by the index of the posture; 0 for one that is left out.
+using Weights = std::vector<double>;
+
+Weights equalWeights(const frames::AbsoluteRows& rows) {
+  return Weights(static_cast<std::size_t>(*std::max_element(rows.poses.begin(), rows.poses.end())) + 1, 1.0);
+}
+
+/// [J r]^T W [J r], lower triangle, and how many rows made it.
+struct Products {
+  Eigen::MatrixXd matrix;
+  int rows = 0;
+
+  Products& operator+=(const Products& other) {
+    if (other.matrix.size() > 0) matrix = matrix.size() > 0 ? Eigen::MatrixXd(matrix + other.matrix) : other.matrix;
+    rows += other.rows;
+    return *this;
+  }
+};
+
+Products productsOf(const frames::AbsoluteRows& rows, const Weights& weights) {
+  constexpr std::size_t kTogether = 32, kMicroseconds = 64;  // readings, and what they take
+  const Eigen::Index size = rows.parameters;
+  return numerics::sumInBlocks<Products>(
+      (rows.rows.size() + kTogether - 1) / kTogether,
+      [&](std::size_t block, Products& sum) {
+        Eigen::MatrixXd whitened(3 * static_cast<Eigen::Index>(kTogether), size + 1);
+        Eigen::Index filled = 0;
+        const std::size_t end = std::min(rows.rows.size(), (block + 1) * kTogether);
+        for (std::size_t i = block * kTogether; i < end; ++i) {
+          const frames::AbsoluteRow& row = rows.rows[i];
+          const double weight = weights[static_cast<std::size_t>(row.pose)];
+          if (weight == 0.0) continue;
+          const Eigen::Matrix3d root = std::sqrt(weight) * Eigen::Matrix3d(row.weight.llt().matrixU());
+          whitened.block(filled, 0, 3, size).noalias() = root * row.jacobian;
+          whitened.block<3, 1>(filled, size) = root * row.residual;
+          filled += 3;
+        }
+        if (sum.matrix.size() == 0) sum.matrix.setZero(size + 1, size + 1);
+        sum.matrix.selfadjointView<Eigen::Lower>().rankUpdate(whitened.topRows(filled).transpose());
+        sum.rows += static_cast<int>(filled);
+      },
+      kMicroseconds);
+}
 
 Normal sumUp(const frames::AbsoluteRows& rows, const Weights& weights) {
-  const auto size = static_cast<Eigen::Index>(rows.parameters);
-  Normal normal{rows.prior, Eigen::VectorXd::Zero(size)};
-  for (const frames::AbsoluteRow& row : rows.rows) {
-    const double weight = weights.at(row.pose);
-    if (weight == 0.0) continue;
-    normal.matrix += weight * row.jacobian.transpose() * row.weight * row.jacobian;
-    normal.right += weight * row.jacobian.transpose() * row.weight * row.residual;
-    normal.squares += weight * row.residual.dot(row.weight * row.residual);
-    normal.rows += 3;
-  }
+  const Eigen::Index size = rows.parameters;
+  Products sum = productsOf(rows, weights);
+  if (sum.matrix.size() == 0) sum.matrix.setZero(size + 1, size + 1);  // no row
+  Normal normal{rows.prior, sum.matrix.row(size).head(size).transpose(), sum.matrix(size, size), sum.rows};
+  normal.matrix += Eigen::MatrixXd(sum.matrix.topLeftCorner(size, size).selfadjointView<Eigen::Lower>());
   // A reflector that no row of the postures left shows stays where it is.
   for (Eigen::Index i = 0; i < size; ++i) {
     if (normal.matrix(i, i) == 0.0) normal.matrix(i, i) = 1.0;
@@ -106,23 +144,34 @@ std::vector<PostureReadBack> readBacks(const frames::AbsoluteRows& rows, const E
 /// A fit that one posture cannot pull: each is weighted down by its own misfit against the median one
 /// (Cauchy's weights, 2.385 being their usual constant), again and again.
 Eigen::VectorXd robustFit(const frames::AbsoluteRows& rows) {
-  Weights weights;
-  for (const int pose : rows.poses) weights[pose] = 1.0;
-  Eigen::VectorXd parameters;
+  Weights weights = equalWeights(rows);
+  Eigen::VectorXd parameters = Eigen::VectorXd::Zero(rows.parameters);
   constexpr int kRounds = 20;
+  constexpr double kSettled = 1e-6;  // of the parameters' standard uncertainties
   for (int round = 0; round < kRounds; ++round) {
     const Normal normal = sumUp(rows, weights);
-    parameters = solveSymmetric(normal.matrix, normal.right);
-    std::map<int, double> misfits;
-    for (const frames::AbsoluteRow& row : rows.rows) {
+    const Eigen::VectorXd before = std::exchange(parameters, solveSymmetric(normal.matrix, normal.right));
+    const Eigen::VectorXd step = parameters - before;
+    if (round > 0 && step.dot(normal.matrix * step) < kSettled * kSettled) break;
+    std::vector<double> by_row(rows.rows.size());
+    numerics::smallWorkOnAllCores(by_row.size(), [&](std::size_t i) {
+      const frames::AbsoluteRow& row = rows.rows[i];
       const Eigen::Vector3d left = row.residual - row.jacobian * parameters;
-      misfits[row.pose] += left.dot(row.weight * left);
+      by_row[i] = left.dot(row.weight * left);
+    });
+    std::vector<double> misfits(weights.size(), 0.0), sorted;
+    std::vector<bool> has_rows(weights.size(), false);
+    for (std::size_t i = 0; i < by_row.size(); ++i) {
+      const auto pose = static_cast<std::size_t>(rows.rows[i].pose);
+      misfits[pose] += by_row[i];
+      has_rows[pose] = true;
     }
-    std::vector<double> sorted;
-    for (const auto& [pose, misfit] : misfits) sorted.push_back(misfit);
+    for (std::size_t pose = 0; pose < misfits.size(); ++pose) {
+      if (has_rows[pose]) sorted.push_back(misfits[pose]);
+    }
     constexpr double kCauchy = 2.385;
     const double scale = kCauchy * kCauchy * std::max(numerics::upperMedian(sorted), 1e-300);
-    for (const auto& [pose, misfit] : misfits) weights[pose] = 1.0 / (1.0 + misfit / scale);
+    for (std::size_t pose = 0; pose < misfits.size(); ++pose) weights[pose] = 1.0 / (1.0 + misfits[pose] / scale);
   }
   return parameters;
 }
@@ -166,7 +215,7 @@ void describe(const frames::AbsoluteRows& rows, const Weights& weights, Absolute
   fit.positions = normal.rows / 3;
   fit.dof = normal.rows - 6 - 3 * rows.targets;
   for (const frames::AbsoluteRow& row : rows.rows) {
-    if (weights.at(row.pose) == 0.0) continue;
+    if (weights[static_cast<std::size_t>(row.pose)] == 0.0) continue;
     fit.rms_before += row.residual.squaredNorm() / normal.rows;
     fit.rms_after += (row.residual - row.jacobian * parameters).squaredNorm() / normal.rows;
   }
@@ -196,8 +245,10 @@ AbsoluteFit fitAbsolutePositions(const campaign::Campaign& campaign, const frame
   fit.score_limit = scoreLimit(rows.poses.size());
   fit.postures = readBacks(rows, robustFit(rows));
   scorePostures(fit.postures, fit.score_limit);
-  Weights weights;
-  for (const PostureReadBack& posture : fit.postures) weights[posture.pose] = posture.outlier ? 0.0 : 1.0;
+  Weights weights = equalWeights(rows);
+  for (const PostureReadBack& posture : fit.postures) {
+    if (posture.outlier) weights[static_cast<std::size_t>(posture.pose)] = 0.0;
+  }
   describe(rows, weights, fit);
   fit.done = true;
   return fit;

@@ -99,8 +99,8 @@ TableLines::TableLines(const TableSource& source, const std::vector<WantedColumn
     : source_(source), lines_(source.file, source.bytes), warnings_(warnings) {
   if (!lines_.next(cells_)) throw io::InputError({source.file, 0, ""}, "", "expected a header line; there is none");
   constexpr std::size_t kMostColumns = 1000;
-  if (cells_.size() > kMostColumns) {
-    throw io::InputError({source.file, line(), ""}, fmt::format("{} columns", cells_.size()),
+  if (lines_.cellCount() > kMostColumns) {
+    throw io::InputError({source.file, line(), ""}, fmt::format("{} columns", lines_.cellCount()),
                          fmt::format("expected at most {} columns", kMostColumns));
   }
   cells_in_header_ = cells_.size();
@@ -147,12 +147,12 @@ bool TableLines::next() {
 }
 
 void TableLines::requireCellCount() const {
-  if (cells_.size() == cells_in_header_) return;
+  if (lines_.cellCount() == cells_in_header_) return;
   const auto refuse = [&](const std::string& why) {
-    throw io::InputError({source_.file, line(), ""}, fmt::format("{} cells", cells_.size()),
+    throw io::InputError({source_.file, line(), ""}, fmt::format("{} cells", lines_.cellCount()),
                          fmt::format("expected {} cells, as the header has{}", cells_in_header_, why));
   };
-  if (cells_.size() > cells_in_header_) refuse("; a decimal comma splits a number in two, write a point");
+  if (lines_.cellCount() > cells_in_header_) refuse("; a decimal comma splits a number in two, write a point");
   refuse(lines_.endsWithoutLineEnd() ? "; the file ends in the middle of this line" : "");
 }
 

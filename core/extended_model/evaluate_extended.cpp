@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/extended_model/effect_fit.h"
+#include "core/numerics/parallel.h"
 #include "core/numerics/resampling.h"
 #include "metrology/linear_algebra.h"
 
@@ -30,6 +31,24 @@ double leftOf(const ExtendedEquations& one, const Eigen::VectorXd& steps, const 
   return pointSum(one.rightAt(steps) - one.springs.matrix * compliance);
 }
 
+/// Effects and springs fitted anew on some postures.
+struct Refit {
+  Weights used;
+  Eigen::VectorXd steps;
+  Vector6d compliance;
+};
+
+/// leftOf for each of some refits at once, whose steps and compliances stand in columns.
+Eigen::VectorXd leftOfAll(const ExtendedEquations& one, const Eigen::MatrixXd& steps,
+                          const Eigen::MatrixXd& compliances) {
+  Eigen::MatrixXd left = -one.by_steps * steps;
+  left.noalias() -= one.springs.matrix * compliances;
+  left.colwise() += one.springs.right;
+  Eigen::VectorXd sums = Eigen::VectorXd::Zero(left.cols());
+  for (Eigen::Index at = 0; at < left.rows(); at += 3) sums += left.middleRows<3>(at).colwise().norm().transpose();
+  return sums;
+}
+
 /// One kind of point, judged over the subsets.
 class PointJudge {
  public:
@@ -39,19 +58,19 @@ class PointJudge {
     sum_.left_held_out.resize(displacement_.size(), 0.0);
   }
 
-  void add(const Eigen::VectorXd& steps, const Vector6d& compliance, const Weights& used) {
-    std::array<double, 2> left{}, whole{};
-    for (std::size_t p = 0; p < equations_.size(); ++p) {
-      const auto side = static_cast<std::size_t>(used[p] != 0.0);
-      const double own = leftOf(equations_[p], steps, compliance);
-      left[side] += own;
-      whole[side] += displacement_[p];
-      if (side == 0) sum_.left_held_out[p] += own, ++count_[p];
+  void add(const std::vector<Refit>& refits) {
+    if (refits.empty()) return;
+    const auto count = static_cast<Eigen::Index>(refits.size());
+    Eigen::MatrixXd steps(refits.front().steps.size(), count), compliances(6, count);
+    for (Eigen::Index k = 0; k < count; ++k) {
+      steps.col(k) = refits[static_cast<std::size_t>(k)].steps;
+      compliances.col(k) = refits[static_cast<std::size_t>(k)].compliance;
     }
-    sum_.compensated.used += 1.0 - left[1] / whole[1];
-    sum_.held_out.push_back(1.0 - left[0] / whole[0]);
-    sum_.compensated.held_out += sum_.held_out.back();
-    sum_.compensated.all += 1.0 - (left[0] + left[1]) / (whole[0] + whole[1]);
+    Eigen::MatrixXd left(count, static_cast<Eigen::Index>(equations_.size()));
+    numerics::smallWorkOnAllCores(equations_.size(), [&](std::size_t p) {
+      left.col(static_cast<Eigen::Index>(p)) = leftOfAll(equations_[p], steps, compliances);
+    });
+    for (Eigen::Index k = 0; k < count; ++k) add(left.row(k), refits[static_cast<std::size_t>(k)].used);
   }
 
   double allPostures(const Eigen::VectorXd& steps, const Vector6d& compliance) const {
@@ -71,6 +90,22 @@ class PointJudge {
   }
 
  private:
+  /// `own`: what a refit on the postures `used` leaves, by posture.
+  void add(const Eigen::RowVectorXd& own, const Weights& used) {
+    std::array<double, 2> left{}, whole{};
+    for (std::size_t p = 0; p < equations_.size(); ++p) {
+      const auto side = static_cast<std::size_t>(used[p] != 0.0);
+      const double here = own[static_cast<Eigen::Index>(p)];
+      left[side] += here;
+      whole[side] += displacement_[p];
+      if (side == 0) sum_.left_held_out[p] += here, ++count_[p];
+    }
+    sum_.compensated.used += 1.0 - left[1] / whole[1];
+    sum_.held_out.push_back(1.0 - left[0] / whole[0]);
+    sum_.compensated.held_out += sum_.held_out.back();
+    sum_.compensated.all += 1.0 - (left[0] + left[1]) / (whole[0] + whole[1]);
+  }
+
   const std::vector<ExtendedEquations>& equations_;
   std::vector<double> displacement_;
   std::vector<std::uint64_t> count_;
@@ -193,12 +228,14 @@ class MethodJudge {
     const std::uint64_t affordable = std::clamp(kWork / static_cast<std::uint64_t>(study.of), kFewest, kMost);
     const std::uint64_t most = std::min({affordable, asked.sample, std::max<std::uint64_t>(asked.most_all, 1)});
     study.every_subset = numerics::subsetCount(study.of, study.size) <= most;
+    std::vector<Refit> refits;
     numerics::forEachSubset(study.of, study.size, most, asked.seed, [&](const Weights& used) {
-      const auto [steps, compliance] = anew(used);
+      auto [steps, compliance] = anew(used);
       study.compliances.push_back(compliance);
-      if (wrist) at_wrist.add(steps, compliance, used);
-      at_targets.add(steps, compliance, used);
+      refits.push_back({used, std::move(steps), compliance});
     });
+    if (wrist) at_wrist.add(refits);
+    at_targets.add(refits);
     const auto subsets = static_cast<double>(study.compliances.size());
     if (wrist) study.at_wrist = at_wrist.mean(subsets);
     study.at_targets = at_targets.mean(subsets);

@@ -4,10 +4,12 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "core/frames/arm_parameters.h"
 #include "core/frames/remarks.h"
 #include "core/numerics/normal_equations.h"
+#include "core/numerics/parallel.h"
 
 namespace stiffscope::frames {
 
@@ -25,75 +27,124 @@ struct UnloadedPosture {
   std::vector<ReflectorReading> reflectors;
 };
 
-using WhitenedRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+/// Of all readings at some values of the parameters, what least squares takes of them.
+struct PositionSums {
+  Eigen::MatrixXd products;  ///< [J r]^T [J r], r the whitened residuals and J their Jacobian; lower triangle
+  double weighted = 0.0;     ///< r^T r
+  double plain = 0.0;        ///< the same not whitened, m^2
 
-/// Measured less modelled places of all reflectors, whitened, by ArmParameters: one block of each, so that the arm is
-/// placed once and each posture computed once.
+  PositionSums& operator+=(const PositionSums& other) {
+    if (products.size() == 0)
+      products = other.products;
+    else if (other.products.size() > 0)
+      products += other.products;
+    weighted += other.weighted;
+    plain += other.plain;
+    return *this;
+  }
+};
+
+/// Measured less modelled places of all reflectors, whitened, by ArmParameters. Thousands of rows reach the solver as
+/// the few of a triangular factor: with U^T U = [J r]^T [J r], the last column of U as residuals and the others as
+/// their Jacobian make the same normal equations and the same cost.
 class PositionsCost : public ceres::CostFunction {
  public:
   PositionsCost(const AxesAtStart& axes, const Eigen::Vector3d& centre, std::vector<UnloadedPosture> postures,
                 Eigen::Index parameters)
       : axes_(axes), centre_(centre), postures_(std::move(postures)) {
-    int rows = 0;
-    for (const UnloadedPosture& one : postures_) rows += 3 * static_cast<int>(one.reflectors.size());
-    set_num_residuals(rows);
+    for (const UnloadedPosture& one : postures_) rows_ += 3 * static_cast<Eigen::Index>(one.reflectors.size());
+    set_num_residuals(static_cast<int>(parameters) + 1);
     mutable_parameter_block_sizes()->push_back(static_cast<int>(parameters));
   }
 
   bool Evaluate(const double* const* parameters, double* residuals, double** jacobians) const override {
     const Eigen::Index count = parameter_block_sizes().front();
     const Eigen::Map<const Eigen::VectorXd> steps(parameters[0], count);
-    double* const jacobian = jacobians != nullptr ? jacobians[0] : nullptr;
-    Eigen::Index row = 0;
-    forEach(steps, [&](const PlacedPosture& posture, const ReflectorReading& reading, const Eigen::Vector3d& position) {
-      Eigen::Map<Eigen::Vector3d>(residuals + row) = reading.whiten * (reading.point - position);
-      if (jacobian != nullptr) {
-        Eigen::Map<Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor>> rows(jacobian + row * count, 3, count);
-        rows.leftCols<ArmParameters::kAxes>() = -reading.whiten * posture.byAxes(position);
-        rows.middleCols<ArmParameters::kBase>(ArmParameters::kBaseAt) = -reading.whiten * posture.byBase(position);
-        rows.rightCols(count - ArmParameters::kTargetsAt).setZero();
-        rows.middleCols<3>(ArmParameters::targetAt(reading.target)) = -reading.whiten * posture.byTarget();
-      }
-      row += 3;
-    });
+    Eigen::Map<Eigen::VectorXd> left(residuals, count + 1);
+    if (jacobians == nullptr || jacobians[0] == nullptr) {
+      left.setZero();
+      left[0] = std::sqrt(sumsAt(steps, false).weighted);
+      return true;
+    }
+    const Eigen::MatrixXd& factor = factorAt(steps);
+    left = factor.col(count);
+    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(jacobians[0], count + 1, count) =
+        factor.leftCols(count);
     return true;
   }
 
-  WhitenedRows jacobian(const Eigen::VectorXd& steps) const {
-    WhitenedRows rows(num_residuals(), steps.size());
-    Eigen::VectorXd residuals(num_residuals());
-    const double* at = steps.data();
-    double* into = rows.data();
-    Evaluate(&at, residuals.data(), &into);
-    return rows;
-  }
+  /// That of the factor: its columns have the lengths of the whole one's, and the angles between them.
+  Eigen::MatrixXd jacobian(const Eigen::VectorXd& steps) const { return factorAt(steps).leftCols(steps.size()); }
 
   /// Plain, per coordinate, m.
   double rms(const Eigen::VectorXd& steps) const {
-    double sum = 0.0;
-    forEach(steps, [&](const PlacedPosture&, const ReflectorReading& reading, const Eigen::Vector3d& position) {
-      sum += (reading.point - position).squaredNorm();
-    });
-    return std::sqrt(sum / num_residuals());
+    return std::sqrt(sumsAt(steps, false).plain / static_cast<double>(rows_));
   }
 
  private:
-  template <class Use>
-  void forEach(const Eigen::Ref<const Eigen::VectorXd>& steps, const Use& use) const {
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic>;
+
+  /// U at these steps; where they are those asked for last, as computed then.
+  const Eigen::MatrixXd& factorAt(const Eigen::Ref<const Eigen::VectorXd>& steps) const {
+    if (factor_.size() > 0 && steps == factor_steps_) return factor_;
+    const Eigen::LDLT<Eigen::MatrixXd> square(sumsAt(steps, true).products);
+    factor_ = square.transpositionsP() * Eigen::MatrixXd::Identity(steps.size() + 1, steps.size() + 1);
+    factor_ = square.vectorD().cwiseMax(0.0).cwiseSqrt().asDiagonal() * Eigen::MatrixXd(square.matrixU() * factor_);
+    factor_steps_ = steps;
+    return factor_;
+  }
+
+  PositionSums sumsAt(const Eigen::Ref<const Eigen::VectorXd>& steps, bool with_products) const {
     const PlacedArm arm(axes_, centre_, steps.head<ArmParameters::kAxes>(),
                         steps.segment<ArmParameters::kBase>(ArmParameters::kBaseAt));
-    for (const UnloadedPosture& one : postures_) {
+    constexpr std::size_t kTogether = 16, kMicroseconds = 64;  // postures, and what they take
+    return numerics::sumInBlocks<PositionSums>(
+        (postures_.size() + kTogether - 1) / kTogether,
+        [&](std::size_t block, PositionSums& sum) {
+          const std::size_t from = block * kTogether;
+          add(arm, steps, std::span(postures_).subspan(from, std::min(kTogether, postures_.size() - from)),
+              with_products, sum);
+        },
+        kMicroseconds);
+  }
+
+  void add(const PlacedArm& arm, const Eigen::Ref<const Eigen::VectorXd>& steps,
+           std::span<const UnloadedPosture> postures, bool with_products, PositionSums& sum) const {
+    const Eigen::Index count = steps.size();
+    std::size_t readings = 0;
+    for (const UnloadedPosture& one : postures) readings += one.reflectors.size();
+    Rows rows;
+    if (with_products) rows.setZero(3 * static_cast<Eigen::Index>(readings), count + 1);
+    Eigen::Index row = 0;
+    for (const UnloadedPosture& one : postures) {
       const PlacedPosture posture(arm, one.q);
       for (const ReflectorReading& reading : one.reflectors) {
-        const Eigen::Vector3d step = steps.segment<3>(ArmParameters::targetAt(reading.target));
-        use(posture, reading, posture.position(reading.at_zero + step));
+        const Eigen::Index target = ArmParameters::targetAt(reading.target);
+        const Eigen::Vector3d position = posture.position(reading.at_zero + steps.segment<3>(target));
+        const Eigen::Vector3d off = reading.point - position, left = reading.whiten * off;
+        sum.weighted += left.squaredNorm();
+        sum.plain += off.squaredNorm();
+        if (!with_products) continue;
+        auto own = rows.middleRows<3>(row);
+        own.leftCols<ArmParameters::kAxes>().noalias() = -reading.whiten * posture.byAxes(position);
+        own.middleCols<ArmParameters::kBase>(ArmParameters::kBaseAt).noalias() =
+            -reading.whiten * posture.byBase(position);
+        own.middleCols<3>(target).noalias() = -reading.whiten * posture.byTarget();
+        own.col(count) = left;
+        row += 3;
       }
     }
+    if (!with_products) return;
+    if (sum.products.size() == 0) sum.products.setZero(count + 1, count + 1);
+    sum.products.selfadjointView<Eigen::Lower>().rankUpdate(rows.transpose());
   }
 
   AxesAtStart axes_;
   Eigen::Vector3d centre_;
   std::vector<UnloadedPosture> postures_;
+  Eigen::Index rows_ = 0;
+  mutable Eigen::VectorXd factor_steps_;
+  mutable Eigen::MatrixXd factor_;
 };
 
 class Calibration {
@@ -162,17 +213,24 @@ class Calibration {
 
   void build() {
     std::vector<UnloadedPosture> postures;
+    std::vector<std::size_t> first;  // of a posture's positions
     int pose = -1;
-    for (const UnloadedPosition& position : positions_) {
-      if (position.pose != pose) postures.push_back({start_.sagged(position.q), {}});
+    for (std::size_t i = 0; i < positions_.size(); ++i) {
+      const UnloadedPosition& position = positions_[i];
+      if (position.pose != pose) postures.push_back({position.q, {}}), first.push_back(i);
       pose = position.pose;
       const auto target = static_cast<std::size_t>(position.target);
       const Eigen::Vector3d point = *start_.r0_from_loading * position.point;
       centre_ += point / static_cast<double>(positions_.size());
-      postures.back().reflectors.push_back({target, *start_.targets_at_zero[target], point, whitening(position)});
+      postures.back().reflectors.push_back({target, *start_.targets_at_zero[target], point, {}});
       if (std::find(used_targets_.begin(), used_targets_.end(), target) == used_targets_.end())
         used_targets_.push_back(target);
     }
+    numerics::smallWorkOnAllCores(postures.size(), [&](std::size_t p) {
+      postures[p].q = start_.sagged(postures[p].q);
+      std::vector<ReflectorReading>& own = postures[p].reflectors;
+      for (std::size_t k = 0; k < own.size(); ++k) own[k].whiten = whitening(positions_[first[p] + k]);
+    });
     std::sort(used_targets_.begin(), used_targets_.end());
     steps_ = Eigen::VectorXd::Zero(ArmParameters::count(start_.targets_at_zero.size()));
     cost_ =

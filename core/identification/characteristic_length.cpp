@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/numerics/parallel.h"
 #include "core/robot/kinematics.h"
 #include "metrology/linear_algebra.h"
 
@@ -16,12 +17,10 @@ namespace {
 struct StackedJacobian {
   Matrix6d linear = Matrix6d::Zero(), angular = Matrix6d::Zero();
 
-  StackedJacobian(const std::vector<LoadCase>& cases, const Eigen::Vector3d& tcp_in_flange) {
-    for (const LoadCase& load_case : cases) {
-      const Matrix6d jacobian = robot::jacobianAt(load_case.axes, *load_case.flange_unloaded * tcp_in_flange);
-      linear += jacobian.topRows<3>().transpose() * jacobian.topRows<3>();
-      angular += jacobian.bottomRows<3>().transpose() * jacobian.bottomRows<3>();
-    }
+  StackedJacobian& operator+=(const StackedJacobian& other) {
+    linear += other.linear;
+    angular += other.angular;
+    return *this;
   }
 
   double condition(double length) const {
@@ -31,14 +30,22 @@ struct StackedJacobian {
   }
 };
 
+StackedJacobian stackedJacobian(const std::vector<LoadCase>& cases, const Eigen::Vector3d& tcp_in_flange) {
+  return numerics::sumInBlocks<StackedJacobian>(cases.size(), [&](std::size_t i, StackedJacobian& sum) {
+    const Matrix6d jacobian = robot::jacobianAt(cases[i].axes, *cases[i].flange_unloaded * tcp_in_flange);
+    sum.linear += jacobian.topRows<3>().transpose() * jacobian.topRows<3>();
+    sum.angular += jacobian.bottomRows<3>().transpose() * jacobian.bottomRows<3>();
+  });
+}
+
 }  // namespace
 
 double jacobianCondition(const std::vector<LoadCase>& cases, const Eigen::Vector3d& tcp_in_flange, double length) {
-  return StackedJacobian(cases, tcp_in_flange).condition(length);
+  return stackedJacobian(cases, tcp_in_flange).condition(length);
 }
 
 CharacteristicLength characteristicLength(const std::vector<LoadCase>& cases, const Eigen::Vector3d& tcp_in_flange) {
-  const StackedJacobian stacked(cases, tcp_in_flange);
+  const StackedJacobian stacked = stackedJacobian(cases, tcp_in_flange);
   CharacteristicLength result;
   constexpr int kPoints = 61;
   const double low = std::log(kShortestLength), high = std::log(kLongestLength), step = (high - low) / (kPoints - 1);

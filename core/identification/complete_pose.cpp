@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/identification/estimate.h"
+#include "core/numerics/parallel.h"
 #include "core/robot/kinematics.h"
 #include "metrology/rigid_motion.h"
 
@@ -68,11 +69,12 @@ StiffnessEstimate completePose(const std::vector<CaseEquations>& pose_equations,
                                const robot::JointMask& unknown) {
   StiffnessEstimate estimate;
   estimate.identifiable = unknown;
-  std::vector<CaseEquations> scaled, displacements;
-  for (const CaseEquations& one : pose_equations) {
-    scaled.push_back(normalised(one, characteristic_length));
-    displacements.push_back({one.matrix.topRows<3>(), one.right.head<3>(), one.posture});
-  }
+  std::vector<CaseEquations> scaled(pose_equations.size()), displacements(pose_equations.size());
+  numerics::smallWorkOnAllCores(pose_equations.size(), [&](std::size_t i) {
+    const CaseEquations& one = pose_equations[i];
+    scaled[i] = normalised(one, characteristic_length);
+    displacements[i] = {one.matrix.topRows<3>(), one.right.head<3>(), one.posture};
+  });
   const std::vector<NormalEquations> normal = normalByPosture(scaled);
   const NormalEquations sum = sumOf(normal);
   estimate.compliance = solveNormal(sum, unknown);

@@ -3,20 +3,35 @@
 #include <algorithm>
 
 #include "core/identification/estimate.h"
+#include "core/numerics/parallel.h"
 
 namespace stiffscope::identification {
+
+namespace {
+
+/// Sums of lengths, m.
+struct LeakSums {
+  double leak = 0.0, whole = 0.0;
+
+  LeakSums& operator+=(const LeakSums& other) {
+    leak += other.leak;
+    whole += other.whole;
+    return *this;
+  }
+};
+
+}  // namespace
 
 double wristLeak(const LoadedArm& arm, const Eigen::Vector3d& centre_at_zero, const Vector6d& compliance) {
   Vector6d wrist_only = compliance;
   wrist_only.head<3>().setZero();
-  double leak = 0.0, whole = 0.0;
-  for (std::size_t i = 0; i < arm.wrist.size(); ++i) {
+  const auto sums = numerics::sumInBlocks<LeakSums>(arm.wrist.size(), [&](std::size_t i, LeakSums& sum) {
     // The wrist centre where the arm's geometry has it, so that only the axes' miss counts.
     const Eigen::Vector3d centre = modelledWrist(arm.geometry.arm, arm.cases[i], centre_at_zero);
-    leak += (pointRows(jacobianAxes(arm.cases[i]), centre, arm.torques[i]) * wrist_only).norm();
-    whole += arm.wrist[i].displacement().norm();
-  }
-  return whole > 0.0 ? leak / whole : 0.0;
+    sum.leak += (pointRows(jacobianAxes(arm.cases[i]), centre, arm.torques[i]) * wrist_only).norm();
+    sum.whole += arm.wrist[i].displacement().norm();
+  });
+  return sums.whole > 0.0 ? sums.leak / sums.whole : 0.0;
 }
 
 namespace {
@@ -53,20 +68,25 @@ void setDecoupledScatter(const std::vector<NormalEquations>& wrist, const std::v
   const Matrix6d wrist_inverse = inverseNormal(reflector_sum, wrist_joints);
   const Matrix6d carried = Matrix6d::Identity() - wrist_inverse * reflector_sum.matrix;
   const PostureGains arm_gain(wrist_sum, arm_joints), wrist_gain(reflector_sum, wrist_joints);
-  std::vector<PostureGain> by_wrist, by_reflectors;
-  std::vector<Vector6d> influences;
-  for (std::size_t p = 0; p < wrist.size(); ++p) {
-    by_wrist.emplace_back(carried * arm_gain.of(wrist[p].matrix));
-    by_reflectors.push_back(wrist_gain.of(reflectors[p].matrix));
-    influences.emplace_back(by_wrist[p] * (wrist[p].right - wrist[p].matrix * arm_only) +
-                            by_reflectors[p] * (reflectors[p].right - reflectors[p].matrix * estimate.compliance));
-  }
+  std::vector<PostureGain> by_wrist(wrist.size()), by_reflectors(wrist.size());
+  std::vector<Vector6d> influences(wrist.size());
+  numerics::smallWorkOnAllCores(wrist.size(), [&](std::size_t p) {
+    by_wrist[p] = carried * arm_gain.of(wrist[p].matrix);
+    by_reflectors[p] = wrist_gain.of(reflectors[p].matrix);
+    influences[p] = by_wrist[p] * (wrist[p].right - wrist[p].matrix * arm_only) +
+                    by_reflectors[p] * (reflectors[p].right - reflectors[p].matrix * estimate.compliance);
+  });
   Vector6d dof = Vector6d::Zero();
-  for (int j = 0; j < 6; ++j) {
-    if (!estimate.identifiable[static_cast<std::size_t>(j)]) continue;
-    dof[j] = matchedDof(combined(wrist_variance, influenceCovariance(by_wrist, wrist, arm_inverse, j),
-                                 reflector_variance, influenceCovariance(by_reflectors, reflectors, wrist_inverse, j)));
-  }
+  numerics::onAllCores(
+      6,
+      [&](std::size_t joint) {
+        if (!estimate.identifiable[joint]) return;
+        const int j = static_cast<int>(joint);
+        dof[j] =
+            matchedDof(combined(wrist_variance, influenceCovariance(by_wrist, wrist, arm_inverse, j),
+                                reflector_variance, influenceCovariance(by_reflectors, reflectors, wrist_inverse, j)));
+      },
+      wrist.size() >= numerics::kWorthThreads);
   setScatter(std::move(influences), dof, estimate);
 }
 

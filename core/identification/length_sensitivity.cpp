@@ -9,18 +9,22 @@ namespace stiffscope::identification {
 
 namespace {
 
-/// Sums of squares of what the compliances leave of displacements and of rotations.
-struct BlockResiduals {
+/// Sums of squares of displacements and of rotations.
+struct BlockSquares {
   double displacement = 0.0, rotation = 0.0;
 
-  BlockResiduals(const std::vector<CaseEquations>& pose_rows, const Vector6d& compliance) {
+  explicit BlockSquares(const std::vector<CaseEquations>& pose_rows) {
     for (const CaseEquations& one : pose_rows) {
-      const Vector6d left = one.right - one.matrix * compliance;
-      displacement += left.head<3>().squaredNorm();
-      rotation += left.tail<3>().squaredNorm();
+      displacement += one.right.head<3>().squaredNorm();
+      rotation += one.right.tail<3>().squaredNorm();
     }
   }
 };
+
+/// What the compliances leave of them: b^T b - 2 c^T A^T b + c^T A^T A c.
+double leftOf(double squares, const NormalEquations& normal, const Vector6d& compliance) {
+  return squares + compliance.dot(normal.matrix * compliance - 2.0 * normal.right);
+}
 
 std::vector<PoseNormal> poseNormalByPosture(const std::vector<CaseEquations>& pose_rows) {
   std::vector<PoseNormal> postures;
@@ -74,10 +78,12 @@ std::optional<double> residualVarianceLength(const std::vector<CaseEquations>& p
   const PoseNormal sum = sumOfAll(poseNormalByPosture(pose_rows));
   constexpr int kMostRounds = 100;
   constexpr double kClose = 1e-9;
+  const BlockSquares whole(pose_rows);
   double length = start;
   for (int round = 0; round < kMostRounds; ++round) {
-    const BlockResiduals left(pose_rows, solveNormal(sum.at(length), unknown));
-    const double next = std::sqrt(left.displacement / left.rotation);
+    const Vector6d compliance = solveNormal(sum.at(length), unknown);
+    const double next = std::sqrt(leftOf(whole.displacement, sum.displacements, compliance) /
+                                  leftOf(whole.rotation, sum.rotations, compliance));
     if (!(next >= kShortestLength && next <= kLongestLength)) return std::nullopt;
     if (std::abs(next - length) <= kClose * length) return next;
     length = next;

@@ -77,14 +77,13 @@ std::vector<LoadCase> casesOf(const campaign::Campaign& campaign, const LoadRead
 void addWristMoves(const campaign::Campaign& campaign, const frames::WristCentre& wrist,
                    std::vector<LeftOutPosture>* left_out, LoadedArm& arm) {
   if (arm.cases.empty() || !arm.cases.front().absolute) return;
-  std::vector<std::optional<WristMove>> moves;
+  std::vector<std::optional<WristMove>> moves(arm.cases.size());
+  numerics::smallWorkOnAllCores(arm.cases.size(), [&](std::size_t i) {
+    const Eigen::Vector3d modelled = modelledWrist(arm.geometry.arm, arm.cases[i], wrist.centre_at_zero_in_r0);
+    moves[i] = wristMove(arm.cases[i], wrist.radii, modelled);
+  });
   std::vector<bool> has;
-  moves.reserve(arm.cases.size());
-  for (const LoadCase& load_case : arm.cases) {
-    const Eigen::Vector3d modelled = modelledWrist(arm.geometry.arm, load_case, wrist.centre_at_zero_in_r0);
-    moves.push_back(wristMove(load_case, wrist.radii, modelled));
-    has.push_back(moves.back().has_value());
-  }
+  for (const auto& move : moves) has.push_back(move.has_value());
   keepMost(campaign, has, RemarkId::no_wrist_point, arm.cases, left_out);
   std::erase_if(moves, [](const auto& move) { return !move; });
   if (moves.size() != arm.cases.size()) return;

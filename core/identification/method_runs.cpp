@@ -11,6 +11,7 @@
 #include "core/identification/loaded_arm.h"
 #include "core/identification/method_solution.h"
 #include "core/identification/remarks.h"
+#include "core/preparation/subsample.h"
 
 namespace stiffscope::identification {
 
@@ -221,8 +222,10 @@ void addSharedUncertainty(const MethodRuns& runs, Identification& result) {
     swept.push_back(which);
     solves.emplace_back([how = solutionOf(which, runs, result)](const LoadedArm& arm) { return how.compliance(arm); });
   }
-  const std::vector<SweptParts> parts =
-      sweptParts(runs.campaign, result.frames, runs.swept.geometry, result.steps, solves);
+  std::optional<campaign::Campaign> some;
+  if (runs.campaign.pose_ids.size() > kMostShared) some = preparation::evenlySpread(runs.campaign, kMostShared);
+  const campaign::Campaign& judged = some ? *some : runs.campaign;
+  const std::vector<SweptParts> parts = sweptParts(judged, result.frames, runs.swept.geometry, result.steps, solves);
   for (std::size_t k = 0; k < swept.size(); ++k) {
     CovarianceParts& own = methodOf(result, swept[k]).estimate.parts;
     own.frames = parts[k].frames, own.wrist = parts[k].wrist;
@@ -230,9 +233,8 @@ void addSharedUncertainty(const MethodRuns& runs, Identification& result) {
   MethodResult& partial = methodOf(result, Method::partial_pose);
   if (partial.available && result.calibration.done) {
     const MethodSolution how = solutionOf(Method::partial_pose, runs, result);
-    partial.estimate.parts.geometry =
-        calibratedPart(runs.campaign, result.calibration, result.frames.wrist, result.steps,
-                       [&](const LoadedArm& arm) { return how.compliance(arm); });
+    partial.estimate.parts.geometry = calibratedPart(judged, result.calibration, result.frames.wrist, result.steps,
+                                                     [&](const LoadedArm& arm) { return how.compliance(arm); });
   }
   for (MethodResult& method : result.methods) method.estimate.covariance = method.estimate.parts.total();
 }

@@ -1,9 +1,12 @@
 #include "core/identification/noise_share.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/frames/joint_axes.h"
 #include "core/identification/estimate.h"
+#include "core/numerics/parallel.h"
 
 namespace stiffscope::identification {
 
@@ -32,19 +35,20 @@ InfluenceCovariance covarianceByNoise(const std::vector<PostureGain>& gains, con
 
 std::vector<Matrix6d> reflectorNoise(const campaign::Tracker& tracker, const LoadedArm& arm,
                                      const std::vector<CaseEquations>& equations) {
-  std::vector<Matrix6d> noise;
-  noise.reserve(arm.cases.size());
-  for (std::size_t i = 0; i < arm.cases.size(); ++i) {
+  if (!arm.geometry.r0_from_loading ||
+      std::any_of(arm.cases.begin(), arm.cases.end(), [](const LoadCase& load_case) { return !load_case.absolute; }))
+    return {};
+  std::vector<Matrix6d> noise(arm.cases.size());
+  numerics::smallWorkOnAllCores(arm.cases.size(), [&](std::size_t i) {
     const LoadCase& load_case = arm.cases[i];
-    if (!load_case.absolute || !arm.geometry.r0_from_loading) return {};
     Matrix6d sum = Matrix6d::Zero();
     for (std::size_t k = 0; k < load_case.targets.size(); ++k) {
       const Matrix36d rows = equations[i].matrix.middleRows<3>(static_cast<Eigen::Index>(3 * k));
       sum += rows.transpose() * displacementCovariance(tracker, *arm.geometry.r0_from_loading, load_case.targets[k]) *
              rows;
     }
-    noise.push_back(sum);
-  }
+    noise[i] = sum;
+  });
   return noise;
 }
 
@@ -56,19 +60,26 @@ void correctForNoise(const std::vector<NormalEquations>& normal, const std::vect
   Matrix6d inner = Matrix6d::Zero();
   for (const Matrix6d& one : noise) inner += one;
   const PostureGains gain(sum, unknown);
-  std::vector<PostureGain> gains;
-  gains.reserve(normal.size());
-  for (const NormalEquations& one : normal) gains.push_back(gain.of(one.matrix));
+  std::vector<PostureGain> gains(normal.size());
+  numerics::smallWorkOnAllCores(normal.size(), [&](std::size_t p) { gains[p] = gain.of(normal[p].matrix); });
   const Matrix6d inverse = inverseNormal(sum, unknown);
   const Matrix6d truth = inverse * inner * inverse;
   Vector6d factor = Vector6d::Zero(), dof = Vector6d::Zero();
-  for (int j = 0; j < 6; ++j) {
-    if (!unknown[static_cast<std::size_t>(j)]) continue;
-    const InfluenceCovariance covariance = covarianceByNoise(gains, normal, noise, inverse, inner, j);
-    if (!(covariance.trace() > 0.0)) return;
-    factor[j] = std::sqrt(truth(j, j) / covariance.trace());
-    dof[j] = matchedDof(covariance);
-  }
+  std::array<bool, 6> known;
+  known.fill(true);
+  numerics::onAllCores(
+      6,
+      [&](std::size_t joint) {
+        if (!unknown[joint]) return;
+        const int j = static_cast<int>(joint);
+        const InfluenceCovariance covariance = covarianceByNoise(gains, normal, noise, inverse, inner, j);
+        known[joint] = covariance.trace() > 0.0;
+        if (!known[joint]) return;
+        factor[j] = std::sqrt(truth(j, j) / covariance.trace());
+        dof[j] = matchedDof(covariance);
+      },
+      normal.size() >= numerics::kWorthThreads);
+  if (std::find(known.begin(), known.end(), false) != known.end()) return;
   std::vector<Vector6d> influences = estimate.influences;
   for (Vector6d& one : influences) one = one.cwiseProduct(factor);
   setScatter(std::move(influences), dof, estimate);
@@ -105,6 +116,21 @@ double wristErrorVariance(const campaign::Campaign& campaign, const frames::Load
   return trace;
 }
 
+/// Lengths of errors and displacements, m, and what the reflectors' variances add up to, m^2.
+struct NoiseSums {
+  double wrist_error = 0.0, wrist = 0.0, target_error = 0.0, targets = 0.0, trace = 0.0, moves = 0.0;
+
+  NoiseSums& operator+=(const NoiseSums& other) {
+    wrist_error += other.wrist_error;
+    wrist += other.wrist;
+    target_error += other.target_error;
+    targets += other.targets;
+    trace += other.trace;
+    moves += other.moves;
+    return *this;
+  }
+};
+
 }  // namespace
 
 Eigen::Matrix3d displacementCovariance(const campaign::Tracker& tracker, const Eigen::Isometry3d& r0_from_loading,
@@ -121,25 +147,27 @@ std::optional<NoiseShare> noiseShare(const campaign::Campaign& campaign, const f
                                      const std::vector<LoadCase>& cases, const std::vector<WristMove>& wrist,
                                      const std::vector<double>& radii, const Eigen::Vector3d& centre_at_zero) {
   if (!campaign.tracker || !geometry.r0_from_loading || cases.empty() || !cases.front().absolute) return std::nullopt;
-  double wrist_error = 0.0, wrist_sum = 0.0, target_error = 0.0, target_sum = 0.0, trace = 0.0;
-  int moves = 0;
-  for (std::size_t i = 0; i < cases.size(); ++i) {
-    if (!wrist.empty()) {
-      wrist_error += kMeanNorm * std::sqrt(wristErrorVariance(campaign, geometry, cases[i], radii, centre_at_zero));
-      wrist_sum += wrist[i].displacement().norm();
-    }
-    for (const TargetMove& move : cases[i].targets) {
-      const double own = displacementCovariance(*campaign.tracker, *geometry.r0_from_loading, move).trace();
-      target_error += kMeanNorm * std::sqrt(own);
-      trace += own;
-      ++moves;
-      target_sum += move.displacement().norm();
-    }
-  }
+  const auto sums = numerics::sumInBlocks<NoiseSums>(
+      cases.size(),
+      [&](std::size_t i, NoiseSums& sum) {
+        if (!wrist.empty()) {
+          sum.wrist_error +=
+              kMeanNorm * std::sqrt(wristErrorVariance(campaign, geometry, cases[i], radii, centre_at_zero));
+          sum.wrist += wrist[i].displacement().norm();
+        }
+        for (const TargetMove& move : cases[i].targets) {
+          const double own = displacementCovariance(*campaign.tracker, *geometry.r0_from_loading, move).trace();
+          sum.target_error += kMeanNorm * std::sqrt(own);
+          sum.trace += own;
+          sum.moves += 1.0;
+          sum.targets += move.displacement().norm();
+        }
+      },
+      4);
   NoiseShare share;
-  if (wrist_sum > 0.0) share.at_wrist = wrist_error / wrist_sum;
-  if (moves > 0) share.per_coordinate = std::sqrt(trace / (3.0 * moves));
-  if (target_sum > 0.0) share.at_targets = target_error / target_sum;
+  if (sums.wrist > 0.0) share.at_wrist = sums.wrist_error / sums.wrist;
+  if (sums.moves > 0.0) share.per_coordinate = std::sqrt(sums.trace / (3.0 * sums.moves));
+  if (sums.targets > 0.0) share.at_targets = sums.target_error / sums.targets;
   return share;
 }
 

@@ -94,8 +94,11 @@ bool CsvLines::nextPlain(std::vector<std::string_view>& cells) {
   CsvMarks marks = marks_;  // here it stays in registers
   std::size_t count = 0;
   const auto add = [&](const char* begin, const char* mark) {
-    if (count == cells.size()) cells.emplace_back();
-    cells[count++] = trimmed(begin, mark);
+    if (count < kMostKept) {
+      if (count == cells.size()) cells.emplace_back();
+      cells[count] = trimmed(begin, mark);
+    }
+    ++count;
   };
   for (const char* begin = rest_.data();;) {
     const char* const mark = marks.next();
@@ -116,7 +119,8 @@ bool CsvLines::nextPlain(std::vector<std::string_view>& cells) {
     if (count > 1 || !cells.front().empty()) break;
     count = 0;  // a blank line
   }
-  cells.resize(count);
+  cells.resize(std::min(count, kMostKept));
+  cell_count_ = count;
   return true;
 }
 
@@ -172,9 +176,11 @@ bool CsvLines::next(std::vector<std::string_view>& cells) {
     if (!nextLine(line)) return false;
     skipBlanks(line);
   } while (line.empty());
-  while (true) {
+  for (cell_count_ = 1;; ++cell_count_) {
     skipBlanks(line);
-    cells.push_back(!line.empty() && line.front() == '"' ? quotedCell(line) : plainCell(line));
+    const std::string_view cell = !line.empty() && line.front() == '"' ? quotedCell(line) : plainCell(line);
+    if (cells.size() < kMostKept) cells.push_back(cell);
+    if (unescaped_.size() > kMostKept) unescaped_.pop_back();
     if (line.empty()) break;
     line.remove_prefix(1);
   }

@@ -56,9 +56,16 @@ class CsvLines {
   /// file, but stand behind that many lines of it.
   CsvLines(std::string file, std::string_view bytes, std::size_t lines_before = 0);
 
-  /// Cells of the next line that is not blank; false at the end. Throws InputError where a quote is not closed on its
-  /// line, or something else than a comma follows one that is.
+  /// Of a line with more cells than a table can have, the first of them: a file of commas would take ten times its
+  /// size.
+  static constexpr std::size_t kMostKept = 4096;
+
+  /// Cells of the next line that is not blank, kMostKept at most; false at the end. Throws InputError where a quote is
+  /// not closed on its line, or something else than a comma follows one that is.
   bool next(std::vector<std::string_view>& cells);
+
+  /// How many cells that line has.
+  std::size_t cellCount() const { return cell_count_; }
 
   /// Line of the cells last given, counted from 1.
   std::size_t line() const { return line_; }
@@ -76,7 +83,7 @@ class CsvLines {
 
   std::string file_;
   std::string_view rest_;
-  std::size_t line_ = 0;
+  std::size_t line_ = 0, cell_count_ = 0;
   bool line_ended_ = true;
   CsvMarks marks_;                     ///< in rest_
   const char* next_lf_ = nullptr;      ///< first LF in rest_; sought again only when it is passed

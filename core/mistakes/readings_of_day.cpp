@@ -92,10 +92,12 @@ struct PointSum {
 
 using PointsOfState = std::map<int, PointSum>;  ///< by target
 
+/// Of the postures that are looked at.
 std::map<std::pair<int, int>, PointsOfState> loadingPoints(const campaign::Campaign& campaign) {
   std::map<std::pair<int, int>, PointsOfState> points;
   if (!campaign.loading) return points;
   for (const campaign::LoadingReading& row : campaign.loading->rows) {
+    if (row.pose >= kPostures) continue;
     PointSum& sum = points[{row.pose, row.step}][row.target];
     if (sum.count == 0) sum.line = row.line;
     sum.sum += row.point;

@@ -80,7 +80,8 @@ AuditCheck countCheck(const std::string& id, const std::vector<RejectedReading>&
 struct Screening {
   campaign::Campaign campaign;
   std::vector<RejectedReading> rejected;
-  std::vector<AuditCheck> checks;  ///< lost_beam, duplicate_readings, repeat_outliers, nest_outliers
+  std::vector<AuditCheck> checks;        ///< lost_beam, duplicate_readings, repeat_outliers, nest_outliers
+  std::optional<RepeatScatter> scatter;  ///< of the readings that are left, where no repeat was rejected
 };
 
 /// Takes out, one kind after the other: points at exactly (0, 0, 0), which a tracker writes when it has lost
@@ -88,7 +89,7 @@ struct Screening {
 /// the beam still on the other reflector; repeats of one state that stand apart from the others by more
 /// than noise; and single readings of floor nests that the other nests contradict (core/preparation/nest_outliers.h).
 Screening screenReadings(campaign::Campaign campaign) {
-  Screening result{std::move(campaign), {}, {}};
+  Screening result{std::move(campaign), {}, {}, {}};
   const auto screen = [&](const std::string& id, AuditVerdict verdict, const std::vector<RejectedReading>& found,
                           RemarkId what, const Remark& source) {
     result.checks.push_back(countCheck(id, found, verdict, what, source));
@@ -107,13 +108,14 @@ Screening screenReadings(campaign::Campaign campaign) {
          Remark(RemarkId::nothing_inside_station));
   screen("duplicate_readings", AuditVerdict::warn, duplicates(result.campaign), RemarkId::readings_repeated,
          Remark(RemarkId::no_chance_of_same_digits));
-  const RepeatScatter scatter = repeatScatter(result.campaign);
+  RepeatScatter scatter = repeatScatter(result.campaign);
   if (scatter.tested) {
     screen("repeat_outliers", AuditVerdict::warn, scatter.outliers, RemarkId::repeats_stand_apart,
            byChance(Remark(RemarkId::chi_square_of_repeat)));
   } else {
     result.checks.push_back(notTestable("repeat_outliers", scatter.reason));
   }
+  if (scatter.outliers.empty()) result.scatter = std::move(scatter);
   const NestOutliers nests = nestOutliers(result.campaign);
   if (!nests.tested) {
     result.checks.push_back(notTestable("nest_outliers", nests.reason));
@@ -195,7 +197,7 @@ PreparedCampaign prepareCampaign(campaign::Campaign read) {
   prepared.preparation.rejected = std::move(screening.rejected);
   const std::optional<campaign::Tracker> declared = prepared.preparation.declared = prepared.campaign.tracker;
   const bool known = declaredNoise(prepared.campaign).has_value();
-  prepared.scatter = repeatScatter(prepared.campaign);
+  prepared.scatter = screening.scatter ? *std::move(screening.scatter) : repeatScatter(prepared.campaign);
   const auto shown = [&] { return asNoisyAs(*declared, noiseFactors(prepared.scatter)); };
   prepared.drift =
       stationCourse(prepared.campaign, known ? std::optional(frames::trackerNoise(shown())) : std::nullopt);

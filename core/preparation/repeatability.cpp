@@ -3,11 +3,13 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <tuple>
 
 #include "core/campaign/row_names.h"
 #include "core/frames/joint_axes.h"
 #include "core/numerics/distributions.h"
+#include "core/numerics/parallel.h"
 #include "core/preparation/finding.h"
 #include "core/preparation/remarks.h"
 #include "metrology/linear_algebra.h"
@@ -16,30 +18,44 @@ namespace stiffscope::preparation {
 
 namespace {
 
-using Repeats = std::vector<const campaign::LoadingReading*>;
+/// Readings of one reflector in one state.
+using StateRepeats = std::span<const campaign::LoadingReading* const>;
 
-std::vector<Repeats> statesWithRepeats(const campaign::Loading& loading) {
+/// Readings that were repeated, state by state.
+struct RepeatedStates {
+  std::vector<const campaign::LoadingReading*> rows;
+  std::vector<StateRepeats> states;  ///< of `rows`
+};
+
+RepeatedStates statesWithRepeats(const campaign::Loading& loading) {
   const auto state = [](const campaign::LoadingReading* row) { return std::tuple(row->pose, row->step, row->target); };
-  Repeats rows;
+  const auto before = [&](const auto* a, const auto* b) { return state(a) < state(b); };
+  RepeatedStates repeated;
+  auto& rows = repeated.rows;
   rows.reserve(loading.rows.size());
   for (const campaign::LoadingReading& row : loading.rows) rows.push_back(&row);
-  std::stable_sort(rows.begin(), rows.end(), [&](const auto* a, const auto* b) { return state(a) < state(b); });
-  std::vector<Repeats> repeated;
+  // Most tables have the repeats of a posture one after the other: then its rows alone are out of order.
+  for (auto first = rows.begin(); first != rows.end();) {
+    const auto end = std::find_if(first, rows.end(), [&](const auto* row) { return row->pose != (*first)->pose; });
+    std::stable_sort(first, end, before);
+    first = end;
+  }
+  if (!std::is_sorted(rows.begin(), rows.end(), before)) std::stable_sort(rows.begin(), rows.end(), before);
   for (auto first = rows.begin(); first != rows.end();) {
     const auto end = std::find_if(first, rows.end(), [&](const auto* row) { return state(row) != state(*first); });
-    if (end - first >= 2) repeated.emplace_back(first, end);
+    if (end - first >= 2) repeated.states.emplace_back(first, end);
     first = end;
   }
   return repeated;
 }
 
-Eigen::Vector3d sumOf(const Repeats& repeats) {
+Eigen::Vector3d sumOf(const StateRepeats& repeats) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const campaign::LoadingReading* row : repeats) sum += row->point;
   return sum;
 }
 
-void addScatter(const metrology::TrackerNoise& noise, const Repeats& repeats, RepeatScatter& scatter) {
+void addScatter(const metrology::TrackerNoise& noise, const StateRepeats& repeats, RepeatScatter& scatter) {
   const double n = static_cast<double>(repeats.size());
   const Eigen::Vector3d mean = sumOf(repeats) / n;
   const Eigen::Vector3d sight = mean - noise.station;
@@ -59,39 +75,67 @@ void addScatter(const metrology::TrackerNoise& noise, const Repeats& repeats, Re
   scatter.across_dof += 2 * (static_cast<int>(repeats.size()) - 1);
 }
 
-/// Squared distance of each repeat from the mean of the others, by the declared noise.
-std::vector<std::pair<const campaign::LoadingReading*, double>> distances(const metrology::TrackerNoise& noise,
-                                                                          const std::vector<Repeats>& states) {
-  std::vector<std::pair<const campaign::LoadingReading*, double>> result;
-  for (const Repeats& repeats : states) {
-    const double others = static_cast<double>(repeats.size()) - 1.0;
-    const Eigen::Vector3d sum = sumOf(repeats);
-    for (const campaign::LoadingReading* row : repeats) {
-      const Eigen::Vector3d off = row->point - (sum - row->point) / others;
-      const Eigen::Matrix3d covariance = (1.0 + 1.0 / others) * noise.covarianceAt(row->point);
-      result.emplace_back(row, mahalanobisSquared(off, covariance));
-    }
+/// Squared distance of a repeat from the mean of the others, whose `sum` its own is in, by the declared noise.
+double distanceFromOthers(const metrology::TrackerNoise& noise, const StateRepeats& repeats, const Eigen::Vector3d& sum,
+                          const campaign::LoadingReading& row) {
+  const double others = static_cast<double>(repeats.size()) - 1.0;
+  const Eigen::Vector3d off = row.point - (sum - row.point) / others;
+  return mahalanobisSquared(off, (1.0 + 1.0 / others) * noise.covarianceAt(row.point));
+}
+
+/// A repeat and its distance.
+struct FarRepeat {
+  const campaign::LoadingReading* row = nullptr;
+  double square = 0.0;
+};
+
+FarRepeat farthest(const metrology::TrackerNoise& noise, const StateRepeats& repeats) {
+  const Eigen::Vector3d sum = sumOf(repeats);
+  FarRepeat worst;
+  for (const campaign::LoadingReading* row : repeats) {
+    const double square = distanceFromOthers(noise, repeats, sum, *row);
+    if (worst.row == nullptr || square > worst.square) worst = {row, square};
   }
-  return result;
+  return worst;
+}
+
+/// Of all repeats, those of a state one after the other.
+std::vector<double> distances(const metrology::TrackerNoise& noise, const std::vector<StateRepeats>& states) {
+  std::vector<std::size_t> first;
+  std::size_t count = 0;
+  for (const StateRepeats& repeats : states) {
+    first.push_back(count);
+    count += repeats.size();
+  }
+  std::vector<double> squares(count);
+  numerics::smallWorkOnAllCores(states.size(), [&](std::size_t i) {
+    const Eigen::Vector3d sum = sumOf(states[i]);
+    for (std::size_t k = 0; k < states[i].size(); ++k)
+      squares[first[i] + k] = distanceFromOthers(noise, states[i], sum, *states[i][k]);
+  });
+  return squares;
 }
 
 std::vector<RejectedReading> outliers(const std::string& file, const metrology::TrackerNoise& noise,
-                                      std::vector<Repeats> states) {
+                                      const std::vector<StateRepeats>& states) {
   std::vector<RejectedReading> found;
-  auto all = distances(noise, states);
-  auto sorted = all;
+  const std::vector<double> all = distances(noise, states);
+  std::vector<double> sorted = all;
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end(),
-                   [](const auto& a, const auto& b) { return a.second < b.second; });
-  const double scale = std::max(1.0, middle->second / numerics::chiSquareLimit(0.5, 3.0));
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  const double scale = std::max(1.0, *middle / numerics::chiSquareLimit(0.5, 3.0));
   const double limit = scale * numerics::chiSquareLimit(kLevel / static_cast<double>(all.size()), 3.0);
   // The worst first, and its state judged again without it: one bad repeat pulls the mean of the others.
-  for (Repeats& repeats : states) {
+  auto own = all.begin();
+  for (const StateRepeats& state : states) {
+    const auto end = own + static_cast<std::ptrdiff_t>(state.size());
+    const bool far = std::any_of(own, end, [&](double square) { return !(square <= limit); });
+    own = end;
+    if (!far) continue;
+    std::vector<const campaign::LoadingReading*> repeats(state.begin(), state.end());
     while (repeats.size() >= 2) {
-      const auto own = distances(noise, {repeats});
-      const auto worst =
-          std::max_element(own.begin(), own.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
-      if (worst->second <= limit) break;
+      const FarRepeat worst = farthest(noise, repeats);
+      if (worst.square <= limit) break;
       const auto reject = [&](const campaign::LoadingReading* row) {
         const Eigen::Vector3d of_others = (sumOf(repeats) - row->point) / (static_cast<double>(repeats.size()) - 1.0);
         found.push_back({file, row->line, Remark(RemarkId::stands_from_state, (row->point - of_others).norm())});
@@ -100,8 +144,8 @@ std::vector<RejectedReading> outliers(const std::string& file, const metrology::
         for (const campaign::LoadingReading* row : repeats) reject(row);
         break;
       }
-      reject(worst->first);
-      repeats.erase(std::find(repeats.begin(), repeats.end(), worst->first));
+      reject(worst.row);
+      repeats.erase(std::find(repeats.begin(), repeats.end(), worst.row));
     }
   }
   return found;
@@ -120,12 +164,13 @@ RepeatScatter repeatScatter(const campaign::Campaign& campaign) {
     scatter.reason = Remark(RemarkId::tracker_noise_not_declared);
     return scatter;
   }
-  const std::vector<Repeats> states = statesWithRepeats(*campaign.loading);
+  const RepeatedStates repeated = statesWithRepeats(*campaign.loading);
+  const std::vector<StateRepeats>& states = repeated.states;
   if (states.empty()) {
     scatter.reason = Remark(RemarkId::no_repeats);
     return scatter;
   }
-  for (const Repeats& repeats : states) addScatter(*noise, repeats, scatter);
+  for (const StateRepeats& repeats : states) addScatter(*noise, repeats, scatter);
   scatter.along_rms = std::sqrt(scatter.along_rms / scatter.along_dof);
   scatter.across_rms = std::sqrt(scatter.across_rms / scatter.across_dof);
   scatter.outliers = outliers(campaign.loading->file, *noise, states);

@@ -7,6 +7,8 @@
 #include "core/identification/estimate.h"
 #include "core/identification/identify.h"
 #include "core/identification/load_dependence.h"
+#include "core/identification/method_runs.h"
+#include "core/identification/method_solution.h"
 #include "core/identification/remarks.h"
 #include "core/simulation/measure.h"
 #include "core/simulation/read_spec.h"
@@ -179,6 +181,30 @@ identification::IdentifyOptions quick() {
   options.subsets.most_all = 1;
   options.subsets.sample = 1;
   return options;
+}
+
+TEST(StiffnessCovariance, SharedPartsByAThousandPosturesAreThoseOfAll) {
+  simulation::SimulationSpec spec = springsOnly();
+  spec.posture_draw->count = 3000;
+  spec.posture_draw->candidates = 1;
+  const campaign::Campaign campaign = simulation::simulate(spec);
+  const identification::Identification found = identification::identify(campaign, quick());
+  const identification::MethodResult& method = found.of(identification::Method::decoupled_partial_pose);
+  identification::MethodSolution how;
+  how.method = identification::Method::decoupled_partial_pose;
+  how.unknown = method.estimate.identifiable;
+  const identification::SweptParts all =
+      identification::sweptParts(campaign, found.frames, method.geometry, found.steps,
+                                 {[&](const identification::LoadedArm& arm) { return how.compliance(arm); }})
+          .front();
+  const identification::CovarianceParts& some = method.estimate.parts;
+  for (int j = 1; j < 6; ++j) {  // the load hangs: no first joint
+    // A derivative by n postures scatters by one over the root of n of its own scatter between postures, which is its
+    // own size: 3 % of a standard uncertainty by a thousand. Three times that.
+    EXPECT_NEAR(std::sqrt((some.frames(j, j) + some.wrist(j, j)) / (all.frames(j, j) + all.wrist(j, j))), 1.0, 0.1)
+        << j;
+    EXPECT_NE(some.frames(j, j), all.frames(j, j)) << "the bound does not apply";
+  }
 }
 
 TEST(StiffnessCovariance, OfTheSweepsIsWhatNoisySweepsScatter) {

@@ -142,6 +142,24 @@ TEST(CsvLines, GivesEachLineItsOwnCellsAndNothingBehindTheLast) {
   }
 }
 
+// A table of commas alone would take sixteen bytes for each of them.
+TEST(CsvLines, KeepsTheFirstCellsOfALineThatNoTableHasAndCountsThemAll) {
+  for (const std::string cell : {"a", "\"a\"\"b\""}) {
+    std::string bytes = cell;
+    for (int i = 1; i < 10000; ++i) bytes += "," + cell;
+    bytes += "\n1,2\n";
+    io::CsvLines lines("t.csv", bytes);
+    std::vector<std::string_view> cells;
+    ASSERT_TRUE(lines.next(cells));
+    EXPECT_EQ(lines.cellCount(), 10000u);
+    ASSERT_EQ(cells.size(), io::CsvLines::kMostKept);
+    EXPECT_EQ(cells.back(), cell == "a" ? "a" : "a\"b");
+    ASSERT_TRUE(lines.next(cells));
+    EXPECT_EQ(cells, (std::vector<std::string_view>{"1", "2"}));
+    EXPECT_EQ(lines.cellCount(), 2u);
+  }
+}
+
 // The cost of a line must not grow with the rest of the file, whatever its ends.
 TEST(CsvLines, ReadsManyShortLinesOfEveryEndInLinearTime) {
   for (const std::string end : {"\n", "\r\n", "\r"}) {
