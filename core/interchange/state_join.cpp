@@ -139,7 +139,10 @@ StateJoin posturesOf(const JoinTask& task) {
     join.stretches.emplace_back(first, last);
   };
   const std::vector<JointSample>& samples = task.log.samples;
-  if (isTimed(task.log) && task.source.every_s) {
+  if (task.source.every_s) {
+    if (!isTimed(task.log))
+      throw io::InputError({task.day.file, task.source.line, "every_s"}, fmt::format("{:g}", *task.source.every_s),
+                           "expected no such attribute of a log without times (rate_hz)");
     double next = *samples.front().time_s;
     for (std::size_t i = 0; i < samples.size(); ++i) {
       if (*samples[i].time_s < next) continue;

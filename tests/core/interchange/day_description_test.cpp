@@ -87,7 +87,7 @@ TEST(DayDescription, EverythingThatCanBeSaid) {
 }
 
 TEST(DayDescription, RefusesWithLineAttributeAndValue) {
-  expectSays(refusal(kPoints), {"lab/DAY.xml:1", "join"});
+  expectSays(refusal(kPoints + "<log file=\"k.csv\"/>"), {"lab/DAY.xml:1", "join"});
   expectSays(refusal(kJoin), {"points"});
   expectSays(refusal("<join by=\"clok\"/>" + kPoints), {":4", "by", "'clok'", "did you mean 'clock'"});
   expectSays(refusal(kJoin + "<points role=\"load\" file=\"a\"/>"), {"role", "'load'", "loading, circle_sweeps"});
