@@ -92,16 +92,17 @@ toolpath::Cutting cuttingOf(const std::vector<std::string>& words) {
     const std::string name = word.substr(0, equals);
     const auto entry = std::find_if(entries.begin(), entries.end(), [&](const Entry& one) { return name == one.name; });
     if (entry == entries.end() || equals == std::string::npos)
-      throw io::InputError({"--cutting"}, word,
-                           fmt::format("expected NAME=VALUE of {}{}", fmt::join(known, ", "),
-                                       io::nearestNameHint(name, known)));
+      throw io::InputError(
+          {"--cutting"}, word,
+          fmt::format("expected NAME=VALUE of {}{}", fmt::join(known, ", "), io::nearestNameHint(name, known)));
     const io::ParsedNumber value = io::parseNumber(word.substr(equals + 1));
     if (!value.expectation.empty()) throw io::InputError({"--cutting"}, word, value.expectation);
     const bool positive = !entry->required || value.value > 0.0;
     if (!positive || value.value < entry->least || value.value > entry->most)
       throw io::InputError({"--cutting"}, word,
-                           entry->required ? "expected a number above 0"
-                                           : fmt::format("expected a number from {:g} to {:g}", entry->least, entry->most));
+                           entry->required
+                               ? "expected a number above 0"
+                               : fmt::format("expected a number from {:g} to {:g}", entry->least, entry->most));
     cutting.*entry->member = value.value * entry->unit;
     entry->given = true;
   }
@@ -187,8 +188,7 @@ class Predictor {
           return reports::withPreparation(std::move(document), prepared_.preparation);
         },
         [&] {
-          return text(cautions) +
-                 (first ? reports::wrapped(reports::shownFirstWords(result, *first), 2) + "\n" : "") +
+          return text(cautions) + (first ? reports::wrapped(reports::shownFirstWords(result, *first), 2) + "\n" : "") +
                  (found_.improved ? reports::extendedModelText(*found_.improved, methods) : "") +
                  reports::preparationText(prepared_.preparation);
         },
@@ -237,8 +237,7 @@ int compensatePostures(const CompensateArguments& arguments) {
 void addTargetLoads(const CompensateArguments& arguments, Predictor& predictor,
                     std::vector<compensation::PostureToCompensate>& targets) {
   const std::vector<std::string> kAxes{"cell", "base_link"};
-  const bool in_base =
-      !arguments.wrench_axes.empty() && placeOf(arguments.wrench_axes, kAxes, "--wrench-axes") == 1;
+  const bool in_base = !arguments.wrench_axes.empty() && placeOf(arguments.wrench_axes, kAxes, "--wrench-axes") == 1;
   if (in_base && arguments.tool.empty())
     throw io::InputError({"--wrench-axes"}, arguments.wrench_axes, "expected --tool, too: the wrench acts at its tip");
   std::vector<compensation::NamedReading> readings;
@@ -250,10 +249,12 @@ void addTargetLoads(const CompensateArguments& arguments, Predictor& predictor,
   for (compensation::PostureToCompensate& target : targets) {
     Vector6d wrench = sixOf(arguments.wrench);
     if (!arguments.wrenches.empty()) {
-      const auto own = std::find_if(readings.begin(), readings.end(), [&](const auto& one) { return one.id == target.id; });
+      const auto own =
+          std::find_if(readings.begin(), readings.end(), [&](const auto& one) { return one.id == target.id; });
       if (own == readings.end())
-        throw io::InputError({arguments.wrenches, 0, "pose"}, target.id, "expected a wrench of each joint target; of this "
-                                                                         "one there is none");
+        throw io::InputError({arguments.wrenches, 0, "pose"}, target.id,
+                             "expected a wrench of each joint target; of this "
+                             "one there is none");
       wrench = own->wrench_in_cell;
     }
     if (!in_base) {
@@ -261,8 +262,8 @@ void addTargetLoads(const CompensateArguments& arguments, Predictor& predictor,
       continue;
     }
     const Eigen::Matrix3d& to_r0 = predictor.geometry().r0_from_base_link.linear();
-    target.load = effects::FlangeLoad{frameOf(arguments.tool).translation(), to_r0 * wrench.head<3>(),
-                                      to_r0 * wrench.tail<3>()};
+    target.load =
+        effects::FlangeLoad{frameOf(arguments.tool).translation(), to_r0 * wrench.head<3>(), to_r0 * wrench.tail<3>()};
   }
 }
 
@@ -277,9 +278,8 @@ double roundingOf(const interchange::TaughtProgram& program, const campaign::Joi
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (!rows[i].solved) continue;
     const double unit = io::kDegree * std::pow(10.0, -interchange::decimalsOfTarget(program, i));
-    const Vector6d written = convention.figures(rows[i].commands).unaryExpr([&](double figure) {
-      return std::round(figure / unit) * unit;
-    });
+    const Vector6d written =
+        convention.figures(rows[i].commands).unaryExpr([&](double figure) { return std::round(figure / unit) * unit; });
     most = std::max(most, (tcpAt(convention.angles(written)) - tcpAt(rows[i].commands)).norm());
   }
   return most;
@@ -336,13 +336,15 @@ toolpath::PathJob pathJob(const CompensateArguments& arguments) {
   if (!arguments.cutting.empty()) job.load.cutting = cuttingOf(arguments.cutting);
   const int loads = int(job.path.has_wrenches) + int(!arguments.wrench.empty()) + int(!arguments.cutting.empty());
   if (loads != 1)
-    throw io::InputError({"--path"}, arguments.path,
-                         fmt::format("expected the process load once: fx_n to mz_nm in the path, --wrench or --cutting; {}",
-                                     loads == 0 ? "there is none" : "there is more than one"));
+    throw io::InputError(
+        {"--path"}, arguments.path,
+        fmt::format("expected the process load once: fx_n to mz_nm in the path, --wrench or --cutting; {}",
+                    loads == 0 ? "there is none" : "there is more than one"));
   job.load.constant = sixOf(arguments.wrench);
   if (!arguments.wrench_axes.empty()) {
     if (job.load.cutting)
-      throw io::InputError({"--wrench-axes"}, arguments.wrench_axes, "expected no axes: those of --cutting are the feed's");
+      throw io::InputError({"--wrench-axes"}, arguments.wrench_axes,
+                           "expected no axes: those of --cutting are the feed's");
     const std::vector<std::string> known(toolpath::kWrenchAxesNames.begin(), toolpath::kWrenchAxesNames.end());
     job.load.axes = static_cast<toolpath::WrenchAxes>(placeOf(arguments.wrench_axes, known, "--wrench-axes"));
   }
@@ -407,13 +409,13 @@ void addCompensate(CLI::App& app, Run& run) {
           ->excludes(postures);
   CLI::Option* path =
       command
-          ->add_option("--path", arguments->path,
-                       "CSV with pose, x_mm y_mm z_mm of the tool's tip, and i j k (axis, tip to spindle) or qw qx qy qz, "
-                       "perhaps fx_n..mz_nm on the tool and load_share, in the workpiece's frame")
+          ->add_option(
+              "--path", arguments->path,
+              "CSV with pose, x_mm y_mm z_mm of the tool's tip, and i j k (axis, tip to spindle) or qw qx qy qz, "
+              "perhaps fx_n..mz_nm on the tool and load_share, in the workpiece's frame")
           ->excludes(postures)
           ->excludes(program);
-  command->add_option("--out", arguments->out,
-                      "write the commands to this file: CSV, or with --program the program");
+  command->add_option("--out", arguments->out, "write the commands to this file: CSV, or with --program the program");
   CLI::Option* wrench = addSix(*command, "--wrench", arguments->wrench,
                                "fx,fy,fz (N), mx,my,mz (Nm) on the tool at every target or pose");
   CLI::Option* wrenches = command
@@ -434,8 +436,9 @@ void addCompensate(CLI::App& app, Run& run) {
           ->delimiter(',')
           ->needs(path)
           ->excludes(wrench);
-  CLI::Option* tool = addSix(*command, "--tool", arguments->tool,
-                             "x,y,z (mm), roll,pitch,yaw (deg) of the tool's tip in the flange; its z leads out of the tool");
+  CLI::Option* tool =
+      addSix(*command, "--tool", arguments->tool,
+             "x,y,z (mm), roll,pitch,yaw (deg) of the tool's tip in the flange; its z leads out of the tool");
   addSix(*command, "--workpiece", arguments->workpiece,
          "x,y,z (mm), roll,pitch,yaw (deg) of the workpiece's frame in base_link; without it base_link")
       ->needs(path);
@@ -449,7 +452,8 @@ void addCompensate(CLI::App& app, Run& run) {
       ->add_option("--load-sd-percent", arguments->load_sd_percent,
                    "standard uncertainty of the loads' size; without it that of the load cell's scale")
       ->check(CLI::Range(0.0, 100.0));
-  command->add_option("--picture", arguments->picture, "draw the path and its deviations into this PNG file")->needs(path);
+  command->add_option("--picture", arguments->picture, "draw the path and its deviations into this PNG file")
+      ->needs(path);
   command->add_option("--method", arguments->method, "cp, pp or dpp; without it the one that identify shows first");
   command->add_option("--step", arguments->step, "load step to identify from");
   addModelOptions(*command, arguments->model);
@@ -459,8 +463,7 @@ void addCompensate(CLI::App& app, Run& run) {
   command->callback([=, &run] {
     const bool own_load = program->count() == 0 && path->count() == 0;
     for (const CLI::Option* option : {wrench, wrenches, axes, cutting, tool}) {
-      if (own_load && option->count() > 0)
-        throw CLI::ValidationError(option->get_name(), "needs --program or --path");
+      if (own_load && option->count() > 0) throw CLI::ValidationError(option->get_name(), "needs --program or --path");
     }
     run = [arguments] { return compensateCampaign(*arguments); };
   });

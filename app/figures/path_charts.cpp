@@ -8,8 +8,8 @@
 #include "core/io/units.h"
 #include "core/preparation/subsample.h"
 #include "render/ticks.h"
-#include "reports/words/rich_text.h"
 #include "reports/words/numbers.h"
+#include "reports/words/rich_text.h"
 
 namespace stiffscope::app {
 
@@ -26,8 +26,7 @@ std::vector<const toolpath::CompensatedPathPose*> drawnPoses(const toolpath::Com
 }
 
 bool anyPredicted(const toolpath::CompensatedPath& path) {
-  return std::any_of(path.poses.begin(), path.poses.end(),
-                     [](const auto& pose) { return pose.compensated.predicted; });
+  return std::any_of(path.poses.begin(), path.poses.end(), [](const auto& pose) { return pose.compensated.predicted; });
 }
 
 /// A line through poses; NaN breaks it.
@@ -42,7 +41,8 @@ render::PointSeries pathLine(const std::string& name, render::Colour colour) {
 
 std::string poseCount(const campaign::Campaign& campaign, const toolpath::CompensatedPath& path) {
   const compensation::CompensationSummary summary = compensation::summaryOf(path.postures());
-  return fmt::format("{}; {} of {} poses compensated", reports::asIs(campaign.name), summary.compensated, summary.asked);
+  return fmt::format("{}; {} of {} poses compensated", reports::asIs(campaign.name), summary.compensated,
+                     summary.asked);
 }
 
 /// The two axes of the workpiece along which the path extends most, in their order.
@@ -62,10 +62,9 @@ std::array<Eigen::Index, 2> planeOf(const toolpath::CompensatedPath& path) {
 double extentOf(const toolpath::CompensatedPath& path, const std::array<Eigen::Index, 2>& plane) {
   double largest = 0.0;
   for (const Eigen::Index axis : plane) {
-    const auto [low, high] =
-        std::minmax_element(path.poses.begin(), path.poses.end(), [&](const auto& a, const auto& b) {
-          return a.tip_in_workpiece[axis] < b.tip_in_workpiece[axis];
-        });
+    const auto [low, high] = std::minmax_element(
+        path.poses.begin(), path.poses.end(),
+        [&](const auto& a, const auto& b) { return a.tip_in_workpiece[axis] < b.tip_in_workpiece[axis]; });
     largest = std::max(largest, high->tip_in_workpiece[axis] - low->tip_in_workpiece[axis]);
   }
   return largest;
@@ -97,10 +96,11 @@ std::optional<render::PointChart> pathShapes(const campaign::Campaign& campaign,
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const toolpath::CompensatedPathPose& pose = *poses[i];
     asked.points.push_back(drawn(pose.tip_in_workpiece));
-    before.points.push_back(drawn(
-        pose.compensated.predicted ? Eigen::Vector3d(pose.tip_in_workpiece + magnified * pose.deflection.shift) : nowhere));
-    const Eigen::Vector3d along = poses[std::min(i + 1, poses.size() - 1)]->tip_in_workpiece -
-                                  poses[i > 0 ? i - 1 : 0]->tip_in_workpiece;
+    before.points.push_back(drawn(pose.compensated.predicted
+                                      ? Eigen::Vector3d(pose.tip_in_workpiece + magnified * pose.deflection.shift)
+                                      : nowhere));
+    const Eigen::Vector3d along =
+        poses[std::min(i + 1, poses.size() - 1)]->tip_in_workpiece - poses[i > 0 ? i - 1 : 0]->tip_in_workpiece;
     Eigen::Vector3d aside = Eigen::Vector3d::Zero();
     aside[plane[0]] = -along[plane[1]];
     aside[plane[1]] = along[plane[0]];
@@ -115,9 +115,8 @@ std::optional<render::PointChart> pathShapes(const campaign::Campaign& campaign,
   render::PointChart chart;
   chart.title = "Path of the tool's tip without and with compensation";
   constexpr const char* kAxisNames = "xyz";
-  chart.subtitle =
-      fmt::format("{}; {} to the right, {} up; deviations \u00d7 {}", poseCount(campaign, path), kAxisNames[plane[0]],
-                  kAxisNames[plane[1]], render::shortNumber(magnified));
+  chart.subtitle = fmt::format("{}; {} to the right, {} up; deviations \u00d7 {}", poseCount(campaign, path),
+                               kAxisNames[plane[0]], kAxisNames[plane[1]], render::shortNumber(magnified));
   chart.columns = 2;
   const double bar_mm = render::roundUp125(0.1 * extent / io::kMillimetre);
   for (const bool compensated : {false, true}) {

@@ -9,9 +9,9 @@
 
 namespace stiffscope::app {
 
-/// The path in the plane of its two longest extents, true to scale: as asked for, as the tip runs under the process load
-/// with its deviations magnified, and with compensation the band in which it is (U, 95 %), magnified as much. None without
-/// a predicted pose.
+/// The path in the plane of its two longest extents, true to scale: as asked for, as the tip runs under the process
+/// load with its deviations magnified, and with compensation the band in which it is (U, 95 %), magnified as much. None
+/// without a predicted pose.
 std::optional<render::PointChart> pathShapes(const campaign::Campaign& campaign, const toolpath::CompensatedPath& path);
 
 /// The deviation over the length of the path: its size without compensation and U with it, and its components in the

@@ -50,8 +50,8 @@ struct LogOptions {
   std::optional<LogFormat> format;
   FileOptions table;              ///< of `columns`, and the encoding of all
   std::optional<double> rate_hz;  ///< of a log without times: samples a second
-  /// Of a program: targets that stand in its instructions (PTP {A1 ...}, MoveAbsJ [[...]]), too, and not only those that
-  /// are declared. They are called by their line.
+  /// Of a program: targets that stand in its instructions (PTP {A1 ...}, MoveAbsJ [[...]]), too, and not only those
+  /// that are declared. They are called by their line.
   bool in_instructions = false;
   bool joints_needed = true;  ///< false: a file without joint angles is no error
 };

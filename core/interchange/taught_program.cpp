@@ -33,9 +33,10 @@ std::string writtenFigure(double degrees, int decimals) {
 }
 
 [[noreturn]] void refuseWithoutJoints(const std::string& file, std::size_t line) {
-  throw io::InputError({file, line, ""}, "",
-                       "expected joint targets; this one is in space, and which joint angles the controller takes for it "
-                       "is not in the file: have the targets stored as joints, or use --path");
+  throw io::InputError(
+      {file, line, ""}, "",
+      "expected joint targets; this one is in space, and which joint angles the controller takes for it "
+      "is not in the file: have the targets stored as joints, or use --path");
 }
 
 }  // namespace

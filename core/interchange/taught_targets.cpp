@@ -306,8 +306,7 @@ RobotLog readKukaData(const LogText& text) {
   log.format = LogFormat::kuka_krl;
   ProgramText program(text.file, code);
   std::vector<std::string_view> starts{"decl"};
-  if (text.options.in_instructions)
-    starts.insert(starts.end(), {"ptp", "sptp", "lin", "slin", "circ", "scirc", "spl"});
+  if (text.options.in_instructions) starts.insert(starts.end(), {"ptp", "sptp", "lin", "slin", "circ", "scirc", "spl"});
   WordsInOrder words(small, starts);
   for (auto found = words.next(0); found.at != std::string::npos; found = words.next(program.place())) {
     program.goTo(found.at);
@@ -361,7 +360,8 @@ void readRapidDeclaration(ProgramText& program, RobotLog& log) {
   readSixAngles(program, sample, log);
 }
 
-/// A target that stands in the instruction, called by its line: MoveAbsJ [[q1,...],[...]], or of the others one in space.
+/// A target that stands in the instruction, called by its line: MoveAbsJ [[q1,...],[...]], or of the others one in
+/// space.
 void readRapidMotion(std::string_view word, ProgramText& program, RobotLog& log) {
   JointSample sample;
   sample.line = program.line();

@@ -29,8 +29,7 @@ ToolAt toolAt(const Robot& robot, const Eigen::Isometry3d& wanted, const Eigen::
   const ArmPosture posture = postureAt(robot, q);
   const Eigen::Isometry3d tool = flangeAt(robot, posture) * flange_from_tool;
   ToolAt at{axesAt(robot, posture), tool.translation(), Vector6d::Zero()};
-  at.left << wanted.translation() - tool.translation(),
-      rotationVector(wanted.linear() * tool.linear().transpose());
+  at.left << wanted.translation() - tool.translation(), rotationVector(wanted.linear() * tool.linear().transpose());
   return at;
 }
 
@@ -71,9 +70,8 @@ Vector6d withinTurns(const Robot& robot, const Vector6d& q) {
   Vector6d moved = q;
   for (int j = 0; j < 6; ++j) {
     const JointLimits& limits = robot.limits[static_cast<std::size_t>(j)];
-    const double middle = std::isfinite(limits.lower) && std::isfinite(limits.upper)
-                              ? 0.5 * (limits.lower + limits.upper)
-                              : 0.0;
+    const double middle =
+        std::isfinite(limits.lower) && std::isfinite(limits.upper) ? 0.5 * (limits.lower + limits.upper) : 0.0;
     moved[j] = middle + std::remainder(q[j] - middle, kWholeTurn);
   }
   return moved;

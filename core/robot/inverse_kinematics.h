@@ -27,15 +27,15 @@ struct InverseKinematics {
 /// Newton steps from `start`,
 ///   (J^T J + m I) dq = J^T e,    e = (position left, rotation vector left), J at the tool's origin,
 /// m falling while steps help and rising while they do not (K. Levenberg 1944, D. Marquardt 1963; in robotics C. W.
-/// Wampler 1986), one metre weighing as one radian. Of the up to sixteen solutions it is the one that steps from `start`
-/// lead to: from a solution of a pose nearby, the same branch. Not reached: out of reach, or `start` too far.
+/// Wampler 1986), one metre weighing as one radian. Of the up to sixteen solutions it is the one that steps from
+/// `start` lead to: from a solution of a pose nearby, the same branch. Not reached: out of reach, or `start` too far.
 InverseKinematics inverseKinematics(const Robot& robot, const Eigen::Isometry3d& base_from_tool,
                                     const Eigen::Isometry3d& flange_from_tool, const Vector6d& start,
                                     const InverseKinematicsOptions& options = {});
 
-/// Solutions of one pose that differ by more than whole turns, each as near to the middle of the joints' limits as whole
-/// turns bring it: those that some of `starts` lead to, in their order. Solutions that hang together (a singular posture)
-/// count as one where they are nearer than 1e-3 rad.
+/// Solutions of one pose that differ by more than whole turns, each as near to the middle of the joints' limits as
+/// whole turns bring it: those that some of `starts` lead to, in their order. Solutions that hang together (a singular
+/// posture) count as one where they are nearer than 1e-3 rad.
 std::vector<Vector6d> inverseKinematicsBranches(const Robot& robot, const Eigen::Isometry3d& base_from_tool,
                                                 const Eigen::Isometry3d& flange_from_tool,
                                                 const std::vector<Vector6d>& starts,

@@ -123,9 +123,8 @@ CompensatedPath compensatePath(const PathArm& arm, const PathJob& job) {
     asked.push_back(result.poses[i].compensated.posture);
     places.push_back(i);
   }
-  const std::vector<compensation::CompensatedPosture> compensated =
-      compensation::compensate(arm.campaign, arm.geometry, arm.estimate, job.flange_from_tool.translation(), asked, {},
-                               arm.with, arm.certainty);
+  const std::vector<compensation::CompensatedPosture> compensated = compensation::compensate(
+      arm.campaign, arm.geometry, arm.estimate, job.flange_from_tool.translation(), asked, {}, arm.with, arm.certainty);
   for (std::size_t k = 0; k < places.size(); ++k) {
     CompensatedPathPose& pose = result.poses[places[k]];
     pose.compensated = compensated[k];

@@ -16,8 +16,7 @@ CuttingForce meanCuttingForce(const Cutting& cutting) {
   const double unit = cutting.specific_force * cutting.depth * cutting.feed;
   CuttingForce found;
   found.force << unit / (8.0 * pi) * (cosines - cutting.radial_ratio * sines),
-      unit / (8.0 * pi) * (sines + cutting.radial_ratio * cosines),
-      unit / (2.0 * pi) * cutting.axial_ratio * cosine;
+      unit / (8.0 * pi) * (sines + cutting.radial_ratio * cosines), unit / (2.0 * pi) * cutting.axial_ratio * cosine;
   found.torque = cutting.specific_force * cutting.depth * cutting.width * cutting.feed / (2.0 * pi);
   return found;
 }

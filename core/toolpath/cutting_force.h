@@ -16,8 +16,8 @@ struct Cutting {
   bool up = false;              ///< up milling (conventional); false: down milling (climb)
 };
 
-/// What the workpiece does to the tool, mean over a revolution. Axes of the feed: x along it, z along the tool's axis from
-/// the tip to the spindle, y = z x x, to the left of the feed.
+/// What the workpiece does to the tool, mean over a revolution. Axes of the feed: x along it, z along the tool's axis
+/// from the tip to the spindle, y = z x x, to the left of the feed.
 struct CuttingForce {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< N, on the tool's axis half the depth above the tip
   double torque = 0.0;                              ///< about z, Nm: it holds the spindle back

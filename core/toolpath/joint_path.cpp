@@ -99,7 +99,8 @@ class Follower {
     constexpr double kPart = 0.03, kPartTurn = 0.06, kJump = 0.35;
     const Eigen::Isometry3d begin = turned(poses_[from], from_turn), end = turned(poses_[pose], turn);
     const Eigen::Quaterniond begin_turn(begin.linear()), end_turn(end.linear());
-    const double distance = (end.translation() - begin.translation()).norm(), angle = begin_turn.angularDistance(end_turn);
+    const double distance = (end.translation() - begin.translation()).norm(),
+                 angle = begin_turn.angularDistance(end_turn);
     const int parts = std::max(1, static_cast<int>(std::ceil(std::max(distance / kPart, angle / kPartTurn))));
     Reached reached;
     reached.found.q = start;
@@ -122,7 +123,8 @@ class Follower {
     return reached;
   }
 
-  /// The turn within reach of `turn` at which the posture costs least: the vertex of the parabola through three of them.
+  /// The turn within reach of `turn` at which the posture costs least: the vertex of the parabola through three of
+  /// them.
   double betterTurn(std::size_t pose, std::size_t from, const Vector6d& start, double turn, bool first) const {
     const double step = (poses_[pose].translation() - poses_[from].translation()).norm();
     const double most = first ? 0.0 : std::min(0.1, options_.turn_per_metre * step);
@@ -224,7 +226,8 @@ JointPath jointPath(const robot::Robot& arm, const std::vector<Eigen::Isometry3d
   std::vector<std::vector<Start>> by_turn(turns);
   numerics::onAllCores(turns, [&](std::size_t k) {
     const double turn = kFullTurn * static_cast<double>(k) / static_cast<double>(turns);
-    for (Vector6d q : robot::inverseKinematicsBranches(arm, turned(base_from_tool.front(), turn), flange_from_tool, seeds)) {
+    for (Vector6d q :
+         robot::inverseKinematicsBranches(arm, turned(base_from_tool.front(), turn), flange_from_tool, seeds)) {
       // The whole turns of a stated start are meant.
       if (options.start) {
         for (int j = 0; j < 6; ++j) q[j] += kFullTurn * std::round(((*options.start)[j] - q[j]) / kFullTurn);
@@ -254,7 +257,8 @@ JointPath jointPath(const robot::Robot& arm, const std::vector<Eigen::Isometry3d
     double sum = 0.0;
     for (std::size_t i = 0; i < path.size(); ++i) {
       const JointPathPose& pose = path[i];
-      const bool usable = pose.reason.empty() && pose.limit_margin >= 0.0 && pose.conditioning >= options.least_conditioning;
+      const bool usable =
+          pose.reason.empty() && pose.limit_margin >= 0.0 && pose.conditioning >= options.least_conditioning;
       unusable += usable ? 0 : 1;
       if (pose.q.allFinite()) sum += follower.costAt(i, pose.turn, pose.q);
     }

@@ -10,18 +10,18 @@
 namespace stiffscope::toolpath {
 
 struct JointPathOptions {
-  std::optional<Vector6d> start;      ///< near it lies the branch that is wanted, rad; empty: the best of all found
-  std::vector<Vector6d> seeds;        ///< postures from which branches are looked for, besides drawn ones, rad
-  double least_conditioning = 0.01;   ///< below it a posture is too near a singularity
-  double turn_per_metre = 3.0;        ///< most of the free turn about the tool's axis, rad per m of the path
-  /// Joint angles among which postures are preferred: those that a day identified from, rad. Of an infinite one there is
-  /// no limit.
+  std::optional<Vector6d> start;     ///< near it lies the branch that is wanted, rad; empty: the best of all found
+  std::vector<Vector6d> seeds;       ///< postures from which branches are looked for, besides drawn ones, rad
+  double least_conditioning = 0.01;  ///< below it a posture is too near a singularity
+  double turn_per_metre = 3.0;       ///< most of the free turn about the tool's axis, rad per m of the path
+  /// Joint angles among which postures are preferred: those that a day identified from, rad. Of an infinite one there
+  /// is no limit.
   std::optional<Vector6d> preferred_low, preferred_high;
 };
 
 /// Joint angles for one pose of the path.
 struct JointPathPose {
-  Vector6d q = Vector6d::Zero();  ///< rad
+  Vector6d q = Vector6d::Zero();                                     ///< rad
   Eigen::Isometry3d base_from_tool = Eigen::Isometry3d::Identity();  ///< with the turn about the tool's axis put in
   double turn = 0.0;          ///< about the tool's z axis, from the pose as it was given, rad
   double conditioning = 0.0;  ///< conditioningAt the tool's origin

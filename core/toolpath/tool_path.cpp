@@ -26,7 +26,8 @@ struct PathRow {
   std::size_t line = 0;
 };
 
-campaign::Column<PathRow> ratioColumn(const char* name, campaign::Column<PathRow>::Number member, const char* together) {
+campaign::Column<PathRow> ratioColumn(const char* name, campaign::Column<PathRow>::Number member,
+                                      const char* together) {
   campaign::Column<PathRow> column{name, campaign::CellKind::ratio, member, false};
   column.together = together;
   return column;
@@ -36,18 +37,25 @@ const campaign::TableLayout<PathRow>& pathLayout() {
   using Row = PathRow;
   static const campaign::TableLayout<Row> layout{
       "path",
-      campaign::joined<Row>(
-          {{{"pose", campaign::CellKind::text, [](Row& row) -> std::string& { return row.id; }}},
-           campaign::pointColumns<Row>(),
-           {ratioColumn("i", [](Row& row) -> double& { return row.axis[0]; }, "axis"),
-            ratioColumn("j", [](Row& row) -> double& { return row.axis[1]; }, "axis"),
-            ratioColumn("k", [](Row& row) -> double& { return row.axis[2]; }, "axis"),
-            ratioColumn("qw", [](Row& row) -> double& { return row.quaternion[0]; }, "quaternion"),
-            ratioColumn("qx", [](Row& row) -> double& { return row.quaternion[1]; }, "quaternion"),
-            ratioColumn("qy", [](Row& row) -> double& { return row.quaternion[2]; }, "quaternion"),
-            ratioColumn("qz", [](Row& row) -> double& { return row.quaternion[3]; }, "quaternion"),
-            ratioColumn("load_share", [](Row& row) -> double& { return row.share; }, "")},
-           campaign::wrenchColumns<Row>(false)}),
+      campaign::joined<Row>({{{"pose", campaign::CellKind::text, [](Row& row) -> std::string& { return row.id; }}},
+                             campaign::pointColumns<Row>(),
+                             {ratioColumn(
+                                  "i", [](Row& row) -> double& { return row.axis[0]; }, "axis"),
+                              ratioColumn(
+                                  "j", [](Row& row) -> double& { return row.axis[1]; }, "axis"),
+                              ratioColumn(
+                                  "k", [](Row& row) -> double& { return row.axis[2]; }, "axis"),
+                              ratioColumn(
+                                  "qw", [](Row& row) -> double& { return row.quaternion[0]; }, "quaternion"),
+                              ratioColumn(
+                                  "qx", [](Row& row) -> double& { return row.quaternion[1]; }, "quaternion"),
+                              ratioColumn(
+                                  "qy", [](Row& row) -> double& { return row.quaternion[2]; }, "quaternion"),
+                              ratioColumn(
+                                  "qz", [](Row& row) -> double& { return row.quaternion[3]; }, "quaternion"),
+                              ratioColumn(
+                                  "load_share", [](Row& row) -> double& { return row.share; }, "")},
+                             campaign::wrenchColumns<Row>(false)}),
       {"pose"}};
   return layout;
 }
@@ -55,7 +63,8 @@ const campaign::TableLayout<PathRow>& pathLayout() {
 void requireUnit(const std::string& file, const PathRow& row, const char* columns, double length) {
   constexpr double kWithin = 0.01;
   if (std::abs(length - 1.0) <= kWithin) return;
-  throw io::InputError({file, row.line, columns}, fmt::format("{:.6g}", length), "expected a length of one, within 1 %");
+  throw io::InputError({file, row.line, columns}, fmt::format("{:.6g}", length),
+                       "expected a length of one, within 1 %");
 }
 
 /// The least turn that brings one direction to another.
@@ -78,8 +87,7 @@ ToolPath readToolPath(const std::filesystem::path& file, std::vector<std::string
   ToolPath path;
   path.file = file.string();
   campaign::CampaignNames names;
-  const std::vector<PathRow> rows =
-      campaign::readTable<PathRow>({path.file, bytes}, pathLayout(), names, warnings);
+  const std::vector<PathRow> rows = campaign::readTable<PathRow>({path.file, bytes}, pathLayout(), names, warnings);
   path.turn_free = std::isnan(rows.front().quaternion[0]);
   path.has_wrenches = !std::isnan(rows.front().wrench_in_cell[0]);
   if (!path.turn_free && !std::isnan(rows.front().axis[0]))
@@ -112,10 +120,10 @@ ToolPath readToolPath(const std::filesystem::path& file, std::vector<std::string
 std::vector<double> lengthsAlong(const ToolPath& path) {
   std::vector<double> lengths;
   for (std::size_t i = 0; i < path.poses.size(); ++i) {
-    const double step = i == 0 ? 0.0
-                               : (path.poses[i].workpiece_from_tool.translation() -
-                                  path.poses[i - 1].workpiece_from_tool.translation())
-                                     .norm();
+    const double step =
+        i == 0 ? 0.0
+               : (path.poses[i].workpiece_from_tool.translation() - path.poses[i - 1].workpiece_from_tool.translation())
+                     .norm();
     lengths.push_back(i == 0 ? 0.0 : lengths.back() + step);
   }
   return lengths;

@@ -25,15 +25,15 @@ struct PathPose {
 struct ToolPath {
   std::string file;  ///< for messages
   std::vector<PathPose> poses;
-  /// The file gives the tool's axis alone, so that the tool may turn about it. The x axes are then carried along the path
-  /// without a turn about z, from an arbitrary first one.
+  /// The file gives the tool's axis alone, so that the tool may turn about it. The x axes are then carried along the
+  /// path without a turn about z, from an arbitrary first one.
   bool turn_free = false;
   bool has_wrenches = false;  ///< of every pose
 };
 
 /// Reads a path from a CSV file: `pose` (any name, not repeated), `x_mm y_mm z_mm` of the tip; the tool's direction as
-/// `i j k`, its axis from the tip to the spindle, as in CL data of CAM, or as a quaternion `qw qx qy qz` (workpiece from
-/// tool), or neither: then the axis is the workpiece's z; perhaps `fx_n fy_n fz_n mx_nm my_nm mz_nm`, and
+/// `i j k`, its axis from the tip to the spindle, as in CL data of CAM, or as a quaternion `qw qx qy qz` (workpiece
+/// from tool), or neither: then the axis is the workpiece's z; perhaps `fx_n fy_n fz_n mx_nm my_nm mz_nm`, and
 /// `load_share`, 0 to 1. Columns in any order. Throws InputError as the campaign's tables do, and where an axis or
 /// quaternion is not of length one within 1 %, or both kinds are given; unknown columns go to `warnings`.
 ToolPath readToolPath(const std::filesystem::path& file, std::vector<std::string>& warnings);
@@ -59,8 +59,8 @@ struct ToolWrench {
   Remark reason;                                            ///< why there is none
 };
 
-/// The load at each pose. Feed directions are central differences of the tips; a tip that stands still, or moves along the
-/// tool's axis, has that of the pose before, and none before the first that moves.
+/// The load at each pose. Feed directions are central differences of the tips; a tip that stands still, or moves along
+/// the tool's axis, has that of the pose before, and none before the first that moves.
 std::vector<ToolWrench> toolWrenches(const ToolPath& path, const Eigen::Isometry3d& base_from_workpiece,
                                      const ProcessLoad& load);
 

@@ -8,10 +8,10 @@
 
 namespace stiffscope::reports {
 
-/// Compensated motion as CSV, a posture a line, one quantity a column, its unit in the column's name, cells blank where a
-/// quantity is not given: pose, q1_deg..q6_deg (asked for), c1_deg..c6_deg (to command), of a campaign with joint readings
-/// reading1_deg..reading6_deg (the commands as the controller states joints), deflection_x_mm.. of P_TCP in R0 and
-/// u_deflection_mm (coverage 95 %), rotation_x_deg.. of the flange, conditioning, load_ratio, refused, cautions.
+/// Compensated motion as CSV, a posture a line, one quantity a column, its unit in the column's name, cells blank where
+/// a quantity is not given: pose, q1_deg..q6_deg (asked for), c1_deg..c6_deg (to command), of a campaign with joint
+/// readings reading1_deg..reading6_deg (the commands as the controller states joints), deflection_x_mm.. of P_TCP in R0
+/// and u_deflection_mm (coverage 95 %), rotation_x_deg.. of the flange, conditioning, load_ratio, refused, cautions.
 std::string commandsCsv(const campaign::Campaign& campaign,
                         const std::vector<compensation::CompensatedPosture>& postures);
 

@@ -111,8 +111,7 @@ void addPathKeys(const toolpath::CompensatedPathPose& pose, Json& row) {
   row["limit_margin_deg"] = held ? number(pose.joints.limit_margin / io::kDegree) : Json(nullptr);
   row["nearest_limit"] = held ? Json(pose.joints.nearest_limit + 1) : Json(nullptr);
   const bool predicted = pose.compensated.predicted;
-  row["deflection_in_workpiece_mm"] =
-      predicted ? array(pose.deflection.shift, 1.0 / io::kMillimetre) : Json(nullptr);
+  row["deflection_in_workpiece_mm"] = predicted ? array(pose.deflection.shift, 1.0 / io::kMillimetre) : Json(nullptr);
   row["joint_torque_nm"] = predicted ? array(pose.joint_torque) : Json(nullptr);
   row["offset"] = pose.compensated.solved ? Json{{"shift_mm", array(pose.offset.shift, 1.0 / io::kMillimetre)},
                                                  {"rotation_deg", array(pose.offset.turn, 1.0 / io::kDegree)}}

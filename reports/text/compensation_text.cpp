@@ -165,12 +165,16 @@ std::string pathText(const campaign::Campaign& campaign, identification::Method 
                  "largest", "at pose");
   const compensation::CompensationSummary summary = compensation::summaryOf(path.postures());
   if (summary.compensated < summary.asked)
-    addAlong("without compensation, refused poses too", path, false,
-             [](const auto& pose) { return pose.deflection.shift.norm(); }, text);
-  addAlong("without compensation", path, true, [](const auto& pose) { return pose.deflection.shift.norm(); }, text);
-  addAlong("with it at most: U (coverage 95 %)", path, true,
-           [](const auto& pose) { return pose.compensated.tcp.expanded; }, text);
-  addAlong("offset of the programmed pose", path, true, [](const auto& pose) { return pose.offset.shift.norm(); }, text);
+    addAlong(
+        "without compensation, refused poses too", path, false,
+        [](const auto& pose) { return pose.deflection.shift.norm(); }, text);
+  addAlong(
+      "without compensation", path, true, [](const auto& pose) { return pose.deflection.shift.norm(); }, text);
+  addAlong(
+      "with it at most: U (coverage 95 %)", path, true, [](const auto& pose) { return pose.compensated.tcp.expanded; },
+      text);
+  addAlong(
+      "offset of the programmed pose", path, true, [](const auto& pose) { return pose.offset.shift.norm(); }, text);
   text += "\n";
   addJointsOfPath(job, path, text);
   addKnowledge(path.postures(), known, cautions, text);
@@ -180,11 +184,12 @@ std::string pathText(const campaign::Campaign& campaign, identification::Method 
 std::string programText(const interchange::TaughtProgram& program, const std::string& out,
                         const std::vector<compensation::CompensatedPosture>& targets, double rounding) {
   const std::size_t replaced = compensation::summaryOf(targets).compensated;
-  std::string line =
-      replaced == 0 ? fmt::format("{}: no target is compensated; nothing is written", program.file)
-                    : fmt::format("{}: {} of {} joint targets of {} replaced, all else as it was; rounding moves P_TCP by "
-                                  "up to {:.4f} mm",
-                                  out, replaced, targets.size(), program.file, rounding / io::kMillimetre);
+  std::string line = replaced == 0
+                         ? fmt::format("{}: no target is compensated; nothing is written", program.file)
+                         : fmt::format(
+                               "{}: {} of {} joint targets of {} replaced, all else as it was; rounding moves P_TCP by "
+                               "up to {:.4f} mm",
+                               out, replaced, targets.size(), program.file, rounding / io::kMillimetre);
   std::string text = wrapped(line + ".", 2) + "\n";
   if (program.log.skipped.empty()) return text;
   constexpr std::size_t kMostNamed = 12;
@@ -193,7 +198,8 @@ std::string programText(const interchange::TaughtProgram& program, const std::st
     lines.push_back(fmt::format("{}", program.log.skipped[i].line));
   const std::size_t more = program.log.skipped.size() - lines.size();
   line = fmt::format(
-      "Caution: {} {} refused and left as {}: in space, not in joints, and which joint angles the controller takes is not "
+      "Caution: {} {} refused and left as {}: in space, not in joints, and which joint angles the controller takes is "
+      "not "
       "in the file ({}:{}{})",
       program.log.skipped.size(), program.log.skipped.size() == 1 ? "target is" : "targets are",
       program.log.skipped.size() == 1 ? "it was" : "they were", program.file, fmt::join(lines, ", "),

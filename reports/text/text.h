@@ -98,8 +98,8 @@ std::string compensationText(const campaign::Campaign& campaign, identification:
                              const std::vector<campaign::KnownStiffness>& known,
                              const std::vector<std::string>& cautions);
 
-/// The result of `compensate --path`: joints, deflection of the tool's tip along the path without and with compensation,
-/// why poses are refused, and what to know.
+/// The result of `compensate --path`: joints, deflection of the tool's tip along the path without and with
+/// compensation, why poses are refused, and what to know.
 std::string pathText(const campaign::Campaign& campaign, identification::Method method, const toolpath::PathJob& job,
                      const toolpath::CompensatedPath& path, const std::vector<campaign::KnownStiffness>& known,
                      const std::vector<std::string>& cautions);

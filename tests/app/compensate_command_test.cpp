@@ -110,13 +110,12 @@ TEST(CompensateProgram, ReplacesTargetsByTheControllersFigures) {
   for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(json["rows"][i]["command_deg"], other["rows"][i]["command_deg"]);
   // The program as it was, the commands written into it by hand: 90 deg off and with four decimals.
   std::string expected = kProgram;
-  const std::array<std::array<std::string, 6>, 2> written{{{"5.0", "-80.0", "80.0", "0.0", "-60.0", "0.0"},
-                                                            {"-10.0", "-100.0", "75.0", "20.0", "-70.0", "10.0"}}};
+  const std::array<std::array<std::string, 6>, 2> written{
+      {{"5.0", "-80.0", "80.0", "0.0", "-60.0", "0.0"}, {"-10.0", "-100.0", "75.0", "20.0", "-70.0", "10.0"}}};
   std::size_t at = 0;
   for (std::size_t i = 0; i < 2; ++i) {
     for (std::size_t j = 0; j < 6; ++j) {
-      const double figure =
-          json["rows"][i]["command_deg"][j].get<double>() + (j == 1 ? -90.0 : (j == 2 ? 90.0 : 0.0));
+      const double figure = json["rows"][i]["command_deg"][j].get<double>() + (j == 1 ? -90.0 : (j == 2 ? 90.0 : 0.0));
       std::array<char, 32> text{};
       std::snprintf(text.data(), text.size(), "%.4f", figure);
       const std::string key = "A" + std::to_string(j + 1) + " " + written[i][j];
@@ -129,7 +128,8 @@ TEST(CompensateProgram, ReplacesTargetsByTheControllersFigures) {
   EXPECT_LT(json["program"]["rounding_mm"].get<double>(), 0.01);
 }
 
-const std::string kPath = "pose,x_mm,y_mm,z_mm,i,j,k\na,0,0,0,0,0,1\nb,30,0,0,0,0,1\nc,60,10,0,0.1,0,0.995\nd,3000,0,0,0,0,1\n";
+const std::string kPath =
+    "pose,x_mm,y_mm,z_mm,i,j,k\na,0,0,0,0,0,1\nb,30,0,0,0,0,1\nc,60,10,0,0.1,0,0.995\nd,3000,0,0,0,0,1\n";
 const std::string kCell = " --tool 120,0,300,0,45,0 --workpiece 1900,100,900,0,0,0 ";
 
 TEST(CompensatePath, WritesCommandsAndPicture) {
@@ -153,7 +153,8 @@ TEST(CompensatePath, WritesCommandsAndPicture) {
   const auto& first = json["rows"][0];
   // The offset is about the deflection turned round, to the second order.
   for (std::size_t k = 0; k < 3; ++k)
-    EXPECT_NEAR(first["offset"]["shift_mm"][k].get<double>(), -first["deflection_in_workpiece_mm"][k].get<double>(), 0.05);
+    EXPECT_NEAR(first["offset"]["shift_mm"][k].get<double>(), -first["deflection_in_workpiece_mm"][k].get<double>(),
+                0.05);
   const auto cells = cellsOf(contentsOf(out));
   ASSERT_EQ(cells.size(), 5u);
   EXPECT_NEAR(std::stod(cells[1][column(cells[0], "c1_deg")]), first["command_deg"][0].get<double>(), 6e-7);
@@ -173,7 +174,8 @@ TEST(CompensateCommand, RefusesWhatDoesNotGoTogether) {
   const std::pair<std::string, std::string> refused[] = {
       {by_path + "--wrench 1,0,0,0,0,0", "expected --tool"},
       {by_path + kCell, "expected the process load once"},
-      {by_path + kCell + "--wrench 1,0,0,0,0,0 --wrench-axes feet", "'feet': expected workpiece, tool, feed, base_link"},
+      {by_path + kCell + "--wrench 1,0,0,0,0,0 --wrench-axes feet",
+       "'feet': expected workpiece, tool, feed, base_link"},
       {by_path + kCell + "--cutting feed_mm=0.5", "expected depth_mm=VALUE, too"},
       {by_path + kCell + "--cutting feed=0.5", "did you mean 'feed_mm'"},
       {by_path + kCell + cut + ",feed_mm=-1", "'feed_mm=-1': expected a number above 0"},

@@ -38,7 +38,8 @@ std::string with(std::string text, const std::string& from, const std::string& t
 const std::string kFanuc =
     "/PROG  WORK\r\n/ATTR\r\nCOMMENT = \"gro\xdf, J1= 5 deg\";\r\n/MN\r\n   1:J P[1] 100% FINE    ;\r\n/POS\r\n"
     "P[1:\"\xe4\"]{\r\n   GP1:\r\n\tUF : 0, UT : 1,\r\n\tJ1=     6.206 deg,\tJ2=   -17.500 deg,\tJ3=   20.000 deg,\r\n"
-    "\tJ4=    -.250 deg,\tJ5=   50.000 deg,\tJ6=   60.000 deg\r\n   GP2:\r\n\tUF : 0, UT : 1,\r\n\tJ1=  99.000 deg\r\n};\r\n"
+    "\tJ4=    -.250 deg,\tJ5=   50.000 deg,\tJ6=   60.000 deg\r\n   GP2:\r\n\tUF : 0, UT : 1,\r\n\tJ1=  99.000 "
+    "deg\r\n};\r\n"
     "P[2]{\r\n   GP1:\r\n\tUF : 0, UT : 1,\tCONFIG : 'N U T, 0, 0, 0',\r\n"
     "\tX = 1.0  mm,\tY = 2.0  mm,\tZ = 3.0  mm,\r\n\tW = 0.0 deg,\tP = 0.0 deg,\tR = 0.0 deg\r\n};\r\n/END\r\n";
 

@@ -183,8 +183,7 @@ TEST(RobotByKdl, InverseKinematicsHoldThePose) {
       }
       // From a quarter of a radian off in every joint.
       const Vector6d start = q + Vector6d::NullaryExpr([&] { return off(random); });
-      const robot::InverseKinematics found =
-          robot::inverseKinematics(ours, pose, Eigen::Isometry3d::Identity(), start);
+      const robot::InverseKinematics found = robot::inverseKinematics(ours, pose, Eigen::Isometry3d::Identity(), start);
       if (!found.reached) continue;
       ++reached;
       ASSERT_GE(place.JntToCart(jointsOf(found.q), held), 0);

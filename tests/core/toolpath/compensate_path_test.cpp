@@ -47,8 +47,8 @@ struct KnownPath : KnownArm {
   toolpath::CompensatedPath run() const { return toolpath::compensatePath({campaign, geometry, estimate}, job); }
 };
 
-// By the test's own kinematics and statics: the arm that its weight bends holds the tool on the path, the process moves it
-// by the deflection, and commands under load bring it back.
+// By the test's own kinematics and statics: the arm that its weight bends holds the tool on the path, the process moves
+// it by the deflection, and commands under load bring it back.
 TEST(CompensatePath, HoldsThePathUnderLoad) {
   KnownPath path;
   path.lab.hook_in_flange = path.job.flange_from_tool.translation();
@@ -72,7 +72,8 @@ TEST(CompensatePath, HoldsThePathUnderLoad) {
     EXPECT_LT((back.translation() - wanted.translation()).norm(), 1e-8);
     EXPECT_LT((back.linear() - wanted.linear()).norm(), 1e-8);
     EXPECT_GT(pose.deflection.shift.norm(), 1e-5);
-    EXPECT_LT((workpiece.linear() * pose.deflection.shift - (loaded.translation() - wanted.translation())).norm(), 1e-8);
+    EXPECT_LT((workpiece.linear() * pose.deflection.shift - (loaded.translation() - wanted.translation())).norm(),
+              1e-8);
     // The offset in the workpiece's axes, by the rigid arm.
     const Eigen::Isometry3d rigid = toolAt(q), sent = toolAt(commands);
     EXPECT_LT((workpiece.linear() * pose.offset.shift - (sent.translation() - rigid.translation())).norm(), 1e-9);
@@ -134,9 +135,9 @@ simulation::DeadForce deadForce(const toolpath::CompensatedPathPose& pose, const
   return {job.flange_from_tool * pose.wrench.point_in_tool + aside, force, Vector3d::Zero()};
 }
 
-// The sample's true machine, which gives across its axes too and is not known to the identification: its tool's tip under
-// the mean forces of milling, with the joint angles of the path and with the commands. STIFFSCOPE_PATH_POSES says how
-// many poses.
+// The sample's true machine, which gives across its axes too and is not known to the identification: its tool's tip
+// under the mean forces of milling, with the joint angles of the path and with the commands. STIFFSCOPE_PATH_POSES says
+// how many poses.
 TEST(CompensatePath, TheSimulatorStaysOnTheMilledPath) {
   const char* const wanted = std::getenv("STIFFSCOPE_PATH_POSES");
   const int poses = wanted != nullptr ? std::atoi(wanted) : 30;
@@ -181,7 +182,8 @@ TEST(CompensatePath, TheSimulatorStaysOnTheMilledPath) {
   int judged = 0, held = 0;
   for (std::size_t i = 0; i < path.poses.size(); ++i) {
     const toolpath::CompensatedPathPose& pose = path.poses[i];
-    EXPECT_TRUE(pose.compensated.solved) << pose.compensated.posture.id << ": " << reports::words(pose.compensated.reason);
+    EXPECT_TRUE(pose.compensated.solved) << pose.compensated.posture.id << ": "
+                                         << reports::words(pose.compensated.reason);
     if (!pose.compensated.solved) continue;
     const Vector6d &q = pose.compensated.posture.q, &commands = pose.compensated.commands;
     if (i > 0) longest = std::max(longest, (q - path.poses[i - 1].compensated.posture.q).cwiseAbs().maxCoeff());

@@ -38,8 +38,8 @@ TEST(CuttingForce, OfASlotByHand) {
   }
 }
 
-/// The same from chips: each tooth's forces turned into the axes of the feed, added up over a revolution by the midpoint
-/// rule, for so many teeth.
+/// The same from chips: each tooth's forces turned into the axes of the feed, added up over a revolution by the
+/// midpoint rule, for so many teeth.
 toolpath::CuttingForce summed(const toolpath::Cutting& cutting, int teeth) {
   const double radius = 0.5 * cutting.diameter, chip = cutting.feed / teeth;
   constexpr int kSteps = 200000;
@@ -53,8 +53,9 @@ toolpath::CuttingForce summed(const toolpath::Cutting& cutting, int teeth) {
     const bool cuts = outward.x() > 0.0 && y > low && y < low + cutting.width;
     if (!cuts) continue;
     const double area = cutting.depth * chip * std::sin(phi), tangential = cutting.specific_force * area;
-    mean.force += teeth * (-tangential * along - cutting.radial_ratio * tangential * outward -
-                           cutting.axial_ratio * tangential * Eigen::Vector3d::UnitZ()) /
+    mean.force += teeth *
+                  (-tangential * along - cutting.radial_ratio * tangential * outward -
+                   cutting.axial_ratio * tangential * Eigen::Vector3d::UnitZ()) /
                   kSteps;
     mean.torque += teeth * tangential * radius / kSteps;
   }

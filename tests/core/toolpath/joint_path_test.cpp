@@ -93,7 +93,8 @@ TEST(JointPath, TheFreeTurnStaysAwayFromLimits) {
   // Joint 5 may just not go where the fixed turn needs it.
   sample.arm.limits[4].lower = lowest + radians(0.5);
   const auto outside = [&](const toolpath::JointPath& path) {
-    return std::count_if(path.poses.begin(), path.poses.end(), [](const auto& pose) { return pose.limit_margin < 0.0; });
+    return std::count_if(path.poses.begin(), path.poses.end(),
+                         [](const auto& pose) { return pose.limit_margin < 0.0; });
   };
   EXPECT_GT(outside(toolpath::jointPath(sample.arm, poses, sample.tool, false, options)), 0);
   const toolpath::JointPath free = toolpath::jointPath(sample.arm, poses, sample.tool, true, options);
@@ -117,8 +118,7 @@ TEST(JointPath, WhatIsOutOfReachIsNamedAndTheRestGoesOn) {
   toolpath::JointPathOptions options;
   options.start = q;
   const toolpath::JointPath path = toolpath::jointPath(sample.arm, poses, sample.tool, false, options);
-  for (std::size_t i = 0; i < poses.size(); ++i)
-    EXPECT_EQ(path.poses[i].reason.empty(), i != 5) << i;
+  for (std::size_t i = 0; i < poses.size(); ++i) EXPECT_EQ(path.poses[i].reason.empty(), i != 5) << i;
   EXPECT_TRUE(path.poses[5].reason.is(toolpath::RemarkId::not_reached));
   EXPECT_FALSE(path.poses[5].q.allFinite());
 }

@@ -55,15 +55,18 @@ TEST(ToolPath, AxesOfCamAndQuaternionsAreTheSameTool) {
   EXPECT_TRUE(turned.poses[0].workpiece_from_tool.linear().isApprox(
       Eigen::DiagonalMatrix<double, 3>(-1, 1, -1).toDenseMatrix(), 1e-12));
   // From one pose to the next no turn about the axis itself.
-  const Eigen::Matrix3d step = axes.poses[1].workpiece_from_tool.linear() * axes.poses[0].workpiece_from_tool.linear().transpose();
+  const Eigen::Matrix3d step =
+      axes.poses[1].workpiece_from_tool.linear() * axes.poses[0].workpiece_from_tool.linear().transpose();
   const Eigen::AngleAxisd turn(step);
   EXPECT_NEAR(turn.axis().dot(axes.poses[0].workpiece_from_tool.linear().col(2)), 0.0, 1e-9);
 }
 
 TEST(ToolPath, RefusesWhatIsNoPath) {
-  EXPECT_NE(refusal(kPoint + ",i,j,k\na,0,0,0,0,0,0.9\n").find(":2: i, j, k: '0.9': expected a length of one"), std::string::npos)
+  EXPECT_NE(refusal(kPoint + ",i,j,k\na,0,0,0,0,0,0.9\n").find(":2: i, j, k: '0.9': expected a length of one"),
+            std::string::npos)
       << refusal(kPoint + ",i,j,k\na,0,0,0,0,0,0.9\n");
-  EXPECT_NE(refusal(kPoint + ",i,j\na,0,0,0,0,1\n").find(": k: expected this column"), std::string::npos) << refusal(kPoint + ",i,j\na,0,0,0,0,1\n");
+  EXPECT_NE(refusal(kPoint + ",i,j\na,0,0,0,0,1\n").find(": k: expected this column"), std::string::npos)
+      << refusal(kPoint + ",i,j\na,0,0,0,0,1\n");
   EXPECT_NE(refusal(kPoint + ",i,j,k,qw,qx,qy,qz\na,0,0,0,0,0,1,1,0,0,0\n").find("not both"), std::string::npos);
   EXPECT_NE(refusal(kPoint + ",i,j,k\na,0,0,0,0,0,25.4\n").find("within +-1"), std::string::npos);
   EXPECT_NE(refusal(kPoint + "\na,0,0,0\na,1,0,0\n").find("does not repeat"), std::string::npos);
