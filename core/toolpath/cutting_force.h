@@ -24,7 +24,7 @@ struct CuttingForce {
 };
 
 /// Mean forces of a cutter whose edges' own rubbing is neglected (Y. Altintas, Manufacturing Automation, 2nd ed. 2012,
-/// section 2.8; chip thickness c sin(phi), phi from the left of the feed clockwise):
+/// average milling forces; chip thickness c sin(phi), phi from the left of the feed clockwise):
 ///   F_x = a f / (8 pi) [K_t cos 2 phi - K_r (2 phi - sin 2 phi)],
 ///   F_y = a f / (8 pi) [K_t (2 phi - sin 2 phi) + K_r cos 2 phi],
 ///   F_z = a f / (2 pi) K_a cos phi,      each from phi_start to phi_exit,

@@ -1,5 +1,9 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -116,12 +120,13 @@ TEST(CompensateProgram, ReplacesTargetsByTheControllersFigures) {
   for (std::size_t i = 0; i < 2; ++i) {
     for (std::size_t j = 0; j < 6; ++j) {
       const double figure = json["rows"][i]["command_deg"][j].get<double>() + (j == 1 ? -90.0 : (j == 2 ? 90.0 : 0.0));
-      std::array<char, 32> text{};
-      std::snprintf(text.data(), text.size(), "%.4f", figure);
+      const std::string text = fmt::format("{:.4f}", figure);
+      // What is the same to four decimals stays as it is written.
+      if (std::abs(std::stod(text) - std::stod(written[i][j])) < 5e-5) continue;
       const std::string key = "A" + std::to_string(j + 1) + " " + written[i][j];
       at = expected.find(key, at);
       ASSERT_NE(at, std::string::npos) << key;
-      expected.replace(at + 3, written[i][j].size(), text.data());
+      expected.replace(at + 3, written[i][j].size(), text);
     }
   }
   EXPECT_EQ(contentsOf(out), expected);
@@ -177,7 +182,7 @@ TEST(CompensateCommand, RefusesWhatDoesNotGoTogether) {
       {by_path + kCell + "--wrench 1,0,0,0,0,0 --wrench-axes feet",
        "'feet': expected workpiece, tool, feed, base_link"},
       {by_path + kCell + "--cutting feed_mm=0.5", "expected depth_mm=VALUE, too"},
-      {by_path + kCell + "--cutting feed=0.5", "did you mean 'feed_mm'"},
+      {by_path + kCell + "--cutting feed_m=0.5", "did you mean 'feed_mm'"},
       {by_path + kCell + cut + ",feed_mm=-1", "'feed_mm=-1': expected a number above 0"},
       {by_path + kCell + cut + ",width_mm=30", "no larger than diameter_mm"},
       {"--program" + quoted(program) + "--wrench 1,0,0,0,0,0", "expected --out"},
