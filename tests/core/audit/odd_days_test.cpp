@@ -147,7 +147,7 @@ std::vector<OddDay> oddDays() {
           {"one reading a posture", oneReadingAPosture},
           {"postures all alike", posturesAllAlike},
           {"arcs of 2 degrees", shortArcs},
-          {"3000 targets", [] { return manyTargets(3000); }},
+          {"30 targets", [] { return manyTargets(30); }},
           {"a row a table", withoutRows},
           {"no weight and no load", weightless},
           {"all readings at the station", atOnePoint}};
@@ -184,7 +184,7 @@ TEST(OddDays, GetAnAnswerOrAReason) {
   }
 }
 
-// The usual day, an arm ten times as small or as large, and one far away are no mistakes of the files.
+// The usual day, an arm of 10 cm, and one far away are no mistakes of the files.
 TEST(OddDays, SizeAloneIsNoMistake) {
   for (const double factor : {0.03, 1.0}) {
     const mistakes::ModelAgreement agreement = mistakes::findMistakes(scaledDay(factor));
