@@ -152,7 +152,14 @@ bool searchMovedPostures(SearchedArm& arm, const std::vector<int>& apart) {
     if (between.translation().norm() > kAlike || Eigen::AngleAxisd(between.linear()).angle() > kTurned) return false;
     poses.push_back(firstOf(arm.day, group).pose);
   }
-  if (poses.size() < kFew) return false;
+  // All of them are a table from another station, which is sought on its own.
+  std::vector<int> all;
+  for (const UnloadedReading& reading : arm.day.unloaded) {
+    if (reading.pose >= 0 && std::find(all.begin(), all.end(), reading.pose) == all.end()) all.push_back(reading.pose);
+  }
+  if (poses.size() < kFew || poses.size() == all.size()) return false;
+  // In the frame of the points.
+  const Eigen::Isometry3d moved = arm.found.fit.base_from_points.inverse() * *first * arm.found.fit.base_from_points;
   std::sort(poses.begin(), poses.end());
   ArmCure cure;
   cure.suspected = {
@@ -160,11 +167,9 @@ bool searchMovedPostures(SearchedArm& arm, const std::vector<int>& apart) {
       Remark(RemarkId::at_poses_in, campaign::poseName(arm.campaign, poses.front()),
              campaign::poseName(arm.campaign, poses.back()), std::string("x_mm, y_mm, z_mm"),
              fileOfPoints(arm.campaign, SourceTable::loading)),
-      Remark(RemarkId::other_station, first->translation().norm(), Eigen::AngleAxisd(first->linear()).angle()),
+      Remark(RemarkId::other_station, moved.translation().norm(), Eigen::AngleAxisd(moved.linear()).angle()),
       {}};
   cure.day = arm.day;
-  // In the frame of the points.
-  const Eigen::Isometry3d moved = arm.found.fit.base_from_points.inverse() * *first * arm.found.fit.base_from_points;
   const auto isMoved = [&](int pose) { return std::find(poses.begin(), poses.end(), pose) != poses.end(); };
   for (UnloadedReading& reading : cure.day.unloaded) {
     if (isMoved(reading.pose)) reading.point = moved * reading.point;
