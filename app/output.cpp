@@ -173,7 +173,7 @@ bool isSameFile(const std::string& a, const std::string& b) {
   if (there_a && there_b) return isSameFile(*there_a, *there_b);
   std::error_code none;
   const auto named = [&](const std::string& file) {
-    const std::filesystem::path path = std::filesystem::weakly_canonical(file, none);
+    const std::filesystem::path path = std::filesystem::weakly_canonical(std::filesystem::absolute(file, none), none);
     return none ? std::filesystem::path(file).lexically_normal() : path;
   };
   return named(a) == named(b);

@@ -130,6 +130,8 @@ void printForms(const std::vector<std::string>& days, const std::string& only) {
     fmt::print("{}: on the good day: {}\n", name,
                good.faults.empty() ? "nothing" : fmt::format("{}", fmt::join(good.faults, ", ")));
     std::vector<SpoiltForm> forms = spoiltForms();
+    const std::vector<SpoiltForm> further = furtherSpoiltForms();
+    forms.insert(forms.end(), further.begin(), further.end());
     std::erase_if(forms, [&](const SpoiltForm& form) { return form.name.find(only) == std::string::npos; });
     std::vector<FormResult> results(forms.size());
     numerics::onAllCores(forms.size(), [&](std::size_t i) { results[i] = judge(forms[i], good); });

@@ -115,9 +115,12 @@ std::vector<Target> readTargets(const io::XmlNode& node, std::vector<std::string
   io::warnOfUnknown(node, {}, {"target"}, warnings);
   std::vector<Target> targets;
   std::unordered_map<std::string, std::size_t> first_line;
+  // Each has three unknowns of its own, and what is computed from them grows with their square.
+  constexpr std::size_t kMost = 100;
   for (const io::XmlNode& child : node.children("target")) {
     io::warnOfUnknown(child, {"id", "x_mm", "y_mm", "z_mm"}, {}, warnings);
     targets.push_back(readTarget(child));
+    if (targets.size() > kMost) child.refuse("id", targets.back().id, "expected at most 100 targets");
     const auto [first, added] = first_line.emplace(targets.back().id, child.line());
     if (!added) {
       child.refuse("id", targets.back().id,

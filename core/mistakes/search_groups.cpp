@@ -152,7 +152,14 @@ bool searchMovedPostures(SearchedArm& arm, const std::vector<int>& apart) {
     if (between.translation().norm() > kAlike || Eigen::AngleAxisd(between.linear()).angle() > kTurned) return false;
     poses.push_back(firstOf(arm.day, group).pose);
   }
-  if (poses.size() < kFew) return false;
+  // All of them are a table from another station, which is sought on its own.
+  std::vector<int> all;
+  for (const UnloadedReading& reading : arm.day.unloaded) {
+    if (reading.pose >= 0 && std::find(all.begin(), all.end(), reading.pose) == all.end()) all.push_back(reading.pose);
+  }
+  if (poses.size() < kFew || poses.size() == all.size()) return false;
+  // In the frame of the points.
+  const Eigen::Isometry3d moved = arm.found.fit.base_from_points.inverse() * *first * arm.found.fit.base_from_points;
   std::sort(poses.begin(), poses.end());
   ArmCure cure;
   cure.suspected = {
@@ -160,11 +167,9 @@ bool searchMovedPostures(SearchedArm& arm, const std::vector<int>& apart) {
       Remark(RemarkId::at_poses_in, campaign::poseName(arm.campaign, poses.front()),
              campaign::poseName(arm.campaign, poses.back()), std::string("x_mm, y_mm, z_mm"),
              fileOfPoints(arm.campaign, SourceTable::loading)),
-      Remark(RemarkId::other_station, first->translation().norm(), Eigen::AngleAxisd(first->linear()).angle()),
+      Remark(RemarkId::other_station, moved.translation().norm(), Eigen::AngleAxisd(moved.linear()).angle()),
       {}};
   cure.day = arm.day;
-  // In the frame of the points.
-  const Eigen::Isometry3d moved = arm.found.fit.base_from_points.inverse() * *first * arm.found.fit.base_from_points;
   const auto isMoved = [&](int pose) { return std::find(poses.begin(), poses.end(), pose) != poses.end(); };
   for (UnloadedReading& reading : cure.day.unloaded) {
     if (isMoved(reading.pose)) reading.point = moved * reading.point;
@@ -234,71 +239,79 @@ void searchGroups(SearchedArm& arm) {
 }
 
 bool searchReadTwice(SearchedArm& arm) {
-  constexpr double kOne = 2e-3;      // m: nearer than any two reflectors stand
-  constexpr double kOfStates = 0.9;  // of the states of a table
-  const auto at = [](const UnloadedReading& reading) {
-    return std::pair(reading.group, std::vector(reading.q.begin(), reading.q.end()));
-  };
+  constexpr double kOne = 2e-3, kShare = 0.05;  // m, nearer than any two stand; of the largest distance in that state,
+                                                // which a unit shrinks as well
+  constexpr double kOfStates = 0.9;             // of the states of a table
+  using State = std::map<int, const UnloadedReading*>;  // by target
+  std::map<std::pair<int, std::vector<double>>, State> states;
+  for (const UnloadedReading& reading : arm.day.unloaded)
+    states[{reading.group, std::vector<double>(reading.q.begin(), reading.q.end())}][reading.target] = &reading;
   struct Pair {
     double states = 0.0, near = 0.0, apart = 0.0;
   };
-  const auto nameOf = [&](int target) {
-    return campaign::targetName(arm.campaign, arm.day.campaign_target[static_cast<std::size_t>(target)]);
-  };
+  std::map<std::pair<int, int>, std::pair<std::map<SourceTable, Pair>, std::map<int, Pair>>> pairs;
+  for (const auto& [key, state] : states) {
+    double largest = 0.0;
+    std::map<std::pair<int, int>, double> apart;
+    for (const auto& [a, first] : state) {
+      for (const auto& [b, second] : state) {
+        if (b <= a) continue;
+        apart[{a, b}] = (first->point - second->point).norm();
+        largest = std::max(largest, apart[{a, b}]);
+      }
+    }
+    const UnloadedReading& any = *state.begin()->second;
+    for (const auto& [names, distance] : apart) {
+      const bool near = distance < std::min(kOne, kShare * largest);
+      for (Pair* pair : {&pairs[names].first[any.table], &pairs[names].second[any.pose]}) {
+        pair->states += 1.0;
+        if (!near) continue;
+        pair->near += 1.0;
+        pair->apart = std::max(pair->apart, distance);
+      }
+    }
+  }
+
   bool found = false;
-  for (int a = 0; a < arm.day.targets; ++a) {
-    for (int b = a + 1; b < arm.day.targets; ++b) {
-      std::map<SourceTable, Pair> tables;
-      std::map<int, Pair> postures;
-      std::map<decltype(at(arm.day.unloaded.front())), const UnloadedReading*> of_a;
-      for (const UnloadedReading& reading : arm.day.unloaded) {
-        if (reading.target == a) of_a[at(reading)] = &reading;
-      }
-      for (const UnloadedReading& reading : arm.day.unloaded) {
-        const auto other = reading.target == b ? of_a.find(at(reading)) : of_a.end();
-        if (other == of_a.end()) continue;
-        const double apart = (reading.point - other->second->point).norm();
-        for (Pair* pair : {&tables[reading.table], &postures[reading.pose]}) {
-          pair->states += 1.0;
-          pair->near += apart < kOne ? 1.0 : 0.0;
-          if (apart < kOne) pair->apart = std::max(pair->apart, apart);
-        }
-      }
-      const auto take = [&](Remark where, const Pair& pair, std::optional<int> pose, std::optional<SourceTable> table) {
-        ArmCure cure;
-        cure.suspected = {"reflectors_exchanged",
-                          std::move(where),
-                          Remark(RemarkId::reflector_twice, nameOf(a), nameOf(b), pair.apart),
-                          {}};
-        cure.pose = pose;
-        cure.rms = INFINITY;
-        // Either may be the one that was not read: without it the others fit.
-        for (const int absent : {a, b}) {
-          ReadingsOfDay day = withoutReflector(arm.day, absent, pose, table);
-          const double rms = fitNominal(day).rms;
-          if (rms >= cure.rms) continue;
-          cure.rms = rms;
-          cure.day = std::move(day);
-        }
-        arm.add(std::move(cure));
-        found = true;
-      };
-      bool in_table = false;
-      for (const auto& [table, pair] : tables) {
-        if (pair.near < kOfStates * pair.states || pair.near < 3.0) continue;
-        in_table = true;
-        take(Remark(RemarkId::in_columns, std::string("target"),
-                    std::vector<std::string>{fileOfPoints(arm.campaign, table)}),
-             pair, {}, table);
-      }
-      for (const auto& [pose, pair] : postures) {
-        if (in_table || pose < 0 || pair.near < 1.0) continue;
-        take(whereOfGroup(arm.campaign,
-                          *std::find_if(arm.day.unloaded.begin(), arm.day.unloaded.end(),
-                                        [pose = pose](const UnloadedReading& one) { return one.pose == pose; }),
-                          "target", false),
-             pair, pose, {});
-      }
+  const auto take = [&](const std::pair<int, int>& names, Remark where, double apart, std::optional<int> pose,
+                        std::optional<SourceTable> table) {
+    const auto nameOf = [&](int target) {
+      return campaign::targetName(arm.campaign, arm.day.campaign_target[static_cast<std::size_t>(target)]);
+    };
+    ArmCure cure;
+    cure.suspected = {"reflectors_exchanged",
+                      std::move(where),
+                      Remark(RemarkId::reflector_twice, nameOf(names.first), nameOf(names.second), apart),
+                      {}};
+    cure.pose = pose;
+    cure.rms = INFINITY;
+    // Either may be the one that was not read: without it the others fit.
+    for (const int absent : {names.first, names.second}) {
+      ReadingsOfDay day = withoutReflector(arm.day, absent, pose, table);
+      const double rms = fitNominal(day).rms;
+      if (rms >= cure.rms) continue;
+      cure.rms = rms;
+      cure.day = std::move(day);
+    }
+    arm.add(std::move(cure));
+    found = true;
+  };
+  for (const auto& [names, of] : pairs) {
+    bool in_table = false;
+    for (const auto& [table, pair] : of.first) {
+      constexpr double kFew = 3.0;
+      if (pair.near < kOfStates * pair.states || pair.near < kFew) continue;
+      in_table = true;
+      take(names,
+           Remark(RemarkId::in_columns, std::string("target"),
+                  std::vector<std::string>{fileOfPoints(arm.campaign, table)}),
+           pair.apart, {}, table);
+    }
+    for (const auto& [pose, pair] : of.second) {
+      if (in_table || pose < 0 || pair.near < 1.0) continue;
+      const auto first = std::find_if(arm.day.unloaded.begin(), arm.day.unloaded.end(),
+                                      [pose = pose](const UnloadedReading& one) { return one.pose == pose; });
+      take(names, whereOfGroup(arm.campaign, *first, "target", false), pair.apart, pose, {});
     }
   }
   return found;

@@ -248,7 +248,12 @@ SpringFit LoadsOfDay::fitBy(const WrenchOf& wrench_of) const {
     by_step[state.step] += sums;
   }
   for (const Sums& sums : by_pose) all += sums;
-  if (all.squares <= 0.0 || largest <= 0.0) return fit;
+  if (all.squares <= 0.0 || largest <= 0.0) {  // nothing moves or nothing pulls: nothing is explained
+    fit.pose_left.assign(poses_.size(), 1.0);
+    fit.pose_off_gravity.assign(poses_.size(), std::numbers::pi);
+    fit.pose_along_lever.assign(poses_.size(), 0.0);
+    return fit;
+  }
   fit.compliance = positiveSolution(all);
   fit.left = std::sqrt(leftOf(all, fit.compliance) / all.squares);
   for (const Sums& sums : by_pose)
