@@ -1,6 +1,6 @@
 // Writes the manual pages and the bash completion of both programs from their own command lines.
-// stiffscope_pages DIR: stiffscope.1, stiffscope-COMMAND.1 for each command, stiffscope-view.1, and in DIR/completions the
-// files stiffscope and stiffscope-view.
+// stiffscope_pages DIR: stiffscope.1, stiffscope-COMMAND.1 for each command, stiffscope-view.1, and in DIR/completions
+// the files stiffscope and stiffscope-view.
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -19,7 +19,9 @@ namespace {
 
 using Commands = std::vector<const CLI::App*>;
 
-Commands commandsOf(const CLI::App& app) { return app.get_subcommands([](const CLI::App*) { return true; }); }
+Commands commandsOf(const CLI::App& app) {
+  return app.get_subcommands([](const CLI::App*) { return true; });
+}
 
 /// Text as roff takes it.
 std::string roff(const std::string& text) {
@@ -84,7 +86,8 @@ std::string synopsis(const std::string& words, const CLI::App& app) {
 
 /// What belongs to the command itself: description, options, and the commands that it has.
 std::string body(const std::string& words, const CLI::App& app) {
-  std::string text = ".SH SYNOPSIS\n" + synopsis(words, app) + ".SH DESCRIPTION\n" + roff(app.get_description()) + ".\n";
+  std::string text =
+      ".SH SYNOPSIS\n" + synopsis(words, app) + ".SH DESCRIPTION\n" + roff(app.get_description()) + ".\n";
   if (!app.get_footer().empty()) text += ".PP\n.nf\n" + roff(app.get_footer()) + "\n.fi\n";
   if (const std::string options = optionsText(app); !options.empty()) text += ".SH OPTIONS\n" + options;
   const Commands commands = commandsOf(app);
@@ -154,7 +157,8 @@ std::string completion(const CLI::App& app, const CLI::App& view) {
     }
     cases += fmt::format("      {0})\n        case ${{COMP_WORDS[2]}} in\n", command->get_name());
     for (const CLI::App* inner : commandsOf(known))
-      cases += fmt::format("          {}) ((COMP_CWORD > 2)) && options=\"{}\" ;;\n", inner->get_name(), longOptions(*inner));
+      cases += fmt::format("          {}) ((COMP_CWORD > 2)) && options=\"{}\" ;;\n", inner->get_name(),
+                           longOptions(*inner));
     cases += fmt::format("        esac\n        ((COMP_CWORD == 2)) && options=\"{}\" commands=\"{}\"\n        ;;\n",
                          longOptions(known), commandNames(known));
   }
@@ -189,7 +193,8 @@ void writePages(const std::filesystem::path& folder) {
         page("stiffscope-view", view.get_description(), body("stiffscope-view", view), ".BR stiffscope (1)"));
   write("completions/stiffscope", completion(*program, view));
   write("completions/stiffscope-view",
-        fmt::format(kComplete, "_stiffscope_view", fmt::format("  options=\"{}\"", longOptions(view)), "stiffscope-view"));
+        fmt::format(kComplete, "_stiffscope_view", fmt::format("  options=\"{}\"", longOptions(view)),
+                    "stiffscope-view"));
 }
 
 }  // namespace

@@ -54,8 +54,8 @@ class OpenedCampaign {
     if (made) return made;
     // One that serves a single call is not copied.
     campaign::Campaign used = identification::referredToMotors(kept_ ? read_ : std::move(read_));
-    made = std::make_shared<const preparation::PreparedCampaign>(
-        raw ? preparation::leaveRaw(std::move(used)) : preparation::prepareCampaign(std::move(used)));
+    made = std::make_shared<const preparation::PreparedCampaign>(raw ? preparation::leaveRaw(std::move(used))
+                                                                     : preparation::prepareCampaign(std::move(used)));
     return made;
   }
 
@@ -83,16 +83,15 @@ py::tuple resultOf(const Compute& compute) {
   int status = 0;
   {
     const py::gil_scoped_release others_run;
-    const app::Outlet outlet{
-        [&](const auto& json, const auto& in_words) {
-          text = in_words();
-          const reports::JsonDocument document = json();
-          py::object made = toPython(document);
-          const py::gil_scoped_acquire gil;
-          values = std::move(made);
-        },
-        [&](const std::string& warning) { warnings.push_back(warning); },
-        [&](const std::string& line) { reason = line; }};
+    const app::Outlet outlet{[&](const auto& json, const auto& in_words) {
+                               text = in_words();
+                               const reports::JsonDocument document = json();
+                               py::object made = toPython(document);
+                               const py::gil_scoped_acquire gil;
+                               values = std::move(made);
+                             },
+                             [&](const std::string& warning) { warnings.push_back(warning); },
+                             [&](const std::string& line) { reason = line; }};
     status = compute(outlet);
   }
   return py::make_tuple(values, text, warnings, reason, status);
@@ -140,8 +139,8 @@ std::vector<Eigen::Vector3d> pointsOf(const Rows& rows) {
 void raiseInputError(const io::InputError& error) {
   const py::object type = py::module_::import("stiffscope._errors").attr("InputError");
   const io::InputPlace& place = error.place();
-  const py::object instance = type(error.what(), place.file, place.line, place.column, error.value(),
-                                   error.expectation());
+  const py::object instance =
+      type(error.what(), place.file, place.line, place.column, error.value(), error.expectation());
   PyErr_SetObject(type.ptr(), instance.ptr());
 }
 
@@ -191,9 +190,8 @@ PYBIND11_MODULE(_core, module) {
                             int bootstrap, bool neglect_kc, bool robust) {
     app::IdentifyRequest request{method, step, subset_size, bootstrap, neglect_kc, robust, false, {}};
     request.model = modelOf(std::move(with), springs_only);
-    return resultOf([&](const auto& outlet) {
-      return app::identifyCampaign(request, sourceOf(campaign, raw), true, outlet);
-    });
+    return resultOf(
+        [&](const auto& outlet) { return app::identifyCampaign(request, sourceOf(campaign, raw), true, outlet); });
   });
   module.def("calibrate", [](const Opened& campaign, bool raw, int folds, int fold_size, const std::string& angles,
                              const std::string& urdf, const std::string& csv) {
@@ -203,15 +201,15 @@ PYBIND11_MODULE(_core, module) {
     return resultOf(
         [&](const auto& outlet) { return app::calibrateCampaign(request, sourceOf(campaign, raw), outlet); });
   });
-  module.def("compensate", [](const Opened& campaign, bool raw, std::vector<std::string> with, bool springs_only,
-                              const std::string& method, const std::string& step, const std::string& file,
-                              const std::optional<std::vector<std::string>>& ids, const Rows& q_deg,
-                              const Rows& wrenches) {
-    app::CompensateRequest request{method, step, modelOf(std::move(with), springs_only), file, {}};
-    if (ids) request.postures = posturesOf(*ids, q_deg, wrenches);
-    return resultOf(
-        [&](const auto& outlet) { return app::compensateCampaign(request, sourceOf(campaign, raw), outlet); });
-  });
+  module.def(
+      "compensate", [](const Opened& campaign, bool raw, std::vector<std::string> with, bool springs_only,
+                       const std::string& method, const std::string& step, const std::string& file,
+                       const std::optional<std::vector<std::string>>& ids, const Rows& q_deg, const Rows& wrenches) {
+        app::CompensateRequest request{method, step, modelOf(std::move(with), springs_only), file, {}};
+        if (ids) request.postures = posturesOf(*ids, q_deg, wrenches);
+        return resultOf(
+            [&](const auto& outlet) { return app::compensateCampaign(request, sourceOf(campaign, raw), outlet); });
+      });
   module.def("compare", [](const Opened& before, const Opened& after, bool raw, std::vector<std::string> with,
                            bool springs_only, const std::string& step, bool neglect_kc, std::uint64_t seed) {
     const app::CompareRequest request{step, neglect_kc, modelOf(std::move(with), springs_only), seed};
@@ -223,29 +221,29 @@ PYBIND11_MODULE(_core, module) {
     return resultOf(
         [&](const auto& outlet) { return app::diagnoseCampaign(angles, sourceOf(campaign, false), outlet); });
   });
-  module.def("plan", [](const Opened& campaign, std::vector<std::string> with, bool springs_only,
-                        std::optional<int> postures, std::optional<int> add, std::optional<double> load,
-                        std::optional<double> pull, std::vector<double> hook_mm, std::vector<double> tracker_mm,
-                        std::vector<double> min_deg, std::vector<double> max_deg, int repeats, bool unloaded,
-                        const std::string& criterion, std::optional<int> candidates, std::uint64_t seed,
-                        const std::string& out) {
-    const app::PlanRequest request{out,
-                                   criterion,
-                                   unloaded,
-                                   load,
-                                   pull,
-                                   add,
-                                   postures,
-                                   candidates,
-                                   std::move(hook_mm),
-                                   std::move(tracker_mm),
-                                   std::move(min_deg),
-                                   std::move(max_deg),
-                                   repeats,
-                                   seed,
-                                   modelOf(std::move(with), springs_only)};
-    return resultOf([&](const auto& outlet) { return app::planDay(request, sourceOf(campaign, false), outlet); });
-  });
+  module.def(
+      "plan", [](const Opened& campaign, std::vector<std::string> with, bool springs_only, std::optional<int> postures,
+                 std::optional<int> add, std::optional<double> load, std::optional<double> pull,
+                 std::vector<double> hook_mm, std::vector<double> tracker_mm, std::vector<double> min_deg,
+                 std::vector<double> max_deg, int repeats, bool unloaded, const std::string& criterion,
+                 std::optional<int> candidates, std::uint64_t seed, const std::string& out) {
+        const app::PlanRequest request{out,
+                                       criterion,
+                                       unloaded,
+                                       load,
+                                       pull,
+                                       add,
+                                       postures,
+                                       candidates,
+                                       std::move(hook_mm),
+                                       std::move(tracker_mm),
+                                       std::move(min_deg),
+                                       std::move(max_deg),
+                                       repeats,
+                                       seed,
+                                       modelOf(std::move(with), springs_only)};
+        return resultOf([&](const auto& outlet) { return app::planDay(request, sourceOf(campaign, false), outlet); });
+      });
   module.def("simulate", [](const std::string& spec, const std::string& out, bool replace) {
     return resultOf([&](const auto& outlet) { return app::simulateDay({spec, out, replace}, outlet); });
   });
