@@ -63,7 +63,7 @@ render::PointSeries outline(std::string name, render::Colour colour) {
 }
 
 /// Moves all points so that the middle of what they cover is the picture's, which is about (0, 0).
-void centre(std::vector<render::PointSeries>& series) {
+void centreInPicture(std::vector<render::PointSeries>& series) {
   Eigen::AlignedBox2d box;
   for (const render::PointSeries& one : series) {
     for (const render::PlotPoint& point : one.points)
@@ -137,7 +137,7 @@ render::PointChart stiffnessSliceChart(const campaign::Campaign& campaign, const
   for (render::PointSeries& one : classes) {
     if (!one.points.empty()) panel.series.push_back(std::move(one));
   }
-  centre(panel.series);
+  centreInPicture(panel.series);
   panel.scale_bar = slice.spacing;
   const double um_per_kn = scale > 0.0 ? slice.spacing / scale * 1000.0 / io::kMicrometre : 0.0;
   panel.scale_name =
