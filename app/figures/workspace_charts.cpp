@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -59,6 +60,20 @@ render::PointSeries outline(std::string name, render::Colour colour) {
   series.mark = render::PointMark::none;
   series.joined = true;
   return series;
+}
+
+/// Moves all points so that the middle of what they cover is the picture's, which is about (0, 0).
+void centreInPicture(std::vector<render::PointSeries>& series) {
+  Eigen::AlignedBox2d box;
+  for (const render::PointSeries& one : series) {
+    for (const render::PlotPoint& point : one.points)
+      if (std::isfinite(point.x)) box.extend(Eigen::Vector2d(point.x, point.y));
+  }
+  if (box.isEmpty()) return;
+  const Eigen::Vector2d middle = box.center();
+  for (render::PointSeries& one : series) {
+    for (render::PlotPoint& point : one.points) point = {point.x - middle.x(), point.y - middle.y()};
+  }
 }
 
 /// Three bounds between four classes of equal number.
@@ -122,6 +137,7 @@ render::PointChart stiffnessSliceChart(const campaign::Campaign& campaign, const
   for (render::PointSeries& one : classes) {
     if (!one.points.empty()) panel.series.push_back(std::move(one));
   }
+  centreInPicture(panel.series);
   panel.scale_bar = slice.spacing;
   const double um_per_kn = scale > 0.0 ? slice.spacing / scale * 1000.0 / io::kMicrometre : 0.0;
   panel.scale_name =

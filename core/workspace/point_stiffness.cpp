@@ -11,7 +11,13 @@ namespace stiffscope::workspace {
 
 namespace {
 
-constexpr double kProbe = 500.0;  // N: a robot's usual load; the model is straight to a thousandth over it
+/// The force under which the arm's secant is taken, N: the day's largest, at which play and friction have their day's
+/// share; a robot's usual load where that is not known.
+double probeOf(const DeflectingArm& arm) {
+  constexpr double kUsual = 500.0;
+  return arm.certainty.range.force > 0.0 ? arm.certainty.range.force : kUsual;
+}
+
 constexpr double kNoMove = 1e-9;  // m per rad: no joint of an arm in a laboratory moves a point by so little
 
 /// Where P_TCP stands under a force there, R0; empty where the arm does not come to rest.
@@ -24,10 +30,11 @@ std::optional<Eigen::Vector3d> loadedPoint(const effects::RestingFlange& flange,
 /// Half the difference of the deflections under a force and its opposite, over the force: one column of the compliance.
 std::optional<Eigen::Vector3d> probed(const effects::RestingFlange& flange, const DeflectingArm& arm, const Vector6d& q,
                                       const Eigen::Vector3d& direction) {
-  const auto there = loadedPoint(flange, arm, q, kProbe * direction),
-             back = loadedPoint(flange, arm, q, -kProbe * direction);
+  const double probe = probeOf(arm);
+  const auto there = loadedPoint(flange, arm, q, probe * direction),
+             back = loadedPoint(flange, arm, q, -probe * direction);
   if (!there || !back) return std::nullopt;
-  return (*there - *back) / (2.0 * kProbe);
+  return (*there - *back) / (2.0 * probe);
 }
 
 /// Orthonormal columns at right angles to what the joints move.
@@ -50,7 +57,8 @@ Eigen::MatrixXd byParameters(const DeflectingArm& arm, const Vector6d& q, const 
   Eigen::MatrixXd by = Eigen::MatrixXd::Zero(3, draws.parameters.rows());
   if (by.cols() == 0) return by;
   if (draws.by) {
-    by = draws.by(q, {arm.tcp_in_flange, direction, Eigen::Vector3d::Zero()}, {tcp});
+    const double probe = probeOf(arm);
+    by = draws.by(q, {arm.tcp_in_flange, probe * direction, Eigen::Vector3d::Zero()}, {tcp}) / probe;
   } else if (arm.with != nullptr) {
     for (std::size_t v = 0; v < arm.with->varied.size(); ++v) {
       const auto varied = probed(arm.with->varied[v], arm, q, direction);

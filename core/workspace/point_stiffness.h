@@ -29,7 +29,8 @@ struct DirectionalCompliance {
 ///
 /// C_x = J diag(c) J^T (paper (6), translational block) holds the springs of the joints, of which those of unknown
 /// stiffness count as rigid. `model` holds besides what the effects of the machine in the model add (bearings, links,
-/// base), by half the difference of the deflections under +-500 N along each axis, so that K_c is in it too.
+/// base), by half the difference of the deflections under the day's largest force (500 N where that is not known) and
+/// its opposite along each axis: a secant, with K_c in it.
 ///
 /// A joint of unknown stiffness makes C_x too small, but not in the directions that it does not move the point: there a
 /// force does no work on it. Principal directions are therefore sought at right angles to what such joints move, and

@@ -152,8 +152,8 @@ void addStiffnessList(XMLElement& data, const DccContent& content, const std::ve
   addLeaf(expanded, "si:coverageProbabilityXMLList", fmt::format("{:g}", identification::kStatedCoverage));
 }
 
-void addMethod(XMLElement& results, const DccContent& content) {
-  XMLElement& method = *results.InsertNewChildElement("dcc:usedMethods")->InsertNewChildElement("dcc:usedMethod");
+void addMethod(XMLElement& measured, const DccContent& content) {
+  XMLElement& method = *measured.InsertNewChildElement("dcc:usedMethods")->InsertNewChildElement("dcc:usedMethod");
   addText(method, "dcc:name", fmt::format("{} identification of joint stiffness", namesOf(content.method).full));
   addText(method, "dcc:description",
           "Displacements of reflectors on the tool under measured loads, by laser tracker, against the torques of the "
@@ -161,17 +161,17 @@ void addMethod(XMLElement& results, const DccContent& content) {
   addLeaf(method, "dcc:reference", "Ambiehl, Garnier, Subrin, Furet, IROS 2017, doi 10.1109/IROS.2017.8205950");
 }
 
-void addEquipment(XMLElement& results, const campaign::Campaign& campaign) {
+void addEquipment(XMLElement& measured, const campaign::Campaign& campaign) {
   if (!campaign.tracker || campaign.tracker->model.empty()) return;
   XMLElement& tracker =
-      *results.InsertNewChildElement("dcc:measuringEquipments")->InsertNewChildElement("dcc:measuringEquipment");
+      *measured.InsertNewChildElement("dcc:measuringEquipments")->InsertNewChildElement("dcc:measuringEquipment");
   addName(tracker, campaign.tracker->model);
 }
 
-void addConditions(XMLElement& results, const campaign::Campaign& campaign) {
+void addConditions(XMLElement& measured, const campaign::Campaign& campaign) {
   if (campaign.texts.conditions.empty()) return;
   XMLElement& condition =
-      *results.InsertNewChildElement("dcc:influenceConditions")->InsertNewChildElement("dcc:influenceCondition");
+      *measured.InsertNewChildElement("dcc:influenceConditions")->InsertNewChildElement("dcc:influenceCondition");
   addText(condition, "dcc:name", "Conditions as stated by the laboratory");
   condition.InsertNewChildElement("dcc:data")
       ->InsertNewChildElement("dcc:text")
@@ -180,12 +180,12 @@ void addConditions(XMLElement& results, const campaign::Campaign& campaign) {
 }
 
 void addResults(XMLElement& root, const DccContent& content) {
-  XMLElement& results = *root.InsertNewChildElement("dcc:measurementResults");
-  addMethod(results, content);
-  addEquipment(results, content.campaign);
-  addConditions(results, content.campaign);
-  XMLElement& measured = *results.InsertNewChildElement("dcc:measurementResult");
+  XMLElement& measured =
+      *root.InsertNewChildElement("dcc:measurementResults")->InsertNewChildElement("dcc:measurementResult");
   addText(measured, "dcc:name", "Joint stiffness of an industrial robot");
+  addMethod(measured, content);
+  addEquipment(measured, content.campaign);
+  addConditions(measured, content.campaign);
   XMLElement& result = *measured.InsertNewChildElement("dcc:results")->InsertNewChildElement("dcc:result");
   addText(result, "dcc:name", "Stiffness of the joints");
   XMLElement& data = *result.InsertNewChildElement("dcc:data");

@@ -223,7 +223,8 @@ void writeCompensation(Html& html, const reports::ReportContent& content) {
     if (const reports::Table held_out = heldOutTable(one.identification); !held_out.groups.front().rows.empty())
       writeTable(html, held_out);
     writeTable(html, shareTable(content, one));
-    html.keepTable("postures", reports::csvTable(reports::postureTable(one)));
+    if (const reports::DataTable postures = reports::postureTable(one); !postures.rows.empty())
+      html.keepTable("postures", reports::csvTable(postures));
     if (one.identification.wrist_displacement.empty()) {
       html.paragraph("P_{wrist} is not measured in the load states: shares are given at the reflectors.");
     }

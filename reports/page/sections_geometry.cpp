@@ -176,8 +176,10 @@ reports::Table axisTable(const frames::Frames& frames) {
                          axis.fit.rms / io::kMicrometre});
     const metrology::Line& line = frames.arm.arm.axes_in_base_at_zero[i];
     std::vector<reports::DataCell>& row = data.rows.back();
-    for (const double part : line.point) row.emplace_back(part / io::kMillimetre);
-    for (const double part : line.direction) row.emplace_back(part);
+    // What R0's own definition makes zero is zero, and not a processor's rounding.
+    const auto settled = [](double number) { return std::abs(number) < 1e-9 ? 0.0 : number; };
+    for (const double part : line.point) row.emplace_back(settled(part / io::kMillimetre));
+    for (const double part : line.direction) row.emplace_back(settled(part));
     const reports::AxisSd sd = reports::sdAcross(axis);
     row.emplace_back(sd.point / io::kMicrometre);
     row.emplace_back(sd.direction / io::kDegree);

@@ -108,9 +108,12 @@ TEST(Page, EveryTableIsAFileToo) {
   std::size_t on_page = 0;
   for (std::size_t at = page.html.find("<table"); at != std::string::npos; at = page.html.find("<table", at + 1))
     ++on_page;
-  EXPECT_EQ(page.tables.size(), on_page);
   std::vector<std::string> names;
   for (const reports::TableFile& table : page.tables) names.push_back(table.name);
+  // Every posture is too long for the page, and in a file of its own.
+  const auto beside =
+      std::count_if(names.begin(), names.end(), [](const std::string& name) { return name.starts_with("postures"); });
+  EXPECT_EQ(names.size(), on_page + static_cast<std::size_t>(beside));
   std::sort(names.begin(), names.end());
   EXPECT_EQ(std::adjacent_find(names.begin(), names.end()), names.end());
   EXPECT_TRUE(std::binary_search(names.begin(), names.end(), "stiffness-2"));
