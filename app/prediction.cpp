@@ -3,6 +3,7 @@
 #include "reports/json/identification_json.h"
 #include "reports/json/json_document.h"
 #include "reports/text/text.h"
+#include "reports/words/numbers.h"
 #include "reports/words/preparation_words.h"
 #include "reports/words/remark_words.h"
 

@@ -15,7 +15,7 @@ namespace {
 /// share; a robot's usual load where that is not known.
 double probeOf(const DeflectingArm& arm) {
   constexpr double kUsual = 500.0;
-  return arm.certainty.range.force > 0.0 ? arm.certainty.range.force : kUsual;
+  return arm.certainty->range.force > 0.0 ? arm.certainty->range.force : kUsual;
 }
 
 constexpr double kNoMove = 1e-9;  // m per rad: no joint of an arm in a laboratory moves a point by so little
