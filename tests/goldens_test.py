@@ -32,7 +32,10 @@ class Judge(unittest.TestCase):
     def test_lists_are_relative_to_their_largest(self):
         self.assertEqual(verdict("a.json", b'{"r": [1.0, 1e-17]}', b'{"r": [1.0, -2e-17]}'), "within")
         self.assertEqual(verdict("a.json", b'{"r": [[1.0, 0.0],\n [1e-17, 1.0]]}', b'{"r": [[1.0, 0.0],\n [0.0, 1.0]]}'), "within")
-        self.assertEqual(verdict("a.json", b'{"a": 1.0, "b": 1e-17}', b'{"a": 1.0, "b": 2e-17}'), "differs")
+        self.assertEqual(verdict("a.json", b'{"a": 1.0, "b": 1e-13}', b'{"a": 1.0, "b": 2e-13}'), "differs")
+        self.assertEqual(verdict("a.json", b'{"a": 1.0, "b": 1e-17}', b'{"a": 1.0, "b": 2e-17}'), "within")
+        self.assertEqual(verdict("a.json", b'{"left_mm": 3.8106e-10}', b'{"left_mm": 3.8111e-10}'), "within")
+        self.assertEqual(verdict("a.json", b'{"left_mm": 3.8e-07}', b'{"left_mm": 3.9e-07}'), "differs")
 
     def test_one_rounded_number_may_be_its_neighbour(self):
         self.assertEqual(verdict("a.txt", b"  k2   9.9999 +-0.1", b"  k2  10.0000 +-0.1"), "within")

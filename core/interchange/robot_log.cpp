@@ -97,6 +97,7 @@ void requirePlausible(const std::string& file, const RobotLog& log) {
 
 /// Poses that stay where they are while joints move are columns that nobody filled.
 void dropEmptyPoses(const std::string& file, RobotLog& log) {
+  if (log.samples.empty()) return;
   constexpr double kMoves = 1.0 * io::kDegree;
   const JointSample& first = log.samples.front();
   if (!first.tool_pose.hasPosition()) return;

@@ -124,7 +124,9 @@ Json withProgram(Json json, const interchange::TaughtProgram& program, const std
 /// The result of `stiffness`: method, model_holds_besides_joints (effects by id), unknown_joints, notes, postures and
 /// slice.places (each: q_deg, tcp_m, conditioning, k_x and model: principal stiffnesses, softest first, with interval
 /// and direction; both compliances), placement (where a force was given: force_n, best, now, offsets). R0.
-Json workspaceJson(const workspace::WorkspaceStiffness& found);
+/// In `results.json` of a report without `slice.places`, which are many and in its CSV.
+enum class SlicePlaces { kept, left_out };
+Json workspaceJson(const workspace::WorkspaceStiffness& found, SlicePlaces places = SlicePlaces::kept);
 
 /// The result of `diagnose`. `verdict` is a list of lists of effect ids: the outer names all that is present,
 /// an inner one what this data cannot tell apart; [["none"]], or ["unknown"] among them.

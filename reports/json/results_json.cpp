@@ -51,7 +51,7 @@ JsonDocument campaignResults(const ReportCampaign& one) {
     json["identify"]["with"] = extendedModelJson(*one.improved, methods);
     json["identify"] = withSupport(std::move(json["identify"]), *one.improved, methods);
   }
-  if (one.workspace != nullptr) json["stiffness"] = workspaceJson(*one.workspace);
+  if (one.workspace != nullptr) json["stiffness"] = workspaceJson(*one.workspace, SlicePlaces::left_out);
   if (one.diagnosis != nullptr) json["diagnose"] = diagnosisJson(one.campaign, *one.diagnosis);
   if (one.accuracy != nullptr) {
     json["calibration"] = calibrationJson(one.campaign, one.accuracy->calibration, one.calibrated_by);

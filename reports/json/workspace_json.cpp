@@ -3,6 +3,7 @@
 #include "reports/json/json.h"
 
 #include <cmath>
+#include <utility>
 
 #include "core/io/units.h"
 #include "reports/words/names.h"
@@ -47,15 +48,17 @@ Json pointJson(Json json, const workspace::PointStiffness& place) {
   return json;
 }
 
-Json sliceJson(const workspace::StiffnessSlice& slice) {
+Json sliceJson(const workspace::StiffnessSlice& slice, SlicePlaces kept) {
+  Json json{{"pose", slice.pose},
+            {"azimuth_deg", slice.azimuth / io::kDegree},
+            {"spacing_mm", slice.spacing / io::kMillimetre}};
+  if (kept == SlicePlaces::left_out) return json;
   Json places = Json::array();
   for (const workspace::SlicePlace& one : slice.places)
     places.push_back(
         pointJson({{"radius_mm", one.radius / io::kMillimetre}, {"height_mm", one.height / io::kMillimetre}}, one.at));
-  return {{"pose", slice.pose},
-          {"azimuth_deg", slice.azimuth / io::kDegree},
-          {"spacing_mm", slice.spacing / io::kMillimetre},
-          {"places", places}};
+  json["places"] = std::move(places);
+  return json;
 }
 
 Json placementJson(const workspace::PlacementStudy& study) {
@@ -87,7 +90,7 @@ Json placementJson(const workspace::PlacementStudy& study) {
 
 }  // namespace
 
-Json workspaceJson(const workspace::WorkspaceStiffness& found) {
+Json workspaceJson(const workspace::WorkspaceStiffness& found, SlicePlaces places) {
   Json held = Json::array();
   for (const effects::Effect effect : found.held) held.push_back(std::string(effects::idOf(effect)));
   Json postures = Json::array();
@@ -95,7 +98,7 @@ Json workspaceJson(const workspace::WorkspaceStiffness& found) {
   Json json{{"method", namesOf(found.method).key}, {"frame", "r0"},
             {"model_holds_besides_joints", held},  {"unknown_joints", jointNumbers(found.unknown)},
             {"notes", workspaceNotes(found)},      {"postures", postures},
-            {"slice", sliceJson(found.slice)}};
+            {"slice", sliceJson(found.slice, places)}};
   if (found.placement) json["placement"] = placementJson(*found.placement);
   return json;
 }
