@@ -95,9 +95,9 @@ Json workspaceJson(const workspace::WorkspaceStiffness& found, SlicePlaces place
   for (const effects::Effect effect : found.held) held.push_back(std::string(effects::idOf(effect)));
   Json postures = Json::array();
   for (const workspace::PointStiffness& one : found.postures) postures.push_back(pointJson({{"pose", one.pose}}, one));
-  Json json{{"method", namesOf(found.method).key}, {"frame", "r0"},
-            {"model_holds_besides_joints", held},  {"unknown_joints", jointNumbers(found.unknown)},
-            {"notes", workspaceNotes(found)},      {"postures", postures},
+  Json json{{"method", namesOf(found.method).key},    {"frame", "r0"},
+            {"model_holds_besides_joints", held},     {"unknown_joints", jointNumbers(found.unknown)},
+            {"notes", workspaceNotes(found)},         {"postures", postures},
             {"slice", sliceJson(found.slice, places)}};
   if (found.placement) json["placement"] = placementJson(*found.placement);
   return json;

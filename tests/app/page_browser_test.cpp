@@ -146,8 +146,8 @@ TEST_F(PageInABrowser, PrintsOnFullPagesWithItsIdOnEach) {
   ASSERT_EQ(info.status, 0) << info.err;
   EXPECT_NE(info.out.find("(A4)"), std::string::npos) << info.out;
   const int pages = std::stoi(info.out.substr(info.out.find("Pages:") + 6));
-  // 33 figures two a page, and two campaigns of a dozen tables, two pages of the workspace, a page and a half of audit and
-  // two of diagnosis each: 38 here; other fonts move a page or two.
+  // 33 figures two a page, and two campaigns of a dozen tables, two pages of the workspace, a page and a half of audit
+  // and two of diagnosis each: 38 here; other fonts move a page or two.
   EXPECT_GE(pages, 22);
   EXPECT_LE(pages, 42);
   const std::string html = contentsOf(page);

@@ -71,7 +71,8 @@ TEST(StiffnessCommand, KxIsThatOfIdentifyWhereAllItsJointsAreKnown) {
     }
     for (const json& one : unknown["postures"][i]["k_x"]) {
       const Eigen::Vector3d d = vectorOf(one["direction"]);
-      // One takes the angles as read, the other those of the arm that sags by a thousandth of a posture: some millionths.
+      // One takes the angles as read, the other those of the arm that sags by a thousandth of a posture: some
+      // millionths.
       EXPECT_NEAR(d.dot(rigid * d) * one["stiffness_n_per_m"].get<double>(), 1.0, 2e-5);
     }
   }
