@@ -26,7 +26,7 @@ Eigen::MatrixXd standardNormal(Eigen::Index rows, Eigen::Index draws, RandomStre
   z.colwise() -= z.rowwise().mean().eval();
   if (rows == 0 || draws <= rows) return z;
   const Eigen::MatrixXd covariance = z * z.transpose() / static_cast<double>(draws);
-  return covariance.llt().matrixL().solve(z);
+  return choleskyLower(covariance).triangularView<Eigen::Lower>().solve(z);
 }
 
 /// Normal numbers of a covariance; not a number where that is not.

@@ -83,18 +83,6 @@ AffineStart affineStart(const ReadingsOfDay& day, const std::vector<Pose>& poses
   return start;
 }
 
-/// The rotation nearest to a map.
-Eigen::Matrix3d nearestRotation(const Eigen::Matrix3d& map) {
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(map, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Matrix3d turn = svd.matrixU() * svd.matrixV().transpose();
-  if (turn.determinant() < 0.0) {
-    Eigen::Matrix3d u = svd.matrixU();
-    u.col(2) *= -1.0;
-    turn = u * svd.matrixV().transpose();
-  }
-  return turn;
-}
-
 class GaussNewton {
  public:
   GaussNewton(const ReadingsOfDay& day, const NominalFitOptions& options)
@@ -109,7 +97,7 @@ class GaussNewton {
   NominalFit run() {
     if (springs_) fit_.sag_factor = 0.0;  // linear in it; a start far off would bend the arm double
     const AffineStart start = affineStart(day_, poses_);
-    fit_.base_from_points.linear() = nearestRotation(start.map);
+    fit_.base_from_points.linear() = metrology::nearestRotation(start.map).rotation;
     fit_.reflectors_in_flange = start.reflectors;
     placeReflectors();
     // From a start by readings that contradict each other, weights by misfit would fix whichever is nearest by chance.

@@ -9,6 +9,7 @@
 #include "core/identification/load_point.h"
 #include "core/robot/kinematics.h"
 #include "metrology/linear_algebra.h"
+#include "metrology/rigid_motion.h"
 
 namespace stiffscope::mistakes {
 
@@ -95,10 +96,7 @@ std::optional<Eigen::Matrix3d> LoadsOfDay::turnToGravity(const CellReading& cell
     const Eigen::Vector3d there = (parentOf(state, cell).linear() * cell.parent_from_cell.linear()).transpose() * down_;
     sum += there * (cell.on_force * state.wrench.head<3>()).transpose();
   }
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(sum, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Eigen::Matrix3d u = svd.matrixU(), v = svd.matrixV();
-  const double sense = (u * v.transpose()).determinant() < 0.0 ? -1.0 : 1.0;
-  return u * Eigen::Vector3d(1.0, 1.0, sense).asDiagonal() * v.transpose();
+  return metrology::nearestRotation(sum).rotation;
 }
 
 /// Bilinear in springs and three parameters of the cell: Gauss-Newton in both. `by_parameters(state, load)` are the
