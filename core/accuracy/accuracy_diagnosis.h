@@ -29,7 +29,7 @@ struct AccuracyClass {
   diagnosis::Shrink shrink;  ///< of the rms of the positions' residual, held out, besides what stands before it
   double explained = 0.0;    ///< that in variance, less noise
   bool in_verdict = false;
-  std::vector<calibration::EffectPart> parts;  ///< of the first effect, as fitted
+  std::vector<calibration::EffectPart> parts;  ///< of those effects that were fitted, the first's first
   std::vector<double> sizes, sds;              ///< of their terms, in their units
 };
 

@@ -132,17 +132,17 @@ class Decider {
                                             : kAsDeclared + kSigmas * std::sqrt(2.0 / free);
   }
 
+  static bool names(const SelectedEffect& one, UnloadedEffect effect) {
+    return one.effect == effect || std::find(one.together.begin(), one.together.end(), effect) != one.together.end() ||
+           std::any_of(one.rivals.begin(), one.rivals.end(),
+                       [&](const calibration::Rival& rival) { return rival.effect == effect; });
+  }
+
   bool inEveryFold(const SelectedEffect& one) const {
     return std::all_of(calibration_.selected_by_others.begin(), calibration_.selected_by_others.end(),
                        [&](const std::vector<SelectedEffect>& others) {
                          return std::any_of(others.begin(), others.end(), [&](const SelectedEffect& other) {
-                           if (other.effect == one.effect) return true;
-                           const auto is = [&](const calibration::Rival& rival) { return rival.effect == one.effect; };
-                           const auto its = [&](const calibration::Rival& rival) {
-                             return rival.effect == other.effect;
-                           };
-                           return std::any_of(other.rivals.begin(), other.rivals.end(), is) ||
-                                  std::any_of(one.rivals.begin(), one.rivals.end(), its);
+                           return names(other, one.effect) || names(one, other.effect);
                          });
                        });
   }
@@ -162,6 +162,7 @@ class Decider {
   void judge(const SelectedEffect& one) {
     AccuracyClass found;
     found.effects.push_back(one.effect);
+    found.effects.insert(found.effects.end(), one.together.begin(), one.together.end());
     for (const calibration::Rival& rival : one.rivals) found.effects.push_back(rival.effect);
     found.detail = one.detail;
     found.score = one.score;
@@ -170,6 +171,7 @@ class Decider {
     found.explained =
         explainedOf(result_.gap.before, (1.0 - found.shrink.value) * result_.gap.before, result_.gap.noise);
     addFitted(one.effect, found);
+    for (const UnloadedEffect effect : one.together) addFitted(effect, found);
     const std::string id(idOf(one.effect));
     found.size = one.size;
     found.in_verdict = true;

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "core/calibration/family_fit.h"
@@ -44,6 +47,11 @@ class Search {
     for (EffectSet& start : singles) {
       if (predicts(nothing, start)) ends.push_back(improved(std::move(start)));
     }
+    EffectSet& least = *std::min_element(ends.begin(), ends.end(), [&](const EffectSet& a, const EffectSet& b) {
+      return a.model.squares() < b.model.squares();
+    });
+    setEquations(least.model);
+    if (auto other = beforePeriodic(least)) ends.push_back(improved(std::move(*other)));
     // The least scatter of all says what the equations are worth.
     setEquations(std::min_element(ends.begin(), ends.end(), [](const EffectSet& a, const EffectSet& b) {
                    return a.model.squares() < b.model.squares();
@@ -59,7 +67,7 @@ class Search {
     const auto fitAll = [&] {
       const std::vector<std::size_t> families = set.families.empty() ? found.families : set.families;
       for (const std::size_t family : families) {
-        const EffectSet others = without(set, family);
+        const EffectSet others = without(set, {family});
         auto anew = with(others, family, fits_.productsOf(others.model));
         set = anew ? std::move(*anew) : others;
         setEquations(set.model);
@@ -88,7 +96,8 @@ class Search {
     selected.before = day_.heldOutByPosture(nothing);
     selected.before_by_division = byDivision(nothing);
     selected.after_by_division = byDivision(set.model);
-    for (const std::size_t family : set.families) selected.effects.push_back(describedOne(set, family));
+    for (const std::vector<std::size_t>& group : explainingTheSame(set))
+      selected.effects.push_back(describedOne(set, group));
     std::stable_sort(selected.effects.begin(), selected.effects.end(),
                      [](const SelectedEffect& a, const SelectedEffect& b) { return a.score > b.score; });
     for (std::size_t f = 0; f < fits_.families().size(); ++f) {
@@ -104,10 +113,69 @@ class Search {
   /// another effect leaves of itself looks like a third one.
   static constexpr double kLeastFall = 16.0;
 
-  SelectedEffect describedOne(const EffectSet& set, std::size_t family) const {
-    const EffectSet others = without(set, family);
+  UnloadedEffect effectOf(std::size_t family) const { return fits_.families()[family].effect; }
+
+  bool isOf(const std::vector<std::size_t>& families, const EffectPart& part) const {
+    return std::any_of(families.begin(), families.end(),
+                       [&](std::size_t family) { return effectOf(family) == part.effect; });
+  }
+
+  /// Effects that do as well in the place of what is slow of one joint's periodic errors: over the angles at which a
+  /// joint stands a wave of a turn or half a turn may be what a ratio does, or its own weight.
+  std::vector<Rival> rivalsOfSlow(const EffectSet& set) const {
+    constexpr double kSlow = 2.0;  // waves a turn
+    const auto isSlow = [](const EffectPart& part) { return part.order && *part.order <= kSlow; };
+    std::set<std::string> joints;
+    for (const EffectPart& part : set.model.parts) {
+      if (isSlow(part)) joints.insert(part.detail);
+    }
+    std::vector<Rival> rivals;
+    for (const std::string& joint : joints) {
+      const auto slow = [&](const EffectPart& part) { return isSlow(part) && part.detail == joint; };
+      const EffectSet rest{set.families, day_.keeping(set.model, [&](const EffectPart& part) { return !slow(part); })};
+      for (const auto& instead : withEach(rest, others(set))) {
+        if (!instead || cost(*instead) - cost(set) > kAsGood) continue;
+        rivals.push_back(
+            {effectOf(instead->families.back()), instead->model.parts.back().detail, cost(*instead) - cost(set)});
+      }
+    }
+    return rivals;
+  }
+
+  /// The set's families, those together that explain the same, of which the one is first that is missed most.
+  std::vector<std::vector<std::size_t>> explainingTheSame(const EffectSet& set) const {
+    constexpr double kShared = 0.75;  // of what two take away
+    const double all = set.model.squares();
+    std::vector<std::vector<std::size_t>> groups;
+    std::vector<double> own;
+    for (const std::size_t family : set.families) own.push_back(without(set, {family}).model.squares() - all);
+    const auto same = [&](std::size_t a, std::size_t b) {
+      const double both = without(set, {set.families[a], set.families[b]}).model.squares() - all;
+      return own[a] + own[b] < (1.0 - kShared) * both;
+    };
+    std::vector<std::size_t> order(set.families.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return own[a] > own[b]; });
+    for (const std::size_t k : order) {
+      const auto group =
+          std::find_if(groups.begin(), groups.end(), [&](const auto& one) { return same(one.front(), k); });
+      if (group != groups.end()) {
+        group->push_back(k);
+      } else {
+        groups.push_back({k});
+      }
+    }
+    for (auto& group : groups) {
+      for (std::size_t& k : group) k = set.families[k];
+    }
+    return groups;
+  }
+
+  SelectedEffect describedOne(const EffectSet& set, const std::vector<std::size_t>& group) const {
+    const EffectSet others = without(set, group);
     SelectedEffect one;
-    one.effect = fits_.families()[family].effect;
+    one.effect = effectOf(group.front());
+    for (std::size_t k = 1; k < group.size(); ++k) one.together.push_back(effectOf(group[k]));
     for (const EffectPart& part : set.model.parts) {
       if (part.effect == one.effect && one.detail.find(part.detail) == std::string::npos)
         one.detail += (one.detail.empty() ? "" : ", ") + part.detail;
@@ -120,8 +188,17 @@ class Search {
       one.rivals.push_back({fits_.families()[instead->families.back()].effect, instead->model.parts.back().detail,
                             cost(*instead) - cost(set)});
     }
+    if (one.effect == UnloadedEffect::transmission_error) {
+      for (Rival& rival : rivalsOfSlow(set)) one.rivals.push_back(std::move(rival));
+    }
     std::sort(one.rivals.begin(), one.rivals.end(), [](const Rival& a, const Rival& b) { return a.cost < b.cost; });
-    const LinearModel alone = day_.keeping(set.model, [&](UnloadedEffect effect) { return effect == one.effect; });
+    std::vector<Rival> each;
+    for (Rival& rival : one.rivals) {
+      const auto same = [&](const Rival& other) { return other.effect == rival.effect; };
+      if (std::none_of(each.begin(), each.end(), same)) each.push_back(std::move(rival));
+    }
+    one.rivals = std::move(each);
+    const LinearModel alone = day_.keeping(set.model, [&](const EffectPart& part) { return isOf(group, part); });
     one.held_out = day_.heldOutByPosture(alone);
     one.by_division = byDivision(alone);
     return one;
@@ -171,14 +248,36 @@ class Search {
   }
 
   /// The others with the parts that they have.
-  EffectSet without(const EffectSet& set, std::size_t family) const {
+  EffectSet without(const EffectSet& set, const std::vector<std::size_t>& gone) const {
     EffectSet others{{}, day_.geometryAlone()};
     for (const std::size_t other : set.families) {
-      if (other != family) others.families.push_back(other);
+      if (std::find(gone.begin(), gone.end(), other) == gone.end()) others.families.push_back(other);
     }
-    const UnloadedEffect gone = fits_.families()[family].effect;
-    others.model = day_.keeping(set.model, [gone](UnloadedEffect effect) { return effect != gone; });
+    others.model = day_.keeping(set.model, [&](const EffectPart& part) { return !isOf(gone, part); });
     return others;
+  }
+
+  /// The best set in which an effect that the set lacks stands before its periodic errors, which then explain what it
+  /// leaves; nothing where none is better than the set.
+  std::optional<EffectSet> beforePeriodic(const EffectSet& set) const {
+    const auto periodic = std::find_if(set.families.begin(), set.families.end(), [&](std::size_t family) {
+      return effectOf(family) == UnloadedEffect::transmission_error;
+    });
+    if (periodic == set.families.end()) return std::nullopt;
+    const std::vector<std::size_t> lacking = others(set);
+    const EffectSet rest = without(set, {*periodic});
+    const FamilyFit::Products beside = fits_.productsOf(rest.model);
+    std::vector<std::optional<EffectSet>> found(lacking.size());
+    numerics::onAllCores(lacking.size(), [&](std::size_t k) {
+      const auto first = with(rest, lacking[k], beside);
+      if (!first) return;
+      found[k] = with(*first, *periodic, fits_.productsOf(first->model));
+    });
+    std::optional<EffectSet> best;
+    for (auto& one : found) {
+      if (one && cost(*one) < (best ? cost(*best) : cost(set)) - kSame) best = std::move(one);
+    }
+    return best;
   }
 
   /// Whether the larger set predicts postures better that were left out.
@@ -200,7 +299,7 @@ class Search {
       };
       for (auto& more : withEach(set, others(set))) consider(std::move(more), true);
       for (const std::size_t family : set.families) {
-        EffectSet fewer = without(set, family);
+        EffectSet fewer = without(set, {family});
         for (auto& instead : withEach(fewer, others(fewer))) consider(std::move(instead), false);
         consider(std::move(fewer), false);
       }

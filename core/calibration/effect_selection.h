@@ -38,6 +38,9 @@ struct Rival {
 
 struct SelectedEffect {
   UnloadedEffect effect = {};
+  /// Others of the set that explain the same: what each takes away beside the rest is a small part of what all do.
+  /// Everything below is of all of them.
+  std::vector<UnloadedEffect> together = {};
   std::string detail;               ///< of its parts, each once; empty where they name nothing
   double score = 0.0;               ///< fall of BIC against the others without it
   double size = 0.0;                ///< rms per coordinate of what it explains beside them, m
@@ -63,9 +66,10 @@ struct SelectedEffects {
 /// Effects that the residuals of `geometry` ask for. On the equations linearised about the fit, sets of effects are
 /// compared by BIC (as many equations as reflectors of a posture that err together are worth; alternatives that were
 /// tried count as parameters): from none, and from each of the best single ones, one is added, dropped, replaced by
-/// another, or fitted anew beside the rest, as long as that is better. An effect must be beyond chance and predict
-/// postures that were left out, geometry fitted with it. Periodic errors are of each joint, with orders from 0.5 to 100
-/// by quarters (Lomb and Scargle's periodogram with the rest projected off); jumps may be at every posture.
+/// another, or fitted anew beside the rest, as long as that is better. Periodic errors of enough orders can imitate any
+/// function of a joint's angle, so each other effect is tried before them, too. An effect must be beyond chance and
+/// predict postures that were left out, geometry fitted with it. Periodic errors are of each joint, with orders from
+/// 0.5 to 100 by quarters (Lomb and Scargle's periodogram with the rest projected off); jumps may be at every posture.
 /// Readings of weight 0 in the fit take no part.
 SelectedEffects selectEffects(const UnloadedDay& day, const ArmFit& geometry, const SelectionOptions& options);
 

@@ -134,10 +134,11 @@ void LinearisedDay::add(EffectPart part, PartColumns columns, double penalty, Li
   model.columns.push_back(std::make_shared<const PartColumns>(std::move(columns)));
 }
 
-LinearModel LinearisedDay::keeping(const LinearModel& model, const std::function<bool(UnloadedEffect)>& stays) const {
+LinearModel LinearisedDay::keeping(const LinearModel& model,
+                                   const std::function<bool(const EffectPart&)>& stays) const {
   LinearModel fewer = geometryAlone();
   for (std::size_t k = 0; k < model.parts.size(); ++k) {
-    if (!stays(model.parts[k].effect)) continue;
+    if (!stays(model.parts[k])) continue;
     addDirections(*model.columns[k], fewer);
     fewer.penalty += model.parts[k].penalty;
     fewer.parts.push_back(model.parts[k]);

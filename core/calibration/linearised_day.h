@@ -63,8 +63,8 @@ class LinearisedDay {
   /// Adds a part to a model. Columns that the geometry and the model can do themselves add nothing.
   void add(EffectPart part, PartColumns columns, double penalty, LinearModel& model) const;
 
-  /// The model with those parts alone, in their order, whose effect is to stay.
-  LinearModel keeping(const LinearModel& model, const std::function<bool(UnloadedEffect)>& stays) const;
+  /// The model with those parts alone, in their order, that are to stay.
+  LinearModel keeping(const LinearModel& model, const std::function<bool(const EffectPart&)>& stays) const;
 
   /// By how much reflectors of one posture err together in a residual, one at least: variance of their sum.
   double designEffect(const Eigen::VectorXd& residual) const;

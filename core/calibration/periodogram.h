@@ -17,13 +17,13 @@ struct PeriodicPeak {
 };
 
 /// Least-squares periodogram of residuals over a joint's angle (P. Vanicek; N. R. Lomb 1976; J. D. Scargle 1982), for
-/// every joint and orders 0.5 to 100: what a sin(k q_j) + b cos(k q_j) on joint j explains, with everything in an
+/// every joint and orders 1 to 100: what a sin(k q_j) + b cos(k q_j) on joint j explains, with everything in an
 /// orthonormal basis projected off both. Parts that are found later are projected off as they come, which costs two
 /// products an order.
 class Periodogram {
  public:
-  static constexpr double kFirst = 0.5, kLast = 100.0, kStep = 0.25;
-  static constexpr int kOrders = 399;         ///< (kLast - kFirst) / kStep + 1
+  static constexpr double kFirst = 1.0, kLast = 100.0, kStep = 0.25;
+  static constexpr int kOrders = 397;         ///< (kLast - kFirst) / kStep + 1
   static constexpr int kTried = 6 * kOrders;  ///< for the probability of a false alarm
 
   /// `basis`: columns are orthonormal; `residual` is across them. Rows posture by posture as in `equations`.

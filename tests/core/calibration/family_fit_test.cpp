@@ -240,7 +240,7 @@ TEST(LinearisedDay, KeepsThePartsOfTheEffectsThatStay) {
     day.add(part, {day.acrossGeometry(columns), columns.colwise().norm()}, part.penalty, both);
   }
   const LinearModel one =
-      day.keeping(both, [](UnloadedEffect effect) { return effect != UnloadedEffect::scale_error; });
+      day.keeping(both, [](const EffectPart& part) { return part.effect != UnloadedEffect::scale_error; });
   EXPECT_EQ(both.directions.cols(), 3);
   EXPECT_EQ(both.penalty, 8.0);
   ASSERT_EQ(one.parts.size(), 1u);
