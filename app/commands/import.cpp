@@ -73,7 +73,8 @@ int importCampaign(const DayArguments& arguments) {
   // What was measured is never written over, wherever DAY.xml stands.
   for (const auto& file : std::filesystem::directory_iterator(arguments.out, none)) io::requireNotRead(file.path());
   const io::ByteSource origins = [&day](const io::ByteSink& sink) { writeJson(reports::importJson(day), sink); };
-  campaign::writeCampaign(day.campaign, day.urdf, arguments.out, {{"import.json", origins}});
+  campaign::writeCampaign(day.campaign, day.urdf, arguments.out, {{"import.json", origins}},
+                          campaign::WrittenDigits::as_read);
   deliver([&] { return reports::importJson(day); },
           [&] { return reports::importText(day) + arguments.out + ": campaign written, with import.json\n"; },
           arguments.json);

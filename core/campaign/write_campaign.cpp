@@ -24,9 +24,9 @@ namespace stiffscope::campaign {
 /// element (circle_sweeps.csv). Numbers have up to 12 significant digits.
 std::string writtenCampaignXml(const Campaign& campaign);
 
-/// A number in the unit of its column, with the decimals of its kind; "-0.000" is written as "0.000". Throws
-/// std::runtime_error, naming the column, for a value that is not finite.
-std::string writtenNumber(CellKind kind, double si_value, const std::string& column);
+/// A number in the unit of its column, with the decimals of its kind, or as many more as it was read with; "-0.000" is
+/// written as "0.000". Throws std::runtime_error, naming the column, for a value that is not finite.
+std::string writtenNumber(CellKind kind, double si_value, const std::string& column, WrittenDigits digits);
 
 /// A name as a cell, in quotes where it needs them. Throws std::runtime_error for an empty one and for one
 /// with control characters, which no table can hold.
@@ -36,15 +36,22 @@ std::string writtenName(const std::string& name, const std::string& column);
 /// std::runtime_error for an index without a name.
 std::string writtenIndex(CellKind kind, int index, const CampaignNames& names, const std::string& column);
 
+/// How the rows of all tables are written.
+struct RowWriting {
+  CampaignNames names;
+  WrittenDigits digits = WrittenDigits::of_the_format;
+};
+
 /// One member of a row as a cell.
 template <class Row>
-std::string writtenCell(const Column<Row>& column, Row& row, const CampaignNames& names) {
+std::string writtenCell(const Column<Row>& column, Row& row, const RowWriting& writing) {
   if (const auto* number = std::get_if<typename Column<Row>::Number>(&column.member)) {
     const double value = (*number)(row);
-    return column.may_be_blank && std::isnan(value) ? std::string() : writtenNumber(column.kind, value, column.name);
+    return column.may_be_blank && std::isnan(value) ? std::string()
+                                                    : writtenNumber(column.kind, value, column.name, writing.digits);
   }
   if (const auto* index = std::get_if<typename Column<Row>::Index>(&column.member)) {
-    return writtenIndex(column.kind, (*index)(row), names, column.name);
+    return writtenIndex(column.kind, (*index)(row), writing.names, column.name);
   }
   return writtenName(std::get<typename Column<Row>::Text>(column.member)(row), column.name);
 }
@@ -64,7 +71,7 @@ bool isGiven(const Column<Row>& column, std::vector<Row>& rows) {
 /// a value for it, or, where cells may be blank, one row. (The rows are a copy because a layout gives access to
 /// members of rows that may change.)
 template <class Row>
-std::string writtenTable(const TableLayout<Row>& layout, std::vector<Row> rows, const CampaignNames& names) {
+std::string writtenTable(const TableLayout<Row>& layout, std::vector<Row> rows, const RowWriting& writing) {
   std::vector<const Column<Row>*> columns;
   std::string text;
   for (const Column<Row>& column : layout.columns) {
@@ -77,7 +84,7 @@ std::string writtenTable(const TableLayout<Row>& layout, std::vector<Row> rows, 
   for (Row& row : rows) {
     for (const Column<Row>* column : columns) {
       if (column != columns.front()) text += ',';
-      text += writtenCell(*column, row, names);
+      text += writtenCell(*column, row, writing);
     }
     text += '\n';
   }
@@ -242,10 +249,13 @@ namespace {
 
 }  // namespace
 
-std::string writtenNumber(CellKind kind, double si_value, const std::string& column) {
+std::string writtenNumber(CellKind kind, double si_value, const std::string& column, WrittenDigits digits) {
   if (!std::isfinite(si_value)) fail(column, "a value is not finite");
   const NumberKind& info = numberKind(kind);
-  std::string text = fmt::format("{:.{}f}", si_value / info.si_per_unit, info.decimals);
+  constexpr int kMore = 3;
+  const int more = digits == WrittenDigits::as_read ? kMore : 0;
+  std::string text = fmt::format("{:.{}f}", si_value / info.si_per_unit, info.decimals + more);
+  for (int k = 0; k < more && text.back() == '0'; ++k) text.pop_back();
   if (text.find_first_not_of("-0.") == std::string::npos && text[0] == '-') text.erase(0, 1);
   return text;
 }
@@ -276,9 +286,9 @@ std::string writtenIndex(CellKind kind, int index, const CampaignNames& names, c
 namespace {
 
 template <class Row>
-void addTable(const TableLayout<Row>& layout, const std::optional<Table<Row>>& table, const CampaignNames& names,
+void addTable(const TableLayout<Row>& layout, const std::optional<Table<Row>>& table, const RowWriting& writing,
               std::vector<io::FileToWrite>& files) {
-  if (table) files.push_back({layout.element + ".csv", writtenTable(layout, table->rows, names)});
+  if (table) files.push_back({layout.element + ".csv", writtenTable(layout, table->rows, writing)});
 }
 
 CampaignNames namesOf(const Campaign& campaign) {
@@ -294,16 +304,16 @@ CampaignNames namesOf(const Campaign& campaign) {
 namespace {
 
 void writeFigures(const Campaign& campaign, const std::filesystem::path& urdf_file, const std::filesystem::path& folder,
-                  const std::vector<io::FileToWrite>& beside) {
+                  const std::vector<io::FileToWrite>& beside, WrittenDigits digits) {
   const std::string urdf = io::readTextFile(urdf_file, io::kLargestXml);
-  const CampaignNames names = namesOf(campaign);
+  const RowWriting writing{namesOf(campaign), digits};
   std::vector<io::FileToWrite> files{{"robot.urdf", urdf}};
-  addTable(circleSweepsLayout(), campaign.circle_sweeps, names, files);
-  addTable(wristSweepLayout(), campaign.wrist_sweep, names, files);
-  addTable(loadingLayout(), campaign.loading, names, files);
-  addTable(statesLayout(), campaign.states, names, files);
-  addTable(displacementsLayout(), campaign.displacements, names, files);
-  addTable(nestsLayout(), campaign.nests, names, files);
+  addTable(circleSweepsLayout(), campaign.circle_sweeps, writing, files);
+  addTable(wristSweepLayout(), campaign.wrist_sweep, writing, files);
+  addTable(loadingLayout(), campaign.loading, writing, files);
+  addTable(statesLayout(), campaign.states, writing, files);
+  addTable(displacementsLayout(), campaign.displacements, writing, files);
+  addTable(nestsLayout(), campaign.nests, writing, files);
   files.insert(files.end(), beside.begin(), beside.end());
   // Last, because a folder with a campaign.xml passes for a campaign.
   files.push_back({"campaign.xml", writtenCampaignXml(campaign)});
@@ -313,11 +323,12 @@ void writeFigures(const Campaign& campaign, const std::filesystem::path& urdf_fi
 }  // namespace
 
 void writeCampaign(const Campaign& campaign, const std::filesystem::path& urdf_file,
-                   const std::filesystem::path& folder, const std::vector<io::FileToWrite>& beside) {
-  if (campaign.joint_readings.empty()) return writeFigures(campaign, urdf_file, folder, beside);
+                   const std::filesystem::path& folder, const std::vector<io::FileToWrite>& beside,
+                   WrittenDigits digits) {
+  if (campaign.joint_readings.empty()) return writeFigures(campaign, urdf_file, folder, beside, digits);
   Campaign figures = campaign;
   anglesToFigures(figures);
-  writeFigures(figures, urdf_file, folder, beside);
+  writeFigures(figures, urdf_file, folder, beside, digits);
 }
 
 }  // namespace stiffscope::campaign

@@ -128,6 +128,20 @@ TEST(WriteCampaign, ReadsBackAsItWas) {
   expectRoundTrip(campaign::readCampaign(files.folder()).campaign, files.folder() / "robot.urdf");
 }
 
+TEST(WriteCampaign, KeepsTheDigitsThatWereRead) {
+  const SmallCampaign files;
+  campaign::Campaign campaign = campaign::readCampaign(files.folder()).campaign;
+  campaign.loading->rows[0].point = {2.296337348, -2.416230526, -0.4425};
+  const TemporaryFolder folder;
+  campaign::writeCampaign(campaign, files.folder() / "robot.urdf", folder.path() / "read", {},
+                          campaign::WrittenDigits::as_read);
+  campaign::writeCampaign(campaign, files.folder() / "robot.urdf", folder.path() / "format");
+  const std::string read = io::readTextFile(folder.path() / "read" / "loading.csv", 1 << 20),
+                    format = io::readTextFile(folder.path() / "format" / "loading.csv", 1 << 20);
+  EXPECT_NE(read.find("2296.337348,-2416.230526,-442.5000\n"), std::string::npos) << read;
+  EXPECT_NE(format.find("2296.3373,-2416.2305,-442.5000\n"), std::string::npos) << format;
+}
+
 TEST(WriteCampaign, WritesNamesAndTextsThatNeedCare) {
   const SmallCampaign files;
   campaign::Campaign campaign = campaign::readCampaign(files.folder()).campaign;
