@@ -1,0 +1,216 @@
+#include "core/interchange/export_comments.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "core/interchange/length_unit.h"
+#include "core/io/input_error.h"
+
+namespace stiffscope::interchange {
+
+namespace {
+
+constexpr std::array<const char*, 3> kAxisLetters{"x", "y", "z"};
+
+/// Marks of other scripts as ASCII has them: full-width letters, brackets and blanks, ideographic commas, quotation
+/// marks.
+std::string plainMarks(std::string_view comment) {
+  struct Mark {
+    std::string_view mark;
+    char plain;
+  };
+  constexpr std::array<Mark, 13> kMarks{{{"\xE3\x80\x80", ' '},
+                                         {"\xE3\x80\x81", ','},
+                                         {"\xE3\x80\x82", '.'},
+                                         {"\xE3\x80\x8C", '\''},
+                                         {"\xE3\x80\x8D", '\''},
+                                         {"\xE2\x80\x98", '\''},
+                                         {"\xE2\x80\x99", '\''},
+                                         {"\xE2\x80\x9C", '\''},
+                                         {"\xE2\x80\x9D", '\''},
+                                         {"\xE2\x80\x9E", '\''},
+                                         {"\xC2\xAB", '\''},
+                                         {"\xC2\xBB", '\''},
+                                         {"\xC2\xB4", '\''}}};
+  std::string plain;
+  while (!comment.empty()) {
+    const auto mark =
+        std::find_if(kMarks.begin(), kMarks.end(), [&](const Mark& one) { return comment.starts_with(one.mark); });
+    if (mark != kMarks.end()) {
+      plain += mark->plain;
+      comment.remove_prefix(mark->mark.size());
+      continue;
+    }
+    // U+FF01 to U+FF5E are the characters from '!' to '~' again.
+    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(comment[i]); };
+    const bool wide = comment.size() > 2 && byte(0) == 0xEF && (byte(1) == 0xBC || byte(1) == 0xBD);
+    const int code = wide ? (byte(1) - 0xBC) * 0x40 + byte(2) - 0x80 : 0;
+    if (wide && code >= 1 && code <= 0x5E) {
+      plain += static_cast<char>(code + 0x20);
+      comment.remove_prefix(3);
+      continue;
+    }
+    plain += comment.front();
+    comment.remove_prefix(1);
+  }
+  return plain;
+}
+
+/// The first text between two marks that holds '::'.
+std::string frameIn(std::string_view comment) {
+  const std::size_t colons = comment.find("::");
+  if (colons == std::string_view::npos) return {};
+  for (const char mark : {'\'', '"', '`'}) {
+    const std::size_t open = comment.rfind(mark, colons);
+    if (open == std::string_view::npos) continue;
+    std::string_view rest = comment.substr(open + 1);
+    const std::size_t close = rest.find_first_of("'\"");
+    if (close != std::string_view::npos) return std::string(trimmed(rest.substr(0, close)));
+  }
+  // Without marks: the word that the colons are in.
+  const std::size_t from = comment.find_last_of(" \t", colons) + 1;
+  return std::string(comment.substr(from, comment.find_first_of(" \t", colons) - from));
+}
+
+/// Texts between round or square brackets.
+std::vector<std::string_view> bracketed(std::string_view comment) {
+  std::vector<std::string_view> found;
+  while (true) {
+    const std::size_t open = comment.find_first_of("([");
+    if (open == std::string_view::npos) return found;
+    comment.remove_prefix(open);
+    const std::size_t close = comment.find(comment.front() == '(' ? ')' : ']');
+    if (close == std::string_view::npos) return found;
+    found.push_back(trimmed(comment.substr(1, close - 1)));
+    comment.remove_prefix(close);
+  }
+}
+
+bool isLetter(char c) { return (c >= 'a' && c <= 'z') || (c & 0x80) != 0; }
+
+/// Words of letters, digits left out: "u-x" gives u and x.
+std::vector<std::string> wordsOf(std::string_view comment) {
+  std::vector<std::string> found(1);
+  for (const char c : lowered(comment)) {
+    if (isLetter(c)) {
+      found.back() += c;
+    } else if (!found.back().empty()) {
+      found.emplace_back();
+    }
+  }
+  if (found.back().empty()) found.pop_back();
+  return found;
+}
+
+bool namesAxes(const std::vector<std::string>& words) {
+  return std::all_of(kAxisLetters.begin(), kAxisLetters.end(),
+                     [&](const char* axis) { return std::find(words.begin(), words.end(), axis) != words.end(); });
+}
+
+/// Labels of uncertainties: U-x U-y U-z U-mag, whatever stands between the letters.
+int uncertaintiesNamed(std::string_view comment) {
+  int count = 0;
+  const std::vector<std::string> words = wordsOf(comment);
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const bool apart =
+        words[i] == "u" && i + 1 < words.size() &&
+        (words[i + 1] == "x" || words[i + 1] == "y" || words[i + 1] == "z" || words[i + 1].starts_with("mag"));
+    const bool together = words[i] == "ux" || words[i] == "uy" || words[i] == "uz" || words[i].starts_with("umag");
+    count += apart || together ? 1 : 0;
+  }
+  return count;
+}
+
+/// The number that ends where `end` is; NaN where there is none.
+double numberBefore(std::string_view text, std::size_t end) {
+  while (end > 0 && text[end - 1] == ' ') --end;
+  std::size_t from = end;
+  while (from > 0 && (std::string_view("0123456789.,").find(text[from - 1]) != std::string_view::npos)) --from;
+  std::string_view digits = text.substr(from, end - from);
+  while (digits.starts_with(',') || digits.starts_with('.')) digits.remove_prefix(1);
+  return decimalOrNan(digits, digits.find(',') != std::string_view::npos ? DecimalSign::comma : DecimalSign::point);
+}
+
+/// The coverage factor that a comment states: "2 sigma", or a level of confidence, of which 95 % is k = 2 as the Guide
+/// has it. 0: it states none.
+double coverageIn(std::string_view comment) {
+  const std::string small = lowered(comment);
+  const std::size_t sigma = std::min(small.find("sigm"), small.find("\xCF\x83"));
+  if (sigma != std::string::npos) {
+    const double factor = numberBefore(small, sigma);
+    if (factor > 0.0 && factor <= 5.0) return factor;
+  }
+  const std::size_t percent = small.find('%');
+  if (percent == std::string::npos) return 0.0;
+  const double level = numberBefore(small, percent);
+  struct Level {
+    double percent, factor;
+  };
+  constexpr std::array<Level, 3> kLevels{{{68.0, 1.0}, {95.0, 2.0}, {99.7, 3.0}}};
+  for (const Level& known : kLevels) {
+    if (std::abs(level - known.percent) < 0.6) return known.factor;
+  }
+  return 0.0;
+}
+
+void readExportComment(const FileText& text, const TextLine& line, std::string_view comment, ExportComments& header) {
+  const std::string frame = frameIn(comment);
+  const double coverage = coverageIn(comment);
+  // Exports are appended to each other: what the second says must be what the first did.
+  if (!frame.empty() && !header.frame.empty() && frame != header.frame)
+    throw io::InputError({text.file, line.number, "frame"}, frame,
+                         fmt::format("expected points in one frame; those above are in {}", header.frame));
+  if (coverage > 0.0 && header.coverage > 0.0 && coverage != header.coverage)
+    throw io::InputError(
+        {text.file, line.number, "coverage"}, fmt::format("k = {:g}", coverage),
+        fmt::format("expected uncertainties of one coverage; those above have k = {:g}", header.coverage));
+  if (header.frame.empty()) header.frame = frame;
+  if (header.coverage == 0.0) header.coverage = coverage;
+  const std::vector<std::string> words = wordsOf(comment);
+  const bool axes = namesAxes(words);
+  // Short names (in, m) are words of many languages; of the long ones none is.
+  constexpr std::size_t kLongName = 4;
+  for (const std::string& word : words) {
+    if (word.size() >= kLongName && metresIn(word)) header.unit_word = word;
+  }
+  if (axes)
+    header.uncertainties = uncertaintiesNamed(comment);
+  else if (header.uncertainties)
+    *header.uncertainties += uncertaintiesNamed(comment);
+  for (const std::string_view unit : bracketed(comment)) {
+    const std::string small = lowered(unit);
+    if (small.find("deg") != std::string::npos || small.find("rad") != std::string::npos ||
+        small.find("grad") != std::string::npos) {
+      throw io::InputError({text.file, line.number, ""}, std::string(comment),
+                           "expected Cartesian axes; these have an angle: export x, y, z");
+    }
+    if (!axes) continue;
+    // Several of one axis comment: "X (mm), Y (mm), Z (mm)".
+    const std::string first = small.substr(0, small.find_first_of(",; "));
+    const std::optional<double> metres = metresIn(first);
+    if (!metres) {
+      throw io::InputError({text.file, line.number, "unit"}, std::string(unit),
+                           "expected mm, m or inch in the comment of the axes");
+    }
+    if (header.unit && *header.unit != *metres)
+      throw io::InputError({text.file, line.number, "unit"}, std::string(unit), "expected one unit for all axes");
+    header.unit = metres;
+  }
+}
+
+}  // namespace
+
+ExportComments exportCommentsOf(const FileText& text) {
+  ExportComments header;
+  for (const TextLine& line : linesOf(text.text)) {
+    const std::string_view content = trimmed(line.text);
+    if (content.starts_with(kExportComment))
+      readExportComment(text, line, plainMarks(trimmed(content.substr(kExportComment.size()))), header);
+  }
+  return header;
+}
+
+}  // namespace stiffscope::interchange

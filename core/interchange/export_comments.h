@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "core/interchange/point_formats.h"
+
+namespace stiffscope::interchange {
+
+inline constexpr std::string_view kExportComment = "//";
+
+/// What the comments of SpatialAnalyzer's export say, in whichever language: by structure, not by words.
+struct ExportComments {
+  std::string frame;                 ///< 'Collection::Frame'
+  std::optional<double> unit;        ///< m, in brackets with the axes
+  std::string unit_word;             ///< a unit's name that stands elsewhere than with the axes
+  std::optional<int> uncertainties;  ///< cells a row has of them; nullopt: the axes are not commented
+  double coverage = 0.0;             ///< k, by a number before sigma or %; 0: not said
+};
+
+/// Throws InputError, with the line, for axes that are not Cartesian, a unit that is none, and where exports that were
+/// appended to each other state another frame, unit or coverage.
+ExportComments exportCommentsOf(const FileText& text);
+
+}  // namespace stiffscope::interchange
