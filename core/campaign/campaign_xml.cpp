@@ -236,7 +236,8 @@ const std::vector<std::pair<std::string, std::string CampaignTexts::*>>& textEle
       {"customer", &CampaignTexts::customer},
       {"operator", &CampaignTexts::operator_name},
       {"item", &CampaignTexts::item},
-      {"conditions", &CampaignTexts::conditions}};
+      {"conditions", &CampaignTexts::conditions},
+      {"robot_serial", &CampaignTexts::robot_serial}};
   return elements;
 }
 

@@ -122,7 +122,8 @@ void writeTexts(tinyxml2::XMLPrinter& printer, const CampaignTexts& texts) {
                                                                  {"customer", texts.customer},
                                                                  {"operator", texts.operator_name},
                                                                  {"item", texts.item},
-                                                                 {"conditions", texts.conditions}};
+                                                                 {"conditions", texts.conditions},
+                                                                 {"robot_serial", texts.robot_serial}};
   for (const auto& [name, text] : elements) {
     if (text.empty()) continue;
     const Element element(printer, name);
