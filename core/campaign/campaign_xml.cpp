@@ -232,12 +232,9 @@ namespace {
 
 const std::vector<std::pair<std::string, std::string CampaignTexts::*>>& textElements() {
   static const std::vector<std::pair<std::string, std::string CampaignTexts::*>> elements{
-      {"laboratory", &CampaignTexts::laboratory},
-      {"customer", &CampaignTexts::customer},
-      {"operator", &CampaignTexts::operator_name},
-      {"item", &CampaignTexts::item},
-      {"conditions", &CampaignTexts::conditions},
-      {"robot_serial", &CampaignTexts::robot_serial}};
+      {"laboratory", &CampaignTexts::laboratory},  {"customer", &CampaignTexts::customer},
+      {"operator", &CampaignTexts::operator_name}, {"item", &CampaignTexts::item},
+      {"conditions", &CampaignTexts::conditions},  {"robot_serial", &CampaignTexts::robot_serial}};
   return elements;
 }
 

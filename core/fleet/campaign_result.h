@@ -27,13 +27,13 @@ struct Stated {
 /// A posture under the load that identified: what says whether another day has it too.
 struct LoadedPosture {
   std::string pose;
-  Vector6d q = Vector6d::Zero();                     ///< rad
+  Vector6d q = Vector6d::Zero();                    ///< rad
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< R0, N
 };
 
 /// Compliances of one day by one method and joint springs alone, with what makes differences of days: the influences of
-/// its postures, in which what the model misses is the same on every day (comparison::PairedFit), and the variances that
-/// its postures share and other days do not.
+/// its postures, in which what the model misses is the same on every day (comparison::PairedFit), and the variances
+/// that its postures share and other days do not.
 struct SpringsOfDay {
   bool available = false;
   Vector6d compliance = Vector6d::Zero();  ///< rad/Nm
@@ -60,11 +60,11 @@ struct CampaignResult {
   int postures = 0;
 
   // Of a day with loads.
-  std::optional<identification::Method> method;  ///< shown first
-  std::array<Stated, 6> stiffness;               ///< of the day's model, Nm/rad; high infinite where it is open
-  double deflection = kUnknown;                  ///< mean at the reflectors, m
-  Stated compensated;                            ///< share of it on postures held out
-  std::array<SpringsOfDay, 3> springs;           ///< by Method
+  std::optional<identification::Method> method;          ///< shown first
+  std::array<Stated, 6> stiffness;                       ///< of the day's model, Nm/rad; high infinite where it is open
+  double deflection = kUnknown;                          ///< mean at the reflectors, m
+  Stated compensated;                                    ///< share of it on postures held out
+  std::array<SpringsOfDay, 3> springs;                   ///< by Method
   std::optional<identification::Method> springs_method;  ///< shown first of these
   std::vector<LoadedPosture> loaded_postures;
 

@@ -63,7 +63,8 @@ ComplianceSeries::ComplianceSeries(const std::vector<const CampaignResult*>& day
     }
     places_.push_back(std::move(places));
   }
-  for (const std::vector<std::size_t>& places : places_) same_postures_ = same_postures_ && places.size() == place_count_;
+  for (const std::vector<std::size_t>& places : places_)
+    same_postures_ = same_postures_ && places.size() == place_count_;
 }
 
 const SpringsOfDay& ComplianceSeries::springs(std::size_t day) const {

@@ -10,9 +10,9 @@ namespace stiffscope::fleet {
 
 /// A compliance that is another from one date on.
 struct Step {
-  int joint = 0;             ///< 0..5
-  std::size_t first = 0;     ///< day from which the change holds
-  std::size_t begin = 0, end = 0;  ///< days that were looked at: [begin, first) against [first, end)
+  int joint = 0;                     ///< 0..5
+  std::size_t first = 0;             ///< day from which the change holds
+  std::size_t begin = 0, end = 0;    ///< days that were looked at: [begin, first) against [first, end)
   comparison::Uncertain difference;  ///< after - before, rad/Nm
   double before = 0.0;               ///< mean compliance before, rad/Nm
   double p_value = 1.0;              ///< of no difference, times the dates at which it could have been
@@ -23,15 +23,15 @@ struct Step {
 /// A joint's compliance on the dates of one machine, as a control chart.
 struct ControlChart {
   struct Point {
-    double value = kUnknown;      ///< compliance less the centre, over the centre
-    double expanded = kUnknown;   ///< U of that (95 %): what is not the same on every day
-    double limit = kUnknown;      ///< +-: chance is outside in kOutside of all days
+    double value = kUnknown;     ///< compliance less the centre, over the centre
+    double expanded = kUnknown;  ///< U of that (95 %): what is not the same on every day
+    double limit = kUnknown;     ///< +-: chance is outside in kOutside of all days
     bool outside = false;
   };
   double centre = kUnknown;  ///< mean compliance of the days before the first step, rad/Nm
   std::vector<Point> points;
-  double scatter = kUnknown;    ///< of the dates between steps, over what is stated; not a number of few dates
-  double scatter_p = 1.0;       ///< chance of as much
+  double scatter = kUnknown;  ///< of the dates between steps, over what is stated; not a number of few dates
+  double scatter_p = 1.0;     ///< chance of as much
 };
 
 /// Chance that a day of an unchanged machine is outside the limits of one joint's chart: three standard deviations.
@@ -42,8 +42,8 @@ inline constexpr double kOutside = 0.0027;
 ///
 ///   d = sum_t w_t c_t,   u^2(d) = sum_p (sum_t w_t g_t,p)^2 + sum_t w_t^2 v_t,
 ///
-/// g_t,p the influence of posture p on day t, v_t the shared variance: what the model misses in a posture is the same on
-/// every day and cancels in value and uncertainty alike (PairedFit, for two days). Where all days have the same
+/// g_t,p the influence of posture p on day t, v_t the shared variance: what the model misses in a posture is the same
+/// on every day and cancels in value and uncertainty alike (PairedFit, for two days). Where all days have the same
 /// postures, the first sum is pooled over the dates between which nothing is said to have changed,
 ///
 ///   |w|^2 s^2,   s^2 = sum over segments, t, p of (g_t,p - mean of the segment)^2 / (days - segments),
