@@ -172,7 +172,7 @@ struct InputFile {
 
 /// Texts for the report; empty where the campaign does not have them.
 struct CampaignTexts {
-  std::string laboratory, customer, operator_name, item, conditions, robot_serial;
+  std::string laboratory, customer, operator_name, item, conditions;
 };
 
 /// One machine in one condition, measured once: what `campaign.xml` and its tables say, in SI and radians.

@@ -232,15 +232,17 @@ namespace {
 
 const std::vector<std::pair<std::string, std::string CampaignTexts::*>>& textElements() {
   static const std::vector<std::pair<std::string, std::string CampaignTexts::*>> elements{
-      {"laboratory", &CampaignTexts::laboratory},  {"customer", &CampaignTexts::customer},
-      {"operator", &CampaignTexts::operator_name}, {"item", &CampaignTexts::item},
-      {"conditions", &CampaignTexts::conditions},  {"robot_serial", &CampaignTexts::robot_serial}};
+      {"laboratory", &CampaignTexts::laboratory},
+      {"customer", &CampaignTexts::customer},
+      {"operator", &CampaignTexts::operator_name},
+      {"item", &CampaignTexts::item},
+      {"conditions", &CampaignTexts::conditions}};
   return elements;
 }
 
 std::vector<std::string> knownElements(const std::vector<std::string>& also) {
   std::vector<std::string> known{"robot", "tracker",         "targets",       "load_cell",
-                                 "tool",  "known_stiffness", "joint_reading", "certificate"};
+                                 "tool",  "known_stiffness", "joint_reading", "certificate", "robot_serial"};
   known.insert(known.end(), also.begin(), also.end());
   for (const auto& [name, member] : textElements()) known.push_back(name);
   return known;

@@ -118,10 +118,11 @@ class Element {
 };
 
 void writeTexts(tinyxml2::XMLPrinter& printer, const CampaignTexts& texts) {
-  const std::pair<const char*, const std::string&> elements[] = {
-      {"laboratory", texts.laboratory},  {"customer", texts.customer},
-      {"operator", texts.operator_name}, {"item", texts.item},
-      {"conditions", texts.conditions},  {"robot_serial", texts.robot_serial}};
+  const std::pair<const char*, const std::string&> elements[] = {{"laboratory", texts.laboratory},
+                                                                 {"customer", texts.customer},
+                                                                 {"operator", texts.operator_name},
+                                                                 {"item", texts.item},
+                                                                 {"conditions", texts.conditions}};
   for (const auto& [name, text] : elements) {
     if (text.empty()) continue;
     const Element element(printer, name);

@@ -82,7 +82,7 @@ struct CampaignResult {
 /// Two days of one machine, one after the other.
 struct PairResult {
   DayKind kind = DayKind::loaded;
-  std::string reason;  ///< why they cannot be compared; then nothing else is filled
+  std::string reason;  ///< why they cannot be compared, in words; then nothing else is filled
   bool same_postures = false;
   int postures = 0;  ///< of both
 

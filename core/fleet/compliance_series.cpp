@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "core/comparison/matched_postures.h"
+#include "core/comparison/corresponds.h"
 #include "core/numerics/distributions.h"
 #include "metrology/tail_probability.h"
 
@@ -14,13 +14,6 @@ namespace {
 
 constexpr double kManyDegrees = 1e6;
 constexpr double kChangedMisfit = 0.05;
-
-/// A number's two-sided p-value of zero.
-double pOfNothing(const comparison::Uncertain& number) {
-  if (!std::isfinite(number.sd) || !(number.sd > 0.0) || !(number.dof > 0.0)) return 1.0;
-  const double t = number.value / number.sd;
-  return metrology::fTail(t * t, 1, number.dof);
-}
 
 /// Mean of [from, to) less mean of [begin, from).
 Eigen::VectorXd stepWeights(std::size_t days, std::size_t begin, std::size_t first, std::size_t end) {
@@ -71,6 +64,20 @@ const SpringsOfDay& ComplianceSeries::springs(std::size_t day) const {
   return days_[day]->springs[static_cast<std::size_t>(method_)];
 }
 
+double ComplianceSeries::pOfNothing(const comparison::Uncertain& number) {
+  if (!std::isfinite(number.sd) || !(number.sd > 0.0) || !(number.dof > 0.0)) return 1.0;
+  const double t = number.value / number.sd;
+  return metrology::fTail(t * t, 1, number.dof);
+}
+
+std::size_t ComplianceSeries::posturesOfAll() const {
+  std::vector<std::size_t> seen(place_count_);
+  for (const std::vector<std::size_t>& places : places_) {
+    for (const std::size_t place : places) ++seen[place];
+  }
+  return static_cast<std::size_t>(std::count(seen.begin(), seen.end(), days()));
+}
+
 bool ComplianceSeries::has(int joint) const {
   for (std::size_t t = 0; t < days(); ++t) {
     if (!springs(t).identifiable[static_cast<std::size_t>(joint)]) return false;
@@ -97,6 +104,11 @@ double ComplianceSeries::pooledScatter(int joint, const std::vector<std::size_t>
 
 comparison::Uncertain ComplianceSeries::contrast(int joint, const Eigen::VectorXd& weights,
                                                  const std::vector<std::size_t>& first_days) const {
+  return contrastBy(Scatter::of_the_sum_where_larger, joint, weights, first_days);
+}
+
+comparison::Uncertain ComplianceSeries::contrastBy(Scatter choice, int joint, const Eigen::VectorXd& weights,
+                                                   const std::vector<std::size_t>& first_days) const {
   comparison::Uncertain result;
   std::vector<double> by_place(place_count_, 0.0);
   double shared = 0.0, dof = kManyDegrees;
@@ -114,7 +126,7 @@ comparison::Uncertain ComplianceSeries::contrast(int joint, const Eigen::VectorX
     const double pooled = weights.squaredNorm() * pooledScatter(joint, first_days);
     const double pooled_dof = dof * static_cast<double>(days() - first_days.size());
     const int own = std::max(1, static_cast<int>(std::lround(dof)));
-    if (pooled > 0.0 && metrology::fTail(scatter / pooled, own, pooled_dof) > kChangedMisfit) {
+    if (pooled > 0.0 && (choice == Scatter::pooled || metrology::fTail(scatter / pooled, own, pooled_dof) > kChangedMisfit)) {
       scatter = pooled, dof = pooled_dof;
     }
   }
@@ -128,18 +140,23 @@ comparison::Uncertain ComplianceSeries::contrast(int joint, const Eigen::VectorX
 Step ComplianceSeries::likeliestStep(int joint, std::size_t begin, std::size_t end) const {
   Step best;
   best.joint = joint, best.begin = begin, best.end = end, best.first = end;
-  best.p_value = 2.0;
-  for (std::size_t first = begin + 1; first < end; ++first) {
+  if (end < begin + 2) return best;
+  const auto firstDays = [&](std::size_t first) {
     std::vector<std::size_t> segments{0};
     for (const std::size_t one : {begin, first, end}) {
       if (one > segments.back() && one < days()) segments.push_back(one);
     }
-    const comparison::Uncertain difference = contrast(joint, stepWeights(days(), begin, first, end), segments);
-    const double p = pOfNothing(difference);
-    if (p >= best.p_value) continue;
-    best.first = first, best.difference = difference, best.p_value = p;
+    return segments;
+  };
+  double largest = -1.0;
+  for (std::size_t first = begin + 1; first < end; ++first) {
+    const comparison::Uncertain step =
+        contrastBy(Scatter::pooled, joint, stepWeights(days(), begin, first, end), firstDays(first));
+    const double size = step.sd > 0.0 ? std::abs(step.value) / step.sd : 0.0;
+    if (size > largest) largest = size, best.first = first;
   }
-  best.p_value = end > begin + 1 ? std::min(1.0, best.p_value * static_cast<double>(end - begin - 1)) : 1.0;
+  best.difference = contrast(joint, stepWeights(days(), begin, best.first, end), firstDays(best.first));
+  best.p_value = std::min(1.0, pOfNothing(best.difference) * static_cast<double>(end - begin - 1));
   for (std::size_t t = begin; t < best.first; ++t)
     best.before += springs(t).compliance[joint] / static_cast<double>(best.first - begin);
   return best;

@@ -59,6 +59,8 @@ class ComplianceSeries {
   std::size_t days() const { return days_.size(); }
   /// Whether all days have all postures: pose id, angles and force, as comparison::matchPostures asks.
   bool samePostures() const { return same_postures_; }
+  /// How many postures all days have.
+  std::size_t posturesOfAll() const;
   /// Seen on every day.
   bool has(int joint) const;
 
@@ -67,17 +69,24 @@ class ComplianceSeries {
   comparison::Uncertain contrast(int joint, const Eigen::VectorXd& weights,
                                  const std::vector<std::size_t>& first_days) const;
 
-  /// The day in (begin, end) at which a step is the least likely to be chance.
+  /// The day in (begin, end) at which a step is the largest against the scatter pooled over the dates, which is the same
+  /// for all of them; the sum's own would prefer the dates at which it is small by chance. Its p-value is by contrast().
   Step likeliestStep(int joint, std::size_t begin, std::size_t end) const;
 
   /// All steps, in order of time: the likeliest of all days where its p-value is at most `level`, then the same before
   /// and after it.
   std::vector<Step> steps(int joint, double level) const;
 
+  /// Two-sided p-value of a number that is zero; 1 where it has no uncertainty.
+  static double pOfNothing(const comparison::Uncertain& number);
+
   ControlChart chart(int joint, const std::vector<Step>& steps) const;
 
  private:
   const SpringsOfDay& springs(std::size_t day) const;
+  enum class Scatter { of_the_sum_where_larger, pooled };
+  comparison::Uncertain contrastBy(Scatter scatter, int joint, const Eigen::VectorXd& weights,
+                                   const std::vector<std::size_t>& first_days) const;
   double pooledScatter(int joint, const std::vector<std::size_t>& first_days) const;
   void findSteps(int joint, std::size_t begin, std::size_t end, double level, std::vector<Step>& found) const;
 

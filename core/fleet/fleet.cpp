@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <set>
 #include <tuple>
@@ -12,11 +13,20 @@ namespace stiffscope::fleet {
 
 using identification::Method;
 
-void sortCampaigns(std::vector<FleetCampaign>& campaigns) {
-  const auto order = [](const FleetCampaign& one) { return std::tie(one.machine, one.date, one.folder); };
-  std::sort(campaigns.begin(), campaigns.end(),
-            [&](const FleetCampaign& a, const FleetCampaign& b) { return order(a) < order(b); });
+std::string machineOf(const std::string& robot_serial, const std::string& item, const std::string& folder) {
+  if (!robot_serial.empty()) return robot_serial;
+  if (!item.empty()) return item;
+  std::filesystem::path path = std::filesystem::path(folder).lexically_normal();
+  if (!path.has_filename()) path = path.parent_path();
+  const std::string above = path.parent_path().filename().string();
+  return above.empty() ? path.filename().string() : above;
 }
+
+bool inOrder(const FleetCampaign& a, const FleetCampaign& b) {
+  return std::tie(a.machine, a.date, a.folder) < std::tie(b.machine, b.date, b.folder);
+}
+
+void sortCampaigns(std::vector<FleetCampaign>& campaigns) { std::sort(campaigns.begin(), campaigns.end(), inOrder); }
 
 std::vector<DaySeries> seriesOf(const std::vector<FleetCampaign>& campaigns) {
   std::map<std::tuple<std::string, DayKind, campaign::DoubleEncoder>, DaySeries> series;
@@ -77,6 +87,34 @@ std::optional<Method> commonMethod(const std::vector<const CampaignResult*>& day
     if (everywhere && shown > most) best = method, most = shown;
   }
   return best;
+}
+
+Stated statedOf(const comparison::Uncertain& number) {
+  const double u = number.expanded();
+  return {number.value, number.value - u, number.value + u};
+}
+
+PairResult comparedLoaded(const CampaignResult& before, const CampaignResult& after) {
+  PairResult result;
+  result.method = commonMethod({&before, &after});
+  if (!result.method) return result;
+  const ComplianceSeries both({&before, &after}, *result.method);
+  result.same_postures = both.samePostures();
+  result.postures = static_cast<int>(both.posturesOfAll());
+  for (int joint = 0; joint < 6; ++joint) {
+    if (!both.has(joint)) continue;
+    const std::size_t j = static_cast<std::size_t>(joint);
+    const comparison::Uncertain difference = both.contrast(joint, Eigen::Vector2d(-1.0, 1.0), {0, 1});
+    result.difference[j] = statedOf(difference);
+    result.p_value[j] = both.pOfNothing(difference);
+    const std::size_t m = static_cast<std::size_t>(*result.method);
+    const double c_before = before.springs[m].compliance[joint], c_after = after.springs[m].compliance[joint];
+    comparison::Uncertain taken =
+        both.contrast(joint, Eigen::Vector2d(c_after / (c_before * c_before), -1.0 / c_before), {0, 1});
+    taken.value = 1.0 - c_after / c_before;
+    if (c_before > 0.0) result.taken[j] = statedOf(taken);
+  }
+  return result;
 }
 
 /// A series whose compliances can be held against each other.
@@ -316,7 +354,7 @@ void addScatter(const Fleet& fleet, const SeriesCharts& charts, std::vector<Need
   }
 }
 
-Machine machineOf(const Fleet& fleet, const std::string& name, std::vector<std::size_t> campaigns) {
+Machine studiedMachine(const Fleet& fleet, const std::string& name, std::vector<std::size_t> campaigns) {
   Machine machine{name, std::move(campaigns), {}};
   const std::size_t last = machine.campaigns.back();
   // Earlier days without a result miss in the series, which somebody should know.
@@ -340,6 +378,13 @@ Machine machineOf(const Fleet& fleet, const std::string& name, std::vector<std::
 
 }  // namespace
 
+void compareLoaded(const std::vector<FleetCampaign>& campaigns, std::vector<FleetPair>& pairs) {
+  for (FleetPair& pair : pairs) {
+    const CampaignResult &before = *campaigns[pair.before].result, &after = *campaigns[pair.after].result;
+    if (before.kind == DayKind::loaded) pair.result = comparedLoaded(before, after);
+  }
+}
+
 Fleet studyFleet(std::vector<FleetCampaign> campaigns, std::vector<FleetPair> pairs) {
   Fleet fleet;
   fleet.campaigns = std::move(campaigns);
@@ -353,7 +398,7 @@ Fleet studyFleet(std::vector<FleetCampaign> campaigns, std::vector<FleetPair> pa
   });
   std::map<std::string, std::vector<std::size_t>> by_machine;
   for (std::size_t i = 0; i < fleet.campaigns.size(); ++i) by_machine[fleet.campaigns[i].machine].push_back(i);
-  for (const auto& [name, days] : by_machine) fleet.machines.push_back(machineOf(fleet, name, days));
+  for (const auto& [name, days] : by_machine) fleet.machines.push_back(studiedMachine(fleet, name, days));
   std::stable_sort(fleet.machines.begin(), fleet.machines.end(), [](const Machine& a, const Machine& b) {
     return a.needs.front().id < b.needs.front().id;
   });

@@ -21,7 +21,11 @@ struct FleetCampaign {
   std::string machine, date;             ///< whose and when, even where there is no result
   std::optional<CampaignResult> result;  ///< empty: `failure` says why
   std::string failure;
+  std::string report;  ///< its own, relative to the fleet's page; empty: none
 };
+
+/// Whose a campaign is: `robot_serial`, else `item`, else the name of the folder that holds the campaign's.
+std::string machineOf(const std::string& robot_serial, const std::string& item, const std::string& folder);
 
 /// Campaign `before` and the next of its machine in the same state, by their places among the fleet's campaigns.
 struct FleetPair {
@@ -100,7 +104,8 @@ struct Fleet {
   std::size_t chart_questions = 0;  ///< of the charts: a joint of a series each, and a pair of days without a load each
 };
 
-/// In the order of machine, date and folder, which is that of everything that follows.
+/// The order of machine, date (as texts: 2026-11-24) and folder, which is that of everything that follows.
+bool inOrder(const FleetCampaign& a, const FleetCampaign& b);
 void sortCampaigns(std::vector<FleetCampaign>& campaigns);
 
 /// The series of sorted campaigns, of those with a result.
@@ -108,6 +113,10 @@ std::vector<DaySeries> seriesOf(const std::vector<FleetCampaign>& campaigns);
 
 /// Each day with the next of its series.
 std::vector<FleetPair> pairsOf(const std::vector<DaySeries>& series);
+
+/// Fills the results of the pairs of days with loads from what is kept of each: differences of compliances as
+/// comparison::PairedFit has them, of all postures of both.
+void compareLoaded(const std::vector<FleetCampaign>& campaigns, std::vector<FleetPair>& pairs);
 
 /// What follows from the results of all campaigns (sorted) and pairs.
 ///

@@ -74,7 +74,6 @@ reports::RowGroup conditions(const reports::ReportCampaign& one) {
   add(group, "Measured on", own(campaign.date));
   add(group, "Double encoders", reports::encoderState(campaign.double_encoder));
   add(group, "Item", own(campaign.texts.item));
-  add(group, "Serial number of the robot", own(campaign.texts.robot_serial));
   add(group, "Laboratory", own(campaign.texts.laboratory));
   add(group, "Customer", own(campaign.texts.customer));
   add(group, "Operator", own(campaign.texts.operator_name));
