@@ -13,7 +13,7 @@ namespace stiffscope::fleet {
 namespace {
 
 constexpr double kManyDegrees = 1e6;
-constexpr double kChangedMisfit = 0.05;
+constexpr double kChangedMisfit = 0.01;
 
 /// Mean of [from, to) less mean of [begin, from).
 Eigen::VectorXd stepWeights(std::size_t days, std::size_t begin, std::size_t first, std::size_t end) {

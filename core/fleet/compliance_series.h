@@ -48,7 +48,7 @@ inline constexpr double kOutside = 0.0027;
 ///
 ///   |w|^2 s^2,   s^2 = sum over segments, t, p of (g_t,p - mean of the segment)^2 / (days - segments),
 ///
-/// with so many more degrees of freedom, unless the sum itself is larger than chance makes it (F, 5 %): then something
+/// with so many more degrees of freedom, unless the sum itself is larger than chance makes it (F, 1 %): then something
 /// changed that the springs do not hold, and the sum is taken. Days are assumed to err independently beyond this; an
 /// error of several days in a row (a load cell recalibrated) is a change like any other.
 class ComplianceSeries {
