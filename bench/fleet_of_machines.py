@@ -46,6 +46,17 @@ def spec_of(one, date, draws):
     return re.sub(r'(<circle_sweep [^>]*)count="20"', r'\1count="12"', text)
 
 
+def taught(text, folder):
+    """The postures of the first date again: drawn ones depend on where the tracker stands."""
+    with open(folder / "states.csv", newline="") as table:
+        angles = {row["pose"]: " ".join(row[f"q{j}_deg"] for j in range(1, 7)) for row in csv.DictReader(table)
+                  if row["step"] == "0"}
+    listed = "".join(f'<posture q_deg="{q}"/>' for q in angles.values())
+    again, count = re.subn(r"<draw [^>]*?/>|<draw .*?</draw>", listed, text, flags=re.S)
+    assert count == 1
+    return again
+
+
 def name_of(date):
     return f"2026-{date // 2 + 1:02}-{5 + 14 * (date % 2):02}"
 
@@ -59,23 +70,21 @@ def make(arguments):
         table.writerow(["machine", "kind", "joint", "date"])
         for one in fleet:
             table.writerow([one["machine"], one["kind"], one["joint"] or "", name_of(one["from"]) if one["kind"] else ""])
-    jobs = []
-    for one in fleet:
+    def simulate(one):
         for date in range(arguments.dates):
             folder = arguments.folder / one["machine"] / name_of(date)
             folder.parent.mkdir(exist_ok=True)
+            text = one["specs"][date]
             spec = arguments.folder.parent / f"{arguments.folder.name}-{one['machine']}-{date}.xml"
-            spec.write_text(spec_of(one, date, draws))
-            jobs.append((spec, folder))
+            spec.write_text(text if date == 0 else taught(text, folder.with_name(name_of(0))))
+            subprocess.run([arguments.binary, "simulate", spec, "--out", folder], check=True, stdout=subprocess.DEVNULL)
+            (folder / "truth.json").unlink(missing_ok=True)
+            spec.unlink()
 
-    def simulate(job):
-        spec, folder = job
-        subprocess.run([arguments.binary, "simulate", spec, "--out", folder], check=True, stdout=subprocess.DEVNULL)
-        (folder / "truth.json").unlink(missing_ok=True)
-        spec.unlink()
-
+    for one in fleet:
+        one["specs"] = [spec_of(one, date, draws) for date in range(arguments.dates)]
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
-        list(pool.map(simulate, jobs))
+        list(pool.map(simulate, fleet))
 
 
 def score(arguments):

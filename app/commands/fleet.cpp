@@ -68,7 +68,7 @@ int writeFleet(const FleetRequest& request, const std::vector<FoundCampaign>& fo
   return any ? kDone : kNotUsable;
 }
 
-std::vector<std::string> wordsOf(const FleetRequest& request) {
+std::vector<std::string> fleetWordsOf(const FleetRequest& request) {
   std::vector<std::string> words{"fleet"};
   for (const std::string& folder : request.folders) words.push_back(std::filesystem::absolute(folder).string());
   words.insert(words.end(), {"--out", std::filesystem::absolute(request.out).string()});
@@ -88,7 +88,7 @@ int runFleet(FleetArguments& arguments) {
   const numerics::Shard shard = arguments.shard.part();
   const std::vector<FoundCampaign> found = findCampaigns(request);
   if (arguments.shard.slurm > 0) {
-    printText(submitToSlurm({"fleet", wordsOf(request), "--jobs", request.out}, arguments.shard));
+    printText(submitToSlurm({"fleet", fleetWordsOf(request), "--jobs", request.out}, arguments.shard));
     return kDone;
   }
   if (!arguments.shard.merge) doFleetWork(request, found, shard);
