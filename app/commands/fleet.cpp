@@ -101,8 +101,10 @@ void addFleet(CLI::App& app, Run& run) {
   const auto arguments = std::make_shared<FleetArguments>();
   CLI::App* command = app.add_subcommand("fleet", "Many campaigns of many machines: what each needs, what has changed");
   command->footer(
-      "Each campaign is audited, identified (without a load: calibrated) and diagnosed by a process of its own; one that\n"
-      "fails costs its own row. What is done is kept in the folder and not done again. A campaign is of the machine that\n"
+      "Each campaign is audited, identified (without a load: calibrated) and diagnosed by a process of its own; one "
+      "that\n"
+      "fails costs its own row. What is done is kept in the folder and not done again. A campaign is of the machine "
+      "that\n"
       "its robot_serial names, else its item, else the folder above it. Writes fleet.html, fleet.csv, fleet.jsonl,\n"
       "changes.csv, steps.csv and needs.csv (docs/fleet.md).");
   command->add_option("DIR", arguments->request.folders, "folders with campaigns in or below them")->required();

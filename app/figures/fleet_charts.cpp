@@ -14,6 +14,19 @@ namespace {
 
 constexpr std::size_t kMostCategories = 60;  // that a panel has place for; of more the last
 
+/// Dates without the year where they have one in common: a panel has place for few letters.
+std::vector<std::string> shortDates(const fleet::Fleet& fleet, const std::vector<std::size_t>& days) {
+  std::vector<std::string> dates;
+  for (const std::size_t one : days) dates.push_back(fleet.campaigns[one].date);
+  const std::string year = dates.front().substr(0, dates.front().find('-') + 1);
+  const bool common =
+      std::all_of(dates.begin(), dates.end(), [&](const std::string& one) { return one.starts_with(year); });
+  if (common) {
+    for (std::string& one : dates) one.erase(0, year.size());
+  }
+  return dates;
+}
+
 render::PointPanel controlPanel(const fleet::Fleet& fleet, const fleet::SeriesCharts& charts, std::size_t joint) {
   const fleet::ControlChart& chart = charts.joints[joint];
   const std::vector<std::size_t>& days = fleet.series[charts.series].campaigns;
@@ -23,13 +36,15 @@ render::PointPanel controlPanel(const fleet::Fleet& fleet, const fleet::SeriesCh
   render::PointSeries inside, outside, upper, lower;
   inside.name = "within limits", inside.colour = render::colours::kSeries[0];
   outside.name = "outside", outside.colour = render::colours::kSeries[1], outside.mark = render::PointMark::diamond;
-  upper.name = "limits", upper.colour = render::colours::kAxis, upper.mark = render::PointMark::none, upper.joined = true;
+  upper.name = "limits", upper.colour = render::colours::kAxis, upper.mark = render::PointMark::none,
+  upper.joined = true;
   lower = upper;
+  const std::vector<std::string> dates = shortDates(fleet, days);
   const std::size_t first = days.size() > kMostCategories ? days.size() - kMostCategories : 0;
   for (std::size_t t = first; t < days.size(); ++t) {
     const fleet::ControlChart::Point& point = chart.points[t];
     const double x = static_cast<double>(t - first);
-    panel.categories.push_back(reports::asIs(fleet.campaigns[days[t]].date));
+    panel.categories.push_back(reports::asIs(dates[t]));
     render::PointSeries& own = point.outside ? outside : inside;
     own.points.push_back({x, 100.0 * point.value});
     own.errors.push_back(std::isfinite(point.expanded) ? 100.0 * point.expanded : 0.0);

@@ -7,7 +7,6 @@
 #include "app/output.h"
 #include "core/accuracy/diagnose_accuracy.h"
 #include "core/audit/audit.h"
-#include "core/audit/check_design.h"
 #include "core/campaign/state_points.h"
 #include "core/comparison/geometry_change.h"
 #include "core/identification/load_case.h"
@@ -82,8 +81,7 @@ void keepIdentification(const campaign::Campaign& campaign, const Identification
     result.springs[static_cast<std::size_t>(method)] = springsOf(springs, method);
   result.springs_method = reports::shownMethod(springs);
   for (const identification::LoadCase& one : springs.cases) {
-    result.loaded_postures.push_back(
-        {campaign.pose_ids[static_cast<std::size_t>(one.pose)], one.q, one.wrench.force});
+    result.loaded_postures.push_back({campaign.pose_ids[static_cast<std::size_t>(one.pose)], one.q, one.wrench.force});
   }
 }
 
@@ -103,7 +101,8 @@ Stated heldOutError(const calibration::Calibration& calibration, calibration::Ca
   const double n = static_cast<double>(squares.size()), mean = reports::mean(squares);
   double scatter = 0.0;
   for (const double one : squares) scatter += (one - mean) * (one - mean);
-  const double u = std::sqrt(scatter / (n - 1.0) / n) * identification::studentFactor(n - 1.0, identification::kStatedCoverage);
+  const double u =
+      std::sqrt(scatter / (n - 1.0) / n) * identification::studentFactor(n - 1.0, identification::kStatedCoverage);
   return {std::sqrt(mean), std::sqrt(std::max(0.0, mean - u)), std::sqrt(mean + u)};
 }
 
@@ -129,12 +128,14 @@ CampaignResult fleetDay(const std::string& folder, bool springs_only) {
   CampaignResult result;
   result.name = campaign.name, result.date = campaign.date, result.robot = campaign.robot.name;
   result.encoders = campaign.double_encoder;
-  audit::AuditReport report = audit::audit(prepared);
+  keepAudit(audit::audit(prepared), result);
   if (identification::whatLoadsLack(campaign).empty()) {
     ModelChoice choice;
     choice.springs_only = springs_only;
     const auto model = modelOf(prepared, choice, {});
-    const diagnosis::Diagnosis diagnosis = diagnosisOf(prepared, model);
+    diagnosis::DiagnoseOptions options;
+    options.resamples = 0;  // how far the gap shrinks is not kept, and takes half of the time
+    const diagnosis::Diagnosis diagnosis = diagnosisOf(prepared, model, options);
     std::optional<Identification> own;
     if (!model) own = identification::identify(campaign);
     keepIdentification(campaign, model ? model->with : *own, model ? model->without : *own, result);
@@ -143,13 +144,11 @@ CampaignResult fleetDay(const std::string& folder, bool springs_only) {
       result.gap_after = diagnosis.gap.after;
       keepEffects(diagnosis.verdict.entries, result);
     }
-    audit::addSeparableEffects(diagnosis, report);
   } else if (campaign::isUnloadedDay(campaign)) {
     keepAccuracy(prepared, result);
   } else {
     result.kind = fleet::DayKind::sweeps;
   }
-  keepAudit(report, result);
   return result;
 }
 

@@ -202,9 +202,8 @@ std::vector<FoundCampaign> findCampaigns(const FleetRequest& request) {
   if (folders.empty()) throw io::InputError({request.folders.front()}, "", "no campaign.xml in it or below it");
   std::vector<FoundCampaign> found(folders.size());
   numerics::onAllCores(folders.size(), [&](std::size_t i) { found[i] = foundIn(folders[i], request.springs_only); });
-  std::sort(found.begin(), found.end(), [](const FoundCampaign& a, const FoundCampaign& b) {
-    return fleet::inOrder(a.campaign, b.campaign);
-  });
+  std::sort(found.begin(), found.end(),
+            [](const FoundCampaign& a, const FoundCampaign& b) { return fleet::inOrder(a.campaign, b.campaign); });
   return found;
 }
 

@@ -20,8 +20,8 @@ struct FleetRequest {
 /// A campaign that was found, and what its campaign.xml says before anything is computed.
 struct FoundCampaign {
   fleet::FleetCampaign campaign;
-  std::string key;             ///< 16 hex digits: of its files, the options and the version of the program
-  bool maybe_unloaded = false; ///< no load cell: it may have to be held against the day before
+  std::string key;              ///< 16 hex digits: of its files, the options and the version of the program
+  bool maybe_unloaded = false;  ///< no load cell: it may have to be held against the day before
 };
 
 /// The fleet's campaigns in its order: folders with a campaign.xml below those given, each once. Throws io::InputError

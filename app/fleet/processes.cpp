@@ -78,8 +78,8 @@ Ended runProcess(const std::string& program, const std::vector<std::string>& arg
   words.insert(words.end(), arguments.begin(), arguments.end());
   const std::vector<std::string> environment = environmentWith(variables);
   pid_t process = 0;
-  const int refused =
-      ::posix_spawnp(&process, program.c_str(), &actions, nullptr, pointersTo(words).data(), pointersTo(environment).data());
+  const int refused = ::posix_spawnp(&process, program.c_str(), &actions, nullptr, pointersTo(words).data(),
+                                     pointersTo(environment).data());
   posix_spawn_file_actions_destroy(&actions);
   if (refused != 0) throw std::runtime_error(program + ": not started: " + std::strerror(refused));
   pipe.closeWriting();

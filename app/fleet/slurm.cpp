@@ -30,17 +30,17 @@ numerics::Shard ShardChoice::part() const {
 }
 
 void addShardOptions(CLI::App& command, ShardChoice& choice) {
-  CLI::Option* shard = command.add_option("--shard", choice.shard, "do the i-th of n parts alone, and no results of all")
-                           ->type_name("I/N");
+  CLI::Option* shard =
+      command.add_option("--shard", choice.shard, "do the i-th of n parts alone, and no results of all")
+          ->type_name("I/N");
   CLI::Option* merge = command.add_flag("--merge", choice.merge, "join what all shards have done")->excludes(shard);
   constexpr int kMostJobs = 10000;
-  CLI::Option* slurm = command
-                           .add_option("--slurm", choice.slurm,
-                                       "submit to SLURM: an array of so many jobs, and one that merges")
-                           ->type_name("JOBS")
-                           ->check(CLI::Range(1, kMostJobs))
-                           ->excludes(shard)
-                           ->excludes(merge);
+  CLI::Option* slurm =
+      command.add_option("--slurm", choice.slurm, "submit to SLURM: an array of so many jobs, and one that merges")
+          ->type_name("JOBS")
+          ->check(CLI::Range(1, kMostJobs))
+          ->excludes(shard)
+          ->excludes(merge);
   command.add_flag("--slurm-dry-run", choice.dry_run, "write SLURM's scripts and submit nothing")->needs(slurm);
   command
       .add_option("--sbatch", choice.sbatch,
@@ -55,7 +55,8 @@ namespace {
 /// One word for a shell.
 std::string shellWord(const std::string& word) {
   bool plain = !word.empty();
-  for (const char c : word) plain = plain && (std::isalnum(static_cast<unsigned char>(c)) != 0 || std::strchr("-_./=:,+", c) != nullptr);
+  for (const char c : word)
+    plain = plain && (std::isalnum(static_cast<unsigned char>(c)) != 0 || std::strchr("-_./=:,+", c) != nullptr);
   if (plain) return word;
   std::string quoted = "'";
   for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);

@@ -14,7 +14,7 @@ namespace stiffscope::app {
 
 /// How a command's work is shared among jobs.
 struct ShardChoice {
-  std::string shard;     ///< i/n
+  std::string shard;  ///< i/n
   bool merge = false;
   int slurm = 0;         ///< jobs of the array; 0: none
   bool dry_run = false;  ///< write the scripts, submit nothing

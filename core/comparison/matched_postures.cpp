@@ -1,7 +1,5 @@
 #include "core/comparison/matched_postures.h"
 
-#include "core/comparison/corresponds.h"
-
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "core/comparison/corresponds.h"
+#include "core/comparison/matched_postures.h"
 #include "core/numerics/distributions.h"
 #include "metrology/tail_probability.h"
 
@@ -126,7 +126,8 @@ comparison::Uncertain ComplianceSeries::contrastBy(Scatter choice, int joint, co
     const double pooled = weights.squaredNorm() * pooledScatter(joint, first_days);
     const double pooled_dof = dof * static_cast<double>(days() - first_days.size());
     const int own = std::max(1, static_cast<int>(std::lround(dof)));
-    if (pooled > 0.0 && (choice == Scatter::pooled || metrology::fTail(scatter / pooled, own, pooled_dof) > kChangedMisfit)) {
+    if (pooled > 0.0 &&
+        (choice == Scatter::pooled || metrology::fTail(scatter / pooled, own, pooled_dof) > kChangedMisfit)) {
       scatter = pooled, dof = pooled_dof;
     }
   }

@@ -69,8 +69,9 @@ class ComplianceSeries {
   comparison::Uncertain contrast(int joint, const Eigen::VectorXd& weights,
                                  const std::vector<std::size_t>& first_days) const;
 
-  /// The day in (begin, end) at which a step is the largest against the scatter pooled over the dates, which is the same
-  /// for all of them; the sum's own would prefer the dates at which it is small by chance. Its p-value is by contrast().
+  /// The day in (begin, end) at which a step is the largest against the scatter pooled over the dates, which is the
+  /// same for all of them; the sum's own would prefer the dates at which it is small by chance. Its p-value is by
+  /// contrast().
   Step likeliestStep(int joint, std::size_t begin, std::size_t end) const;
 
   /// All steps, in order of time: the likeliest of all days where its p-value is at most `level`, then the same before

@@ -222,8 +222,7 @@ void studySeries(Fleet& fleet) {
     const auto found = steps.find(&one);
     for (int joint = 0; joint < 6; ++joint) {
       const std::size_t j = static_cast<std::size_t>(joint);
-      charts.joints[j] =
-          one.compliances.chart(joint, found == steps.end() ? std::vector<Step>{} : found->second[j]);
+      charts.joints[j] = one.compliances.chart(joint, found == steps.end() ? std::vector<Step>{} : found->second[j]);
     }
     fleet.charts.push_back(charts);
   }
@@ -399,9 +398,8 @@ Fleet studyFleet(std::vector<FleetCampaign> campaigns, std::vector<FleetPair> pa
   std::map<std::string, std::vector<std::size_t>> by_machine;
   for (std::size_t i = 0; i < fleet.campaigns.size(); ++i) by_machine[fleet.campaigns[i].machine].push_back(i);
   for (const auto& [name, days] : by_machine) fleet.machines.push_back(studiedMachine(fleet, name, days));
-  std::stable_sort(fleet.machines.begin(), fleet.machines.end(), [](const Machine& a, const Machine& b) {
-    return a.needs.front().id < b.needs.front().id;
-  });
+  std::stable_sort(fleet.machines.begin(), fleet.machines.end(),
+                   [](const Machine& a, const Machine& b) { return a.needs.front().id < b.needs.front().id; });
   return fleet;
 }
 

@@ -121,10 +121,10 @@ void compareLoaded(const std::vector<FleetCampaign>& campaigns, std::vector<Flee
 /// What follows from the results of all campaigns (sorted) and pairs.
 ///
 /// A compliance has changed where the likeliest step of its series (ComplianceSeries) has a p-value, corrected for the
-/// dates at which it could have been and by Holm for the joints of all series of the fleet and its pairs of days without
-/// a load, of kFleetLevel at most. A geometry has changed where the pair's has. An effect has appeared where the
-/// diagnosis of no day before, two or more, and of every day from then on, two or more, names it, gone the other way
-/// round; a diagnosis names an effect that is not there on one day in a hundred or fewer.
+/// dates at which it could have been and by Holm for the joints of all series of the fleet and its pairs of days
+/// without a load, of kFleetLevel at most. A geometry has changed where the pair's has. An effect has appeared where
+/// the diagnosis of no day before, two or more, and of every day from then on, two or more, names it, gone the other
+/// way round; a diagnosis names an effect that is not there on one day in a hundred or fewer.
 Fleet studyFleet(std::vector<FleetCampaign> campaigns, std::vector<FleetPair> pairs);
 
 }  // namespace stiffscope::fleet

@@ -17,8 +17,8 @@ namespace {
 thread_local bool shares_already = false;
 std::atomic<std::size_t> at_work{0};  // threads that take part in something
 
-/// Cores that this process may use: those that the system gives it, and no more than STIFFSCOPE_THREADS of the environment
-/// says, where that is a number. For processes that run beside each other.
+/// Cores that this process may use: those that the system gives it, and no more than STIFFSCOPE_THREADS of the
+/// environment says, where that is a number. For processes that run beside each other.
 std::size_t cores() {
   static const std::size_t known = [] {
     const std::size_t given = std::max(1U, std::thread::hardware_concurrency());

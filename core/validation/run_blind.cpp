@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <charconv>
 #include <map>
-#include <optional>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
 
 #include "core/campaign/read_campaign.h"
@@ -58,9 +58,7 @@ Answer answerTo(const std::string& name, const std::filesystem::path& folder, co
 }
 
 /// Every effect comes with the joint stiffnesses: nothing lies farther from it than from those alone.
-bool isMeasured(const Label& label) {
-  return label.kind == CaseKind::outside && label.effects.front().size >= kApart;
-}
+bool isMeasured(const Label& label) { return label.kind == CaseKind::outside && label.effects.front().size >= kApart; }
 
 std::map<std::string, double> distancesOf(const std::vector<Label>& labels, const std::filesystem::path& folder,
                                           const BlindOptions& options, const BlindEvents& events,
@@ -84,8 +82,7 @@ const DayKind& daysOf(const BlindOptions& options) { return options.unloaded ? u
 /// Makes the machine of one case and measures its day into `folder`.
 Label makeCase(const BlindOptions& options, const CasePlan& plan, int index, const fs::path& folder) {
   const fs::path urdf = folder / nameOf(index) / "robot.urdf";
-  const BlindCase one =
-      drawCase(plan, caseSeed(options.seed, index), "case " + nameOf(index), urdf, daysOf(options));
+  const BlindCase one = drawCase(plan, caseSeed(options.seed, index), "case " + nameOf(index), urdf, daysOf(options));
   campaign::writeCampaign(simulation::simulate(one.spec), urdf, folder / nameOf(index));
   return labelOf(nameOf(index), one);
 }
@@ -201,7 +198,9 @@ constexpr const char *kLabel = ".label", *kAnswer = ".answer", *kDistance = ".di
 /// A table's rows without its header, which is the table of none.
 std::string rowsOf(const std::string& table, const std::string& header) { return table.substr(header.size()); }
 
-std::string sealName(const numerics::Shard& shard) { return fmt::format("seal-{}-of-{}.txt", shard.index + 1, shard.of); }
+std::string sealName(const numerics::Shard& shard) {
+  return fmt::format("seal-{}-of-{}.txt", shard.index + 1, shard.of);
+}
 
 /// Seals the labels of a shard, or holds them against the seal that an earlier run of it left.
 void sealShard(const BlindParts& parts, const numerics::Shard& shard, const BlindEvents& events) {
@@ -299,9 +298,10 @@ BlindResult mergeBlind(const BlindOptions& options, const std::string& program, 
     distances_taken = distances_taken && parts.has(i, kDistance);
   }
   if (missing > 0) {
-    throw std::runtime_error(fmt::format("{}: {} of {} cases are not done: expected all shards to be, by this version "
-                                         "and with the same options",
-                                         options.out.string(), missing, options.cases));
+    throw std::runtime_error(
+        fmt::format("{}: {} of {} cases are not done: expected all shards to be, by this version "
+                    "and with the same options",
+                    options.out.string(), missing, options.cases));
   }
   for (const auto& entry : fs::directory_iterator(parts.folder())) {
     const auto shard = shardOfSeal(entry.path().filename().string());

@@ -23,15 +23,13 @@ void addColumns(DataTable& table, const std::string& name, const std::string& un
   for (const char* part : {"", "_low", "_high"}) table.columns.push_back(name + part + end);
 }
 
-void addStated(DataRow& row, const fleet::Stated& one) {
-  row.insert(row.end(), {one.value, one.low, one.high});
-}
+void addStated(DataRow& row, const fleet::Stated& one) { row.insert(row.end(), {one.value, one.low, one.high}); }
 
 void addEmpty(DataRow& row, std::size_t count) { row.insert(row.end(), count, std::monostate()); }
 
 void addCampaign(DataRow& row, const fleet::CampaignResult& one) {
-  row.insert(row.end(), {std::string(keyOf(one.kind)), std::string(nameOf(one.encoders)), std::string(nameOf(one.audit)),
-                         static_cast<double>(one.postures)});
+  row.insert(row.end(), {std::string(keyOf(one.kind)), std::string(nameOf(one.encoders)),
+                         std::string(nameOf(one.audit)), static_cast<double>(one.postures)});
   row.push_back(one.method ? DataCell(std::string(namesOf(*one.method).key)) : DataCell());
   for (const fleet::Stated& k : one.stiffness) addStated(row, k);
   row.push_back(one.deflection);
@@ -45,7 +43,8 @@ void addCampaign(DataRow& row, const fleet::CampaignResult& one) {
 }  // namespace
 
 std::string fleetCsv(const fleet::Fleet& fleet) {
-  DataTable table{{"machine", "date", "folder", "failure", "kind", "double_encoders", "audit", "postures", "method"}, {}};
+  DataTable table{{"machine", "date", "folder", "failure", "kind", "double_encoders", "audit", "postures", "method"},
+                  {}};
   for (int j = 1; j <= 6; ++j) addColumns(table, fmt::format("k{}", j), "nm_per_rad");
   table.columns.emplace_back("deflection_m");
   addColumns(table, "compensated", "");
@@ -96,7 +95,8 @@ std::string changesCsv(const fleet::Fleet& fleet) {
 std::string stepsCsv(const fleet::Fleet& fleet) {
   DataTable table{{"machine", "date", "quantity", "joint", "effects"}, {}};
   addColumns(table, "change", "");
-  for (const char* name : {"at_reflectors_m", "p_holm", "dates_before", "dates_after"}) table.columns.emplace_back(name);
+  for (const char* name : {"at_reflectors_m", "p_holm", "dates_before", "dates_after"})
+    table.columns.emplace_back(name);
   for (const fleet::FleetStep& step : fleet.steps) {
     using What = fleet::FleetStep::What;
     const bool compliance = step.what == What::compliance;
@@ -111,8 +111,8 @@ std::string stepsCsv(const fleet::Fleet& fleet) {
       addStated(row, step.compliance.share());
     else
       addEmpty(row, 3);
-    row.insert(row.end(), {step.size, step.p_holm, static_cast<double>(step.days_before),
-                           static_cast<double>(step.days_after)});
+    row.insert(row.end(),
+               {step.size, step.p_holm, static_cast<double>(step.days_before), static_cast<double>(step.days_after)});
     table.rows.push_back(std::move(row));
   }
   return csvTable(table);

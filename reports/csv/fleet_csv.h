@@ -4,8 +4,8 @@
 
 #include "core/fleet/fleet.h"
 
-// The tables of a fleet (docs/fleet.md lists their columns): numbers with their unit in the column's name, interval ends
-// apart, nothing where a number is not known.
+// The tables of a fleet (docs/fleet.md lists their columns): numbers with their unit in the column's name, interval
+// ends apart, nothing where a number is not known.
 
 namespace stiffscope::reports {
 

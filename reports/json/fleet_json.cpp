@@ -29,8 +29,8 @@ constexpr std::array kVerdicts{AuditVerdict::pass, AuditVerdict::warn, AuditVerd
 template <class Values, class Name>
 auto valueNamed(const Values& values, const Json& json, const Name& name) {
   const std::string text = json.get<std::string>();
-  const auto found =
-      std::find_if(values.begin(), values.end(), [&](const auto& value) { return std::string_view(name(value)) == text; });
+  const auto found = std::find_if(values.begin(), values.end(),
+                                  [&](const auto& value) { return std::string_view(name(value)) == text; });
   if (found == values.end()) throw std::runtime_error("no result of a fleet's campaign: '" + text + "'");
   return *found;
 }
@@ -126,8 +126,9 @@ const char* keyOf(fleet::DayKind kind) {
 }
 
 const char* keyOf(fleet::NeedId id) {
-  constexpr std::array kNames{"no_result",       "audit_failed",  "changed",         "unknown_gap",  "audit_not_testable",
-                              "perhaps_changed", "dates_scatter", "joint_imprecise", "audit_warned", "nothing"};
+  constexpr std::array kNames{"no_result",          "audit_failed",    "changed",       "unknown_gap",
+                              "audit_not_testable", "perhaps_changed", "dates_scatter", "joint_imprecise",
+                              "audit_warned",       "nothing"};
   return kNames[static_cast<std::size_t>(id)];
 }
 
@@ -165,9 +166,9 @@ CampaignResult keptCampaign(const Json& json) {
   for (std::size_t m = 0; m < 3; ++m) result.springs[m] = springsOf(json.at("springs").at(m));
   for (const Json& one : json.at("loaded_postures")) {
     const Json& force = one.at("force_n");
-    result.loaded_postures.push_back(
-        {one.at("pose"), vectorOf(one.at("q_rad")),
-         {keptNumber(force.at(0)), keptNumber(force.at(1)), keptNumber(force.at(2))}});
+    result.loaded_postures.push_back({one.at("pose"),
+                                      vectorOf(one.at("q_rad")),
+                                      {keptNumber(force.at(0)), keptNumber(force.at(1)), keptNumber(force.at(2))}});
   }
   return result;
 }
@@ -187,7 +188,8 @@ PairResult keptPair(const Json& json) {
   result.kind = fleet::DayKind::unloaded;
   result.reason = json.at("reason"), result.same_postures = json.at("same_postures");
   result.postures = json.at("postures"), result.machine_p = keptNumber(json.at("machine_p"));
-  result.at_targets = keptNumber(json.at("at_targets_m")), result.at_targets_sd = keptNumber(json.at("at_targets_sd_m"));
+  result.at_targets = keptNumber(json.at("at_targets_m")),
+  result.at_targets_sd = keptNumber(json.at("at_targets_sd_m"));
   result.cause = json.at("cause");
   return result;
 }

@@ -8,8 +8,8 @@
 namespace stiffscope::reports {
 
 /// What a fleet keeps of one campaign, in SI units and radians, and back without loss of a digit. What is not a number
-/// is null; of an interval whose low end is a number a null high end is open. Throws std::runtime_error where `json` was
-/// not written by the first.
+/// is null; of an interval whose low end is a number a null high end is open. Throws std::runtime_error where `json`
+/// was not written by the first.
 Json keptJson(const fleet::CampaignResult& result);
 fleet::CampaignResult keptCampaign(const Json& json);
 
@@ -20,7 +20,7 @@ fleet::PairResult keptPair(const Json& json);
 /// fleet.jsonl: one object a campaign, in the fleet's order, a line each.
 std::string fleetJsonLines(const fleet::Fleet& fleet);
 
-const char* keyOf(fleet::DayKind kind);               ///< "loaded", "unloaded", "sweeps"
-const char* keyOf(fleet::NeedId id);                  ///< "audit_failed"
+const char* keyOf(fleet::DayKind kind);  ///< "loaded", "unloaded", "sweeps"
+const char* keyOf(fleet::NeedId id);     ///< "audit_failed"
 
 }  // namespace stiffscope::reports

@@ -36,8 +36,8 @@ void writeCount(Html& html, std::size_t count, const char* one, const char* more
 }
 
 std::size_t machinesWith(const Fleet& fleet, fleet::NeedId id) {
-  return static_cast<std::size_t>(std::count_if(
-      fleet.machines.begin(), fleet.machines.end(), [id](const fleet::Machine& one) {
+  return static_cast<std::size_t>(
+      std::count_if(fleet.machines.begin(), fleet.machines.end(), [id](const fleet::Machine& one) {
         return std::any_of(one.needs.begin(), one.needs.end(), [id](const fleet::Need& need) { return need.id == id; });
       }));
 }
@@ -51,7 +51,8 @@ void writeFleetOpening(Html& html, const Fleet& fleet) {
   writeCount(html, fleet.machines.size(), "machine", "machines");
   writeCount(html, fleet.campaigns.size(), "campaign", "campaigns");
   writeCount(html, failed, "campaign without a result", "campaigns without a result");
-  writeCount(html, machinesWith(fleet, fleet::NeedId::changed), "machine that has changed", "machines that have changed");
+  writeCount(html, machinesWith(fleet, fleet::NeedId::changed), "machine that has changed",
+             "machines that have changed");
 }
 
 void writeNeeds(Html& html, const Fleet& fleet) {
@@ -102,7 +103,8 @@ std::string stepName(const fleet::FleetStep& step) {
 }
 
 std::string stepSize(const fleet::FleetStep& step) {
-  if (step.what == fleet::FleetStep::What::geometry) return fmt::format("{} µm", reports::fixed(reports::um(step.size), 0));
+  if (step.what == fleet::FleetStep::What::geometry)
+    return fmt::format("{} µm", reports::fixed(reports::um(step.size), 0));
   if (step.what != fleet::FleetStep::What::compliance) return "–";
   const Stated share = step.compliance.share();
   return reports::withUncertainty(100.0 * share.value, 100.0 * (share.high - share.value)) + " %";
@@ -118,9 +120,8 @@ void writeSteps(Html& html, const Fleet& fleet) {
       "other: `changes.csv`.",
       fleet.chart_questions, reports::percent(fleet::kFleetLevel, 0)));
   if (fleet.steps.empty()) return html.paragraph("Nothing has.");
-  reports::Table table{"Changes",
-                       {"machine", "holds from", "what", "size", "p (Holm)", "dates before", "dates since"},
-                       {{"", {}}}};
+  reports::Table table{
+      "Changes", {"machine", "holds from", "what", "size", "p (Holm)", "dates before", "dates since"}, {{"", {}}}};
   for (const fleet::FleetStep& step : fleet.steps) {
     table.groups[0].rows.push_back({asIs(step.machine), asIs(fleet.campaigns[step.campaign].date), stepName(step),
                                     stepSize(step), reports::significant(step.p_holm, 2),
@@ -176,7 +177,8 @@ reports::Row campaignRow(const fleet::FleetCampaign& one) {
   row.emplace_back(reports::auditWord(day.audit));
   for (const Stated& k : day.stiffness) row.emplace_back(statedCell(k, reports::kMega));
   row.emplace_back(statedCell(day.compensated, 0.01));
-  row.emplace_back(statedCell(day.kind == fleet::DayKind::unloaded ? day.calibrated : Stated{}, 1.0 / reports::kMmPerM));
+  row.emplace_back(
+      statedCell(day.kind == fleet::DayKind::unloaded ? day.calibrated : Stated{}, 1.0 / reports::kMmPerM));
   row.emplace_back(day.diagnosed ? asIs(reports::effectsKey(day)) : "–");
   return row;
 }
@@ -184,11 +186,12 @@ reports::Row campaignRow(const fleet::FleetCampaign& one) {
 void writeDays(Html& html, const Fleet& fleet) {
   const auto section = html.element("section", {{"id", "dates"}});
   html.leaf("h2", "Stiffness and accuracy by machine and date");
-  reports::Table table{"Stiffness in 10^{6} Nm/rad, deflection compensated on postures held out in %, calibrated accuracy "
-                       "in mm; in brackets the 95 % interval",
-                       {"", "date", "audit", "k_{1}", "k_{2}", "k_{3}", "k_{4}", "k_{5}", "k_{6}", "compensated",
-                        "accuracy", "besides joint springs"},
-                       {}};
+  reports::Table table{
+      "Stiffness in 10^{6} Nm/rad, deflection compensated on postures held out in %, calibrated accuracy "
+      "in mm; in brackets the 95 % interval",
+      {"", "date", "audit", "k_{1}", "k_{2}", "k_{3}", "k_{4}", "k_{5}", "k_{6}", "compensated", "accuracy",
+       "besides joint springs"},
+      {}};
   for (const fleet::Machine& machine : fleet.machines) {
     if (table.groups.size() == kMostMachinesShown) break;
     reports::RowGroup group{asIs(machine.name), {}};

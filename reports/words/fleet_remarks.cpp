@@ -25,7 +25,8 @@ std::string holmWords(double p) { return p < 1e-6 ? "p < 10⁻⁶" : fmt::format
 
 std::string effectsKey(const fleet::CampaignResult& result) {
   std::vector<std::string> entries;
-  for (const fleet::EffectFound& one : result.effects) entries.push_back(fmt::format("{}", fmt::join(one.effects, "|")));
+  for (const fleet::EffectFound& one : result.effects)
+    entries.push_back(fmt::format("{}", fmt::join(one.effects, "|")));
   return entries.empty() ? "none" : fmt::format("{}", fmt::join(entries, "+"));
 }
 

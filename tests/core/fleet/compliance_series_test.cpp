@@ -128,9 +128,9 @@ TEST(ComplianceSeries, AStepIsFoundWhereItIs) {
       EXPECT_NEAR(step.before, 100.0, 4.5);
     }
   }
-  // At the worst place two days against eight: 6 / sqrt(1/2 + 1/8) = 7.6 deviations, the limit of 1e-4 / 9 being at 4.4.
-  // In one series of a hundred the sum is taken for larger than chance, and with its 12 degrees may not do: 2 of 200
-  // are expected, 7 in one run of 300.
+  // At the worst place two days against eight: 6 / sqrt(1/2 + 1/8) = 7.6 deviations, the limit of 1e-4 / 9 being
+  // at 4.4. In one series of a hundred the sum is taken for larger than chance, and with its 12 degrees may not do: 2
+  // of 200 are expected, 7 in one run of 300.
   EXPECT_GE(found, kSeries - 6);
   EXPECT_GE(dated, kSeries - 11);  // a neighbouring date is likelier where one day errs by three deviations
   EXPECT_GE(once, kSeries - 11);

@@ -130,6 +130,32 @@ TEST(Fleet, StatesOfTheEncodersAreNotMixed) {
     EXPECT_EQ(all[pair.before].result->encoders, all[pair.after].result->encoders);
 }
 
+TEST(Fleet, WhoseACampaignIs) {
+  EXPECT_EQ(machineOf("F-17", "arm of cell 3", "lab/cell3/2026-01-05"), "F-17");
+  EXPECT_EQ(machineOf("", "arm of cell 3", "lab/cell3/2026-01-05"), "arm of cell 3");
+  EXPECT_EQ(machineOf("", "", "lab/cell3/2026-01-05"), "cell3");
+  EXPECT_EQ(machineOf("", "", "lab/cell3/2026-01-05/"), "cell3");
+  EXPECT_EQ(machineOf("", "", "2026-01-05"), "2026-01-05");
+}
+
+// Two days that follow each other: the difference with what their postures share taken off, by hand.
+TEST(Fleet, DaysThatFollowEachOtherAreComparedFromWhatIsKept) {
+  std::vector<FleetCampaign> all = campaignsOf("a", {dayOf({0.6, 0.8}, 100.0), dayOf({0.3, 1.2}, 103.0)});
+  std::vector<FleetPair> pairs = pairsOf(seriesOf(all));
+  compareLoaded(all, pairs);
+  ASSERT_EQ(pairs.size(), 1u);
+  const PairResult& result = *pairs[0].result;
+  EXPECT_TRUE(result.same_postures);
+  EXPECT_EQ(result.postures, 2);
+  EXPECT_DOUBLE_EQ(result.difference[1].value, 3.0);
+  // sd^2 = 0.3^2 + 0.4^2; Student's factor of two degrees of freedom at 95 % is 4.303.
+  EXPECT_NEAR(result.difference[1].high, 3.0 + 4.303 * 0.5, 1e-3);
+  // t = 6: two-sided p of two degrees is 1 - t / sqrt(t^2 + 2).
+  EXPECT_NEAR(result.p_value[1], 1.0 - 6.0 / std::sqrt(38.0), 1e-9);
+  EXPECT_DOUBLE_EQ(result.taken[1].value, -0.03);
+  EXPECT_FALSE(std::isfinite(result.difference[0].value));
+}
+
 TEST(Fleet, AMovedGeometryIsAChange) {
   std::mt19937_64 draws(5);
   std::vector<FleetCampaign> all = campaignsOf("a", unchangedDays(draws, 3, 12));

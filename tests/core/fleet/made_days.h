@@ -7,8 +7,8 @@
 
 namespace stiffscope::fleet {
 
-/// A day with loads by Partial Pose whose joint 2 alone is seen, with these influences and this compliance. Units are the
-/// test's own.
+/// A day with loads by Partial Pose whose joint 2 alone is seen, with these influences and this compliance. Units are
+/// the test's own.
 inline CampaignResult dayOf(const std::vector<double>& influences, double compliance) {
   CampaignResult day;
   day.audit = preparation::AuditVerdict::pass;
@@ -27,8 +27,8 @@ inline CampaignResult dayOf(const std::vector<double>& influences, double compli
   return day;
 }
 
-/// Days of one machine with compliance 100 and standard deviation 1, of which the influences of each day are an estimate:
-/// normal numbers independent of the error, their squares summing to 1 on average.
+/// Days of one machine with compliance 100 and standard deviation 1, of which the influences of each day are an
+/// estimate: normal numbers independent of the error, their squares summing to 1 on average.
 inline std::vector<CampaignResult> unchangedDays(std::mt19937_64& draws, std::size_t count, std::size_t postures) {
   std::normal_distribution<double> normal;
   std::vector<CampaignResult> days;
