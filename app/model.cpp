@@ -63,7 +63,7 @@ diagnosis::Diagnosis diagnosisOf(const preparation::PreparedCampaign& prepared,
     diagnosis = diagnosis::diagnose(prepared.campaign, options);
   } else {
     diagnosis = model && model->study ? diagnosis::diagnose(prepared, *model->study, options)
-                                       : diagnosis::diagnose(prepared, options);
+                                      : diagnosis::diagnose(prepared, options);
   }
   if (model && diagnosis.usable) extended_model::stateStiffnesses(*model, diagnosis);
   return diagnosis;

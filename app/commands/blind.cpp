@@ -49,13 +49,9 @@ validation::Answer diagnosedUnloaded(const campaign::Campaign& campaign) {
 }
 
 std::vector<std::string> blindWordsOf(const validation::BlindOptions& options) {
-  std::vector<std::string> words{"blind",
-                                 "--cases",
-                                 std::to_string(options.cases),
-                                 "--seed",
-                                 std::to_string(options.seed),
-                                 "--out",
-                                 std::filesystem::absolute(options.out).string()};
+  std::vector<std::string> words{
+      "blind", "--cases",           std::to_string(options.cases), "--seed", std::to_string(options.seed),
+      "--out", options.out.string()};
   if (options.unloaded)
     words.emplace_back("--unloaded");
   else

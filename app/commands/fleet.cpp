@@ -70,8 +70,8 @@ int writeFleet(const FleetRequest& request, const std::vector<FoundCampaign>& fo
 
 std::vector<std::string> fleetWordsOf(const FleetRequest& request) {
   std::vector<std::string> words{"fleet"};
-  for (const std::string& folder : request.folders) words.push_back(std::filesystem::absolute(folder).string());
-  words.insert(words.end(), {"--out", std::filesystem::absolute(request.out).string()});
+  words.insert(words.end(), request.folders.begin(), request.folders.end());
+  words.insert(words.end(), {"--out", request.out.string()});
   if (request.reports) words.emplace_back("--reports");
   if (request.springs_only) words.emplace_back("--springs-only");
   return words;

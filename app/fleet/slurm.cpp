@@ -69,7 +69,6 @@ std::string shellCommand(const std::vector<std::string>& words) {
   return line;
 }
 
-/// Absolute: a job may start in another folder.
 std::vector<std::string> commandFor(const SlurmRequest& request) {
   std::vector<std::string> words{ownProgram().string()};
   words.insert(words.end(), request.command.begin(), request.command.end());
@@ -88,17 +87,19 @@ std::string submitToSlurm(const SlurmRequest& request, const ShardChoice& choice
   const std::filesystem::path folder = std::filesystem::absolute(request.out) / "slurm";
   io::makeFolder(folder);
   const std::string command = shellCommand(commandFor(request));
+  // Jobs start where they were submitted: the names of folders, which stand in results, are those that were given.
+  const std::string here = "#SBATCH --chdir=\"" + std::filesystem::current_path().string() + "\"\n";
   std::string options;
   for (const std::string& one : choice.sbatch) options += "#SBATCH " + one + "\n";
   // A job whose node fails is put into the queue again, and does what is missing.
   const std::string array = fmt::format(
       "#!/bin/sh\n#SBATCH --job-name=stiffscope-{0}\n#SBATCH --array=1-{1}\n#SBATCH --requeue\n#SBATCH "
-      "--open-mode=append\n#SBATCH --output={2}/shard-%a.log\n{3}exec {4} --shard \"$SLURM_ARRAY_TASK_ID/{1}\" {5} "
+      "--open-mode=append\n#SBATCH --output=\"{2}/shard-%a.log\"\n{6}{3}exec {4} --shard \"$SLURM_ARRAY_TASK_ID/{1}\" {5} "
       "\"${{SLURM_CPUS_ON_NODE:-1}}\"\n",
-      request.name, choice.slurm, folder.string(), options, command, request.workers_option);
+      request.name, choice.slurm, folder.string(), options, command, request.workers_option, here);
   const std::string merge = fmt::format(
-      "#!/bin/sh\n#SBATCH --job-name=stiffscope-{0}-merge\n#SBATCH --output={1}/merge.log\nexec {2} --merge\n",
-      request.name, folder.string(), command);
+      "#!/bin/sh\n#SBATCH --job-name=stiffscope-{0}-merge\n#SBATCH --output=\"{1}/merge.log\"\n{3}exec {2} --merge\n",
+      request.name, folder.string(), command, here);
   const std::filesystem::path array_script = folder / "array.sh", merge_script = folder / "merge.sh";
   io::writeFileWhole(array_script, array);
   io::writeFileWhole(merge_script, merge);

@@ -12,8 +12,8 @@ namespace fleet_command_test {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> kResults{"fleet.csv",   "fleet.jsonl", "changes.csv",
-                                        "steps.csv",   "needs.csv",   "fleet.html"};
+const std::vector<std::string> kResults{"fleet.csv", "fleet.jsonl", "changes.csv",
+                                        "steps.csv", "needs.csv",   "fleet.html"};
 
 /// A small day of the sample's machine.
 void simulateDay(const fs::path& scratch, const fs::path& folder, int machine, int measurement) {
@@ -28,8 +28,8 @@ void simulateDay(const fs::path& scratch, const fs::path& folder, int machine, i
       {"date=\"2026-11-21\"", fmt::format("date=\"2026-01-1{}\"", measurement)}};
   for (const auto& [from, to] : changes) spec = std::regex_replace(spec, std::regex(from), to);
   std::ofstream(scratch / "spec.xml") << spec;
-  const Ran ran = runProgram(
-      fmt::format("simulate '{}' --out '{}'", (scratch / "spec.xml").string(), folder.string()), scratch);
+  const Ran ran =
+      runProgram(fmt::format("simulate '{}' --out '{}'", (scratch / "spec.xml").string(), folder.string()), scratch);
   ASSERT_EQ(ran.status, 0) << ran.err;
 }
 
@@ -42,7 +42,8 @@ class FleetCommand : public testing::Test {
     for (int day = 1; day <= 2; ++day)
       simulateDay(scratch.path(), fleet / "M1" / ("day" + std::to_string(day)), 1, day);
     fs::create_directories(fleet / "M2" / "broken");
-    std::ofstream(fleet / "M2" / "broken" / "campaign.xml") << "<campaign format=\"1\" name=\"broken\" date=\"2026-01-11\"/>";
+    std::ofstream(fleet / "M2" / "broken" / "campaign.xml")
+        << "<campaign format=\"1\" name=\"broken\" date=\"2026-01-11\"/>";
   }
 
   Ran run(const std::string& out, const std::string& options = {}) const {
@@ -140,9 +141,9 @@ TEST(Slurm, ADryRunWritesAnArrayAndAMerge) {
       scratch.path());
   ASSERT_EQ(ran.status, 0) << ran.err;
   const std::string array = contentsOf(out / "slurm" / "array.sh"), merge = contentsOf(out / "slurm" / "merge.sh");
-  for (const char* part : {"#SBATCH --array=1-4\n", "#SBATCH --requeue\n", "#SBATCH --mem=2G\n",
-                           " blind --cases 100 --seed 1 --out '", "it'\\''s here' --as-is ",
-                           " --shard \"$SLURM_ARRAY_TASK_ID/4\" --threads \"${SLURM_CPUS_ON_NODE:-1}\"\n"})
+  for (const char* part :
+       {"#SBATCH --array=1-4\n", "#SBATCH --requeue\n", "#SBATCH --mem=2G\n", " blind --cases 100 --seed 1 --out '",
+        "it'\\''s here' --as-is ", " --shard \"$SLURM_ARRAY_TASK_ID/4\" --threads \"${SLURM_CPUS_ON_NODE:-1}\"\n"})
     EXPECT_NE(array.find(part), std::string::npos) << part << "\n" << array;
   EXPECT_NE(merge.find(" --merge\n"), std::string::npos) << merge;
   EXPECT_EQ(std::system(fmt::format("sh -n \"{}\"", (out / "slurm" / "array.sh").string()).c_str()), 0);

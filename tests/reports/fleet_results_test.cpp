@@ -75,7 +75,7 @@ TEST(FleetResults, TablesAndPageSayWhatChangedAndWhatFailed) {
   EXPECT_NE(steps.find("\"A, <1>\",2026-01-04,compliance,2,,0."), std::string::npos) << steps;
   EXPECT_EQ(std::count(changes.begin(), changes.end(), '\n'), 1 + 4);  // five days with a result, one joint
   EXPECT_NE(needs.find("1,\"A, <1>\",no_result,2026-01-02,"), std::string::npos) << needs;
-  EXPECT_NE(needs.find(",changed,2026-01-04,joint 2 softer from 2026-01-04 on: compliance +"), std::string::npos)
+  EXPECT_NE(needs.find(",changed,2026-01-04,\"joint 2 softer from 2026-01-04 on: compliance +"), std::string::npos)
       << needs;
   EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 6);
   EXPECT_EQ(Json::parse(lines.substr(0, lines.find('\n'))).at("machine"), "A, <1>");
