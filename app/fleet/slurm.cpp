@@ -94,7 +94,8 @@ std::string submitToSlurm(const SlurmRequest& request, const ShardChoice& choice
   // A job whose node fails is put into the queue again, and does what is missing.
   const std::string array = fmt::format(
       "#!/bin/sh\n#SBATCH --job-name=stiffscope-{0}\n#SBATCH --array=1-{1}\n#SBATCH --requeue\n#SBATCH "
-      "--open-mode=append\n#SBATCH --output=\"{2}/shard-%a.log\"\n{6}{3}exec {4} --shard \"$SLURM_ARRAY_TASK_ID/{1}\" {5} "
+      "--open-mode=append\n#SBATCH --output=\"{2}/shard-%a.log\"\n{6}{3}exec {4} --shard \"$SLURM_ARRAY_TASK_ID/{1}\" "
+      "{5} "
       "\"${{SLURM_CPUS_ON_NODE:-1}}\"\n",
       request.name, choice.slurm, folder.string(), options, command, request.workers_option, here);
   const std::string merge = fmt::format(
