@@ -27,6 +27,7 @@ std::unique_ptr<CLI::App> commandLine(Run& run) {
   addCompare(app, run);
   addPlan(app, run);
   addDiagnose(app, run);
+  addFleet(app, run);
   addBlind(app, run);
   addSimulate(app, run);
   addReport(app, run);

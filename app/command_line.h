@@ -27,6 +27,7 @@ void addExport(CLI::App& app, Run& run);
 void addCompare(CLI::App& app, Run& run);
 void addPlan(CLI::App& app, Run& run);
 void addDiagnose(CLI::App& app, Run& run);
+void addFleet(CLI::App& app, Run& run);
 void addBlind(CLI::App& app, Run& run);
 void addSimulate(CLI::App& app, Run& run);
 void addReport(CLI::App& app, Run& run);

@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "core/diagnosis/diagnose.h"
 #include "core/extended_model/extend_model.h"
 #include "core/extended_model/requested_effects.h"
 #include "core/io/input_error.h"
@@ -57,12 +56,14 @@ std::optional<extended_model::ExtendedModel> modelOf(const preparation::Prepared
 }
 
 diagnosis::Diagnosis diagnosisOf(const preparation::PreparedCampaign& prepared,
-                                 const std::optional<extended_model::ExtendedModel>& model) {
+                                 const std::optional<extended_model::ExtendedModel>& model,
+                                 const diagnosis::DiagnoseOptions& options) {
   diagnosis::Diagnosis diagnosis;
   if (prepared.preparation.raw) {
-    diagnosis = diagnosis::diagnose(prepared.campaign);
+    diagnosis = diagnosis::diagnose(prepared.campaign, options);
   } else {
-    diagnosis = model && model->study ? diagnosis::diagnose(prepared, *model->study) : diagnosis::diagnose(prepared);
+    diagnosis = model && model->study ? diagnosis::diagnose(prepared, *model->study, options)
+                                      : diagnosis::diagnose(prepared, options);
   }
   if (model && diagnosis.usable) extended_model::stateStiffnesses(*model, diagnosis);
   return diagnosis;

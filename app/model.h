@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/diagnosis/diagnosis.h"
+#include "core/diagnosis/diagnose.h"
 #include "core/extended_model/extended_model.h"
 #include "core/identification/identify.h"
 #include "core/preparation/prepare.h"
@@ -32,6 +32,7 @@ std::optional<extended_model::ExtendedModel> modelOf(const preparation::Prepared
 
 /// The diagnosis of a loaded day, from the model's own study where it has one, with the stiffnesses that the model has.
 diagnosis::Diagnosis diagnosisOf(const preparation::PreparedCampaign& prepared,
-                                 const std::optional<extended_model::ExtendedModel>& model);
+                                 const std::optional<extended_model::ExtendedModel>& model,
+                                 const diagnosis::DiagnoseOptions& options = {});
 
 }  // namespace stiffscope::app

@@ -57,6 +57,11 @@ std::string optionHeading(const CLI::Option& option) {
   return names;
 }
 
+/// Those that --help shows.
+std::vector<const CLI::Option*> optionsOf(const CLI::App& app) {
+  return app.get_options([](const CLI::Option* option) { return !option->get_group().empty(); });
+}
+
 std::string optionText(const CLI::Option& option) {
   std::string text = roff(option.get_description());
   if (!option.get_default_str().empty()) text += fmt::format(" (default: {})", roff(option.get_default_str()));
@@ -66,7 +71,7 @@ std::string optionText(const CLI::Option& option) {
 std::string optionsText(const CLI::App& app) {
   std::string text;
   for (const bool positional : {true, false}) {
-    for (const CLI::Option* option : app.get_options()) {
+    for (const CLI::Option* option : optionsOf(app)) {
       if (option->get_positional() != positional) continue;
       text += fmt::format(".TP\n{}\n{}\n", optionHeading(*option), optionText(*option));
     }
@@ -78,7 +83,7 @@ std::string synopsis(const std::string& words, const CLI::App& app) {
   std::string text = fmt::format(".B {}\n", roff(words));
   if (!commandsOf(app).empty()) text += "\\fICOMMAND\\fR ";
   text += "[\\fIOPTIONS\\fR]";
-  for (const CLI::Option* option : app.get_options()) {
+  for (const CLI::Option* option : optionsOf(app)) {
     if (option->get_positional()) text += fmt::format(" \\fI{}\\fR", roff(option->get_name(true)));
   }
   return text + "\n";
@@ -119,7 +124,7 @@ std::string commandPage(const CLI::App& command) {
 
 std::string longOptions(const CLI::App& app) {
   std::string words;
-  for (const CLI::Option* option : app.get_options()) {
+  for (const CLI::Option* option : optionsOf(app)) {
     for (const std::string& name : option->get_lnames()) words += " --" + name;
   }
   return words.empty() ? words : words.substr(1);

@@ -1,10 +1,14 @@
+#include <fmt/format.h>
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 
 #include "app/command_line.h"
+#include "app/fleet/slurm.h"
+#include "app/options.h"
 #include "app/output.h"
 #include "core/accuracy/diagnose_accuracy.h"
 #include "core/diagnosis/diagnose.h"
@@ -44,17 +48,42 @@ validation::Answer diagnosedUnloaded(const campaign::Campaign& campaign) {
   return validation::answerOf(diagnosis);
 }
 
+std::vector<std::string> blindWordsOf(const validation::BlindOptions& options) {
+  std::vector<std::string> words{
+      "blind", "--cases",           std::to_string(options.cases), "--seed", std::to_string(options.seed),
+      "--out", options.out.string()};
+  if (options.unloaded)
+    words.emplace_back("--unloaded");
+  else
+    words.insert(words.end(), {"--as-is", fmt::format("{}", options.as_is_share)});
+  if (options.discard) words.emplace_back("--discard");
+  return words;
+}
+
+/// All of it, a shard's part (then without a result), or what the shards have done joined.
+std::optional<validation::BlindResult> blindResult(const validation::BlindOptions& options, const ShardChoice& choice) {
+  const validation::Diagnose diagnose = options.unloaded ? diagnosedUnloaded : diagnosed;
+  const validation::Distance distance =
+      options.unloaded ? validation::Distance() : validation::Distance(diagnosis::distanceFromVocabulary);
+  const numerics::Shard shard = choice.part();
+  if (choice.merge) return validation::mergeBlind(options, STIFFSCOPE_VERSION, eventsOnStderr());
+  if (choice.shard.empty()) return validation::runBlind(options, diagnose, eventsOnStderr(), distance);
+  validation::runBlindShard(options, shard, STIFFSCOPE_VERSION, diagnose, eventsOnStderr(), distance);
+  return std::nullopt;
+}
+
 }  // namespace
 
 void addBlind(CLI::App& app, Run& run) {
   struct BlindArguments {
     validation::BlindOptions options;
     std::string out, json;
+    ShardChoice shard;
   };
   const auto arguments = std::make_shared<BlindArguments>();
   CLI::App* command = app.add_subcommand("blind", "The diagnosis checked on machines whose effect is withheld");
   command->add_option("--cases", arguments->options.cases, "how many machines")
-      ->check(CLI::Range(1, 9999))
+      ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
   command->add_option("--seed", arguments->options.seed, "another seed, other machines")->capture_default_str();
   command->add_option("--out", arguments->out, "folder for campaigns, labels, answers, results.json, blind.html")
@@ -71,15 +100,20 @@ void addBlind(CLI::App& app, Run& run) {
   command->add_option("--threads", arguments->options.threads, "at work at a time; the result is the same")
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
+  addShardOptions(*command, arguments->shard);
   command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
   command->callback([arguments, &run] {
     run = [arguments] {
       arguments->options.out = arguments->out;
       if (arguments->options.unloaded) arguments->options.as_is_share = 0.0;
-      const validation::BlindResult result =
-          arguments->options.unloaded ? validation::runBlind(arguments->options, diagnosedUnloaded, eventsOnStderr())
-                                      : validation::runBlind(arguments->options, diagnosed, eventsOnStderr(),
-                                                             diagnosis::distanceFromVocabulary);
+      if (arguments->shard.slurm > 0) {
+        printText(submitToSlurm({"blind", blindWordsOf(arguments->options), "--threads", arguments->options.out},
+                                arguments->shard));
+        return kDone;
+      }
+      const std::optional<validation::BlindResult> made = blindResult(arguments->options, arguments->shard);
+      if (!made) return kDone;
+      const validation::BlindResult& result = *made;
       const reports::Json json = reports::blindJson(arguments->options, result);
       io::writeFileWhole(arguments->options.out / "results.json", textOf(json) + '\n');
       io::writeFileWhole(arguments->options.out / "blind.html", page::blindPage(arguments->options, result));

@@ -241,8 +241,8 @@ const std::vector<std::pair<std::string, std::string CampaignTexts::*>>& textEle
 }
 
 std::vector<std::string> knownElements(const std::vector<std::string>& also) {
-  std::vector<std::string> known{"robot", "tracker",         "targets",       "load_cell",
-                                 "tool",  "known_stiffness", "joint_reading", "certificate"};
+  std::vector<std::string> known{"robot",           "tracker",       "targets",     "load_cell",   "tool",
+                                 "known_stiffness", "joint_reading", "certificate", "robot_serial"};
   known.insert(known.end(), also.begin(), also.end());
   for (const auto& [name, member] : textElements()) known.push_back(name);
   return known;

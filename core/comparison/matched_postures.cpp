@@ -36,19 +36,28 @@ Remark whyAbsent(const campaign::Campaign& campaign, const identification::Ident
 }
 
 /// Why two load cases of one pose id are not the same; empty where they are.
-Remark difference(const identification::LoadCase& before, const identification::LoadCase& after,
-                  const MatchLimits& limits) {
+Remark difference(const Vector6d& q_before, const Eigen::Vector3d& force, const Vector6d& q_after,
+                  const Eigen::Vector3d& other, const MatchLimits& limits) {
   Eigen::Index joint = 0;
-  const double angle = (after.q - before.q).cwiseAbs().maxCoeff(&joint);
+  const double angle = (q_after - q_before).cwiseAbs().maxCoeff(&joint);
   if (angle > limits.angle) return Remark(RemarkId::other_angles, joint + 1, angle, limits.angle);
-  const Eigen::Vector3d &force = before.wrench.force, &other = after.wrench.force;
   const double apart = (other - force).norm(), larger = std::max(force.norm(), other.norm());
   if (apart > limits.force * larger)
     return Remark(RemarkId::other_load, apart, force.norm(), other.norm(), limits.force);
   return {};
 }
 
+Remark difference(const identification::LoadCase& before, const identification::LoadCase& after,
+                  const MatchLimits& limits) {
+  return difference(before.q, before.wrench.force, after.q, after.wrench.force, limits);
+}
+
 }  // namespace
+
+bool corresponds(const Vector6d& q_before, const Eigen::Vector3d& force_before, const Vector6d& q_after,
+                 const Eigen::Vector3d& force_after, const MatchLimits& limits) {
+  return difference(q_before, force_before, q_after, force_after, limits).empty();
+}
 
 MatchedPostures matchPostures(const campaign::Campaign& before_campaign, const identification::Identification& before,
                               const campaign::Campaign& after_campaign, const identification::Identification& after,

@@ -26,6 +26,10 @@ struct MatchLimits {
   double force = 0.02;      ///< of the larger force: the deflection goes with it, and 2 % is lost in the scatter
 };
 
+/// Whether joint angles (rad) and force vectors (R0, N) of two days differ by no more than that.
+bool corresponds(const Vector6d& q_before, const Eigen::Vector3d& force_before, const Vector6d& q_after,
+                 const Eigen::Vector3d& force_after, const MatchLimits& limits = {});
+
 struct MatchedPostures {
   std::vector<PosturePair> pairs;  ///< in the order of the campaign before
   std::vector<UnmatchedPosture> unmatched;

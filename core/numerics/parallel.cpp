@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstdlib>
 #include <exception>
 #include <mutex>
 #include <system_error>
@@ -16,9 +17,21 @@ namespace {
 thread_local bool shares_already = false;
 std::atomic<std::size_t> at_work{0};  // threads that take part in something
 
+/// Cores that this process may use: those that the system gives it, and no more than STIFFSCOPE_THREADS of the
+/// environment says, where that is a number. For processes that run beside each other.
+std::size_t cores() {
+  static const std::size_t known = [] {
+    const std::size_t given = std::max(1U, std::thread::hardware_concurrency());
+    const char* asked = std::getenv("STIFFSCOPE_THREADS");
+    const long most = asked == nullptr ? 0 : std::strtol(asked, nullptr, 10);
+    return most > 0 ? std::min(given, static_cast<std::size_t>(most)) : given;
+  }();
+  return known;
+}
+
 std::size_t idleCores() {
-  const std::size_t cores = std::thread::hardware_concurrency(), busy = at_work;
-  return cores > busy ? cores - busy : 0;
+  const std::size_t all = cores(), busy = at_work;
+  return all > busy ? all - busy : 0;
 }
 
 class Sharing {
@@ -64,7 +77,7 @@ class Sharing {
 
 void onAllCores(std::size_t count, const std::function<void(std::size_t)>& work, bool worth_it) {
   if (!worth_it) return onThreads(1, count, work);
-  onThreads(shares_already ? 1 + idleCores() : std::thread::hardware_concurrency(), count, work);
+  onThreads(shares_already ? 1 + idleCores() : cores(), count, work);
 }
 
 void onThreads(std::size_t threads, std::size_t count, const std::function<void(std::size_t)>& work) {

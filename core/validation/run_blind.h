@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 
+#include "core/numerics/shard.h"
 #include "core/validation/score.h"
 #include "core/validation/tables.h"
 
@@ -46,6 +47,17 @@ struct BlindResult {
 /// hashed.
 BlindResult runBlind(const BlindOptions& options, const Diagnose& diagnose, const BlindEvents& events = {},
                      const Distance& distance = {});
+
+/// The same test in parts that run anywhere beside each other and share `out`: each simulates its cases, seals their
+/// labels (out/parts/KEY/seal-I-of-N.txt), diagnoses them and freezes the answers. What is done of a case is a file of
+/// its own there that appears whole, and is not done again; KEY is of `program` and the options that the result depends
+/// on. Throws as runBlind, and where a shard's labels are not what it sealed.
+void runBlindShard(const BlindOptions& options, const numerics::Shard& shard, const std::string& program,
+                   const Diagnose& diagnose, const BlindEvents& events = {}, const Distance& distance = {});
+
+/// Joins what the shards have done, whatever their number, and scores it: the files and the result of runBlind, byte
+/// for byte. Throws std::runtime_error where cases are missing or not what was sealed.
+BlindResult mergeBlind(const BlindOptions& options, const std::string& program, const BlindEvents& events = {});
 
 /// Reads `file` and throws std::runtime_error, naming it, where its SHA-256 is not `hash`.
 std::string openSealed(const std::filesystem::path& file, const std::string& hash);

@@ -32,6 +32,7 @@ const std::unordered_map<std::type_index, FamilyWords>& families() {
       of<effects::RemarkId, &effectsWords>(),
       of<elastic_model::RemarkId, &elasticModelWords>(),
       of<extended_model::RemarkId, &extendedModelWords>(),
+      of<fleet::RemarkId, &fleetWords>(),
       of<frames::RemarkId, &framesWords>(),
       of<identification::RemarkId, &identificationWords>(),
       of<metrology::RemarkId, &metrologyWords>(),

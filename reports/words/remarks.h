@@ -15,6 +15,7 @@
 #include "core/effects/remarks.h"
 #include "core/elastic_model/remarks.h"
 #include "core/extended_model/remarks.h"
+#include "core/fleet/remarks.h"
 #include "core/frames/remarks.h"
 #include "core/identification/remarks.h"
 #include "core/mistakes/remarks.h"
@@ -71,6 +72,7 @@ std::string diagnosisWords(diagnosis::RemarkId id, const RemarkValues& values);
 std::string effectsWords(effects::RemarkId id, const RemarkValues& values);
 std::string elasticModelWords(elastic_model::RemarkId id, const RemarkValues& values);
 std::string extendedModelWords(extended_model::RemarkId id, const RemarkValues& values);
+std::string fleetWords(fleet::RemarkId id, const RemarkValues& values);
 std::string framesWords(frames::RemarkId id, const RemarkValues& values);
 std::string identificationWords(identification::RemarkId id, const RemarkValues& values);
 std::string metrologyWords(metrology::RemarkId id, const RemarkValues& values);

@@ -63,6 +63,55 @@ TEST_F(BlindRun, theSameSeedGivesTheSameBytesOnAnyNumberOfThreads) {
   EXPECT_NE(validation::runBlind(other, standIn).seal, one.seal);
 }
 
+double standInDistance(const campaign::Campaign& campaign) {
+  return campaign.loading->rows.front().point.norm() / 3.0;  // has all its digits
+}
+
+// A case is asked for once, whatever is killed: what an earlier run of a shard did is kept.
+TEST_F(BlindRun, shardsJoinToTheBytesOfTheWhole) {
+  const validation::BlindOptions whole = options(7, 2, "whole"), parts = options(7, 1, "parts");
+  const validation::BlindResult expected = validation::runBlind(whole, standIn, {}, standInDistance);
+  int asked = 0, until = 2;
+  const auto counted = [&](const campaign::Campaign& campaign) {
+    if (++asked > until) throw std::bad_alloc();  // no answer of the diagnosis: as if killed
+    return standIn(campaign);
+  };
+  const auto killed = [&](const campaign::Campaign& campaign) { return counted(campaign); };
+  validation::BlindEvents stop;
+  stop.progress = [](const char* stage, int done, int) {
+    if (std::string(stage) == "diagnosed" && done == 2) throw std::logic_error("killed");
+  };
+  EXPECT_THROW(validation::runBlindShard(parts, {0, 2}, "1", killed, stop, standInDistance), std::logic_error);
+  EXPECT_EQ(asked, 2);
+  EXPECT_THROW(validation::mergeBlind(parts, "1"), std::runtime_error);
+  until = 7;
+  validation::runBlindShard(parts, {0, 2}, "1", killed, {}, standInDistance);
+  EXPECT_EQ(asked, 4);
+  validation::runBlindShard(parts, {1, 2}, "1", killed, {}, standInDistance);
+  EXPECT_EQ(asked, 7);
+  const validation::BlindResult joined = validation::mergeBlind(parts, "1");
+  EXPECT_EQ(joined.seal, expected.seal);
+  EXPECT_EQ(joined.answers_hash, expected.answers_hash);
+  for (const char* file : {"labels.csv", "answers.csv", "distances.csv", "seal.txt"})
+    EXPECT_EQ(bytesOf(folder / "parts" / file), bytesOf(folder / "whole" / file)) << file;
+  // Another version, or other options, have done nothing yet.
+  EXPECT_THROW(validation::mergeBlind(parts, "2"), std::runtime_error);
+}
+
+TEST_F(BlindRun, aShardsLabelsAreWhatItSealed) {
+  const validation::BlindOptions asked = options(2, 1, "run");
+  validation::runBlindShard(asked, {0, 1}, "1", standIn);
+  fs::path label;
+  for (const auto& entry : fs::recursive_directory_iterator(folder / "run" / "parts")) {
+    if (entry.path().filename() == "0001.label") label = entry.path();
+  }
+  std::string bytes = bytesOf(label);
+  bytes[bytes.size() - 2] = bytes[bytes.size() - 2] == '1' ? '2' : '1';
+  std::ofstream(label, std::ios::binary) << bytes;
+  EXPECT_THROW(validation::mergeBlind(asked, "1"), std::runtime_error);
+  EXPECT_THROW(validation::runBlindShard(asked, {0, 1}, "1", standIn), std::runtime_error);
+}
+
 // Sealed first, then diagnosed, then frozen, then opened.
 TEST_F(BlindRun, theSealComesFirstAndIsCheckedLast) {
   const validation::BlindOptions asked = options(3, 1, "run");

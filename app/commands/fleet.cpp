@@ -1,0 +1,123 @@
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "app/command_line.h"
+#include "app/figures/fleet_charts.h"
+#include "app/fleet/fleet_work.h"
+#include "app/fleet/slurm.h"
+#include "app/options.h"
+#include "app/output.h"
+#include "core/io/read_file.h"
+#include "core/io/write_file.h"
+#include "reports/csv/fleet_csv.h"
+#include "reports/json/fleet_json.h"
+#include "reports/page/fleet_page.h"
+#include "reports/words/fleet_words.h"
+#include "reports/words/remark_words.h"
+#include "reports/words/rich_text.h"
+
+namespace stiffscope::app {
+
+namespace {
+
+struct FleetArguments {
+  FleetRequest request;
+  ShardChoice shard;
+  std::string out, result;
+};
+
+/// What a report is known by, of all campaigns together.
+std::string fleetId(const std::vector<FoundCampaign>& found) {
+  std::string keys;
+  for (const FoundCampaign& one : found) keys += one.key;
+  return io::sha256Hex(keys).substr(0, 12);
+}
+
+/// The machines that need something, a line each.
+std::string fleetText(const fleet::Fleet& fleet, const std::filesystem::path& out) {
+  std::size_t failed = 0, well = 0;
+  for (const fleet::FleetCampaign& one : fleet.campaigns) failed += one.result ? 0 : 1;
+  std::string text = fmt::format("{} machines, {} campaigns, {} without a result\n", fleet.machines.size(),
+                                 fleet.campaigns.size(), failed);
+  constexpr std::size_t kMostLines = 40;
+  std::size_t lines = 0;
+  for (const fleet::Machine& machine : fleet.machines) {
+    const fleet::Need& need = machine.needs.front();
+    if (need.id == fleet::NeedId::nothing) ++well;
+    if (need.id == fleet::NeedId::nothing || ++lines > kMostLines) continue;
+    text += fmt::format("{:16} {:16} {}\n", machine.name, reports::needName(need.id),
+                        reports::plain(reports::words(need.reason)));
+  }
+  if (lines > kMostLines) text += fmt::format("and {} more machines (needs.csv)\n", lines - kMostLines);
+  text += fmt::format("{} machines need nothing\n", well);
+  return text + (out / "fleet.html").string() + '\n';
+}
+
+int writeFleet(const FleetRequest& request, const std::vector<FoundCampaign>& found) {
+  const fleet::Fleet fleet = fleetFrom(request, found);
+  io::writeFileWhole(request.out / "fleet.csv", reports::fleetCsv(fleet));
+  io::writeFileWhole(request.out / "fleet.jsonl", reports::fleetJsonLines(fleet));
+  io::writeFileWhole(request.out / "changes.csv", reports::changesCsv(fleet));
+  io::writeFileWhole(request.out / "steps.csv", reports::stepsCsv(fleet));
+  io::writeFileWhole(request.out / "needs.csv", reports::needsCsv(fleet));
+  io::writeFileWhole(request.out / "fleet.html", page::fleetPage(fleet, fleetCharts(fleet), fleetId(found)));
+  printText(fleetText(fleet, request.out));
+  const bool any = std::any_of(fleet.campaigns.begin(), fleet.campaigns.end(),
+                               [](const fleet::FleetCampaign& one) { return one.result.has_value(); });
+  return any ? kDone : kNotUsable;
+}
+
+std::vector<std::string> fleetWordsOf(const FleetRequest& request) {
+  std::vector<std::string> words{"fleet"};
+  words.insert(words.end(), request.folders.begin(), request.folders.end());
+  words.insert(words.end(), {"--out", request.out.string()});
+  if (request.reports) words.emplace_back("--reports");
+  if (request.springs_only) words.emplace_back("--springs-only");
+  return words;
+}
+
+int runFleet(FleetArguments& arguments) {
+  FleetRequest& request = arguments.request;
+  request.out = arguments.out;
+  if (!arguments.result.empty()) {
+    writeOneResult(request.folders, request.springs_only, arguments.result);
+    return kDone;
+  }
+  requireNoCampaign(request.out, "expected a folder of the fleet's own");
+  const numerics::Shard shard = arguments.shard.part();
+  const std::vector<FoundCampaign> found = findCampaigns(request);
+  if (arguments.shard.slurm > 0) {
+    printText(submitToSlurm({"fleet", fleetWordsOf(request), "--jobs", request.out}, arguments.shard));
+    return kDone;
+  }
+  if (!arguments.shard.merge) doFleetWork(request, found, shard);
+  return shard.of > 1 ? kDone : writeFleet(request, found);
+}
+
+}  // namespace
+
+void addFleet(CLI::App& app, Run& run) {
+  const auto arguments = std::make_shared<FleetArguments>();
+  CLI::App* command = app.add_subcommand("fleet", "Many campaigns of many machines: what each needs, what has changed");
+  command->footer(
+      "Each campaign is audited, identified (without a load: calibrated) and diagnosed by a process of its own; one "
+      "that\n"
+      "fails costs its own row. What is done is kept in the folder and not done again. A campaign is of the machine "
+      "that\n"
+      "its robot_serial names, else its item, else the folder above it. Writes fleet.html, fleet.csv, fleet.jsonl,\n"
+      "changes.csv, steps.csv and needs.csv (docs/fleet.md).");
+  command->add_option("DIR", arguments->request.folders, "folders with campaigns in or below them")->required();
+  command->add_option("--out", arguments->out, "folder for the page, the tables, and what is done")->required();
+  constexpr int kMostJobs = 1024;
+  command->add_option("--jobs", arguments->request.jobs, "processes at a time; without it as many as there are cores")
+      ->check(CLI::Range(1, kMostJobs));
+  command->add_flag("--reports", arguments->request.reports, "write each campaign's own report, too, and link to it");
+  command->add_flag("--springs-only", arguments->request.springs_only,
+                    "stiffnesses by joint springs and nothing else, the model of the paper");
+  addShardOptions(*command, arguments->shard);
+  command->add_option("--result", arguments->result)->group("");  // of a process of the command's own
+  command->callback([arguments, &run] { run = [arguments] { return runFleet(*arguments); }; });
+}
+
+}  // namespace stiffscope::app

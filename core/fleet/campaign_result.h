@@ -1,0 +1,102 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/campaign/campaign.h"
+#include "core/comparison/paired_fit.h"
+#include "core/identification/identification.h"
+#include "core/preparation/finding.h"
+
+namespace stiffscope::fleet {
+
+inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+/// With loads, without, or of sweeps alone.
+enum class DayKind { loaded, unloaded, sweeps };
+
+/// A number with its 95 % interval; ends are not numbers where none can be stated.
+struct Stated {
+  double value = kUnknown, low = kUnknown, high = kUnknown;
+};
+
+/// A posture under the load that identified: what says whether another day has it too.
+struct LoadedPosture {
+  std::string pose;
+  Vector6d q = Vector6d::Zero();                    ///< rad
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< R0, N
+};
+
+/// Compliances of one day by one method and joint springs alone, with what makes differences of days: the influences of
+/// its postures, in which what the model misses is the same on every day (comparison::PairedFit), and the variances
+/// that its postures share and other days do not.
+struct SpringsOfDay {
+  bool available = false;
+  Vector6d compliance = Vector6d::Zero();  ///< rad/Nm
+  robot::JointMask identifiable{};
+  Vector6d shared = Vector6d::Zero();  ///< variances, (rad/Nm)^2
+  Vector6d dof = Vector6d::Zero();     ///< of the scatter between postures
+  std::vector<Vector6d> influences;    ///< one a posture, rad/Nm
+};
+
+/// One entry of a diagnosis: effects that the day cannot tell apart, by their ids; `unknown` alone where none explains.
+struct EffectFound {
+  std::vector<std::string> effects;
+  std::string detail;
+};
+
+/// What a fleet keeps of one campaign: SI units and radians.
+struct CampaignResult {
+  std::string name, date, robot;
+  DayKind kind = DayKind::loaded;
+  campaign::DoubleEncoder encoders = campaign::DoubleEncoder::unspecified;
+
+  preparation::AuditVerdict audit = preparation::AuditVerdict::not_testable;
+  std::vector<std::string> failed_checks, warned_checks;  ///< ids
+  int postures = 0;
+
+  // Of a day with loads.
+  std::optional<identification::Method> method;          ///< shown first
+  std::array<Stated, 6> stiffness;                       ///< of the day's model, Nm/rad; high infinite where it is open
+  double deflection = kUnknown;                          ///< mean at the reflectors, m
+  Stated compensated;                                    ///< share of it on postures held out
+  std::array<SpringsOfDay, 3> springs;                   ///< by Method
+  std::optional<identification::Method> springs_method;  ///< shown first of these
+  std::vector<LoadedPosture> loaded_postures;
+
+  // Of a day without: rms per coordinate, m.
+  Stated nominal, calibrated;  ///< the URDF's arm with base and reflectors fitted; the calibrated one, held out
+
+  // What the model misses: rms per coordinate, m.
+  double gap_before = kUnknown, gap_noise = kUnknown, gap_after = kUnknown;
+  bool diagnosed = false;
+  std::vector<EffectFound> effects;  ///< of the verdict; empty: none
+
+  bool hasUnknown() const;
+};
+
+/// Two days of one machine, one after the other.
+struct PairResult {
+  DayKind kind = DayKind::loaded;
+  std::string reason;  ///< why they cannot be compared, in words; then nothing else is filled
+  bool same_postures = false;
+  int postures = 0;  ///< of both
+
+  // Of days with loads: c_after - c_before by joint, rad/Nm (comparison::StiffnessChange).
+  std::optional<identification::Method> method;
+  std::array<Stated, 6> difference;  ///< not a number where the joint cannot be compared
+  std::array<Stated, 6> taken;       ///< share of the compliance before that is gone
+  std::array<double, 6> p_value{kUnknown, kUnknown, kUnknown, kUnknown, kUnknown, kUnknown};
+
+  // Of days without (comparison::GeometryChange).
+  double machine_p = kUnknown;   ///< of an unchanged machine
+  double at_targets = kUnknown;  ///< rms of the 3-D position by the change, m
+  double at_targets_sd = kUnknown;
+  std::string cause;  ///< what explains it, in words
+};
+
+}  // namespace stiffscope::fleet

@@ -1,0 +1,229 @@
+#include "reports/page/fleet_page.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <algorithm>
+
+#include "reports/page/html.h"
+#include "reports/page/style.h"
+#include "reports/words/fleet_words.h"
+#include "reports/words/names.h"
+#include "reports/words/numbers.h"
+#include "reports/words/remark_words.h"
+#include "reports/words/rich_text.h"
+
+namespace stiffscope::page {
+
+namespace {
+
+using fleet::Fleet;
+using fleet::Stated;
+using reports::asIs;
+
+void writeFleetHead(Html& html, const std::string& id) {
+  const auto head = html.element("head");
+  html.voidElement("meta", {{"charset", "utf-8"}});
+  html.voidElement("meta", {{"name", "viewport"}, {"content", "width=device-width, initial-scale=1"}});
+  html.voidElement("meta", {{"name", "color-scheme"}, {"content", "light dark"}});
+  html.leaf("title", "stiffscope: fleet");
+  html.leaf("style", pageStyle(id));
+}
+
+void writeCount(Html& html, std::size_t count, const char* one, const char* more) {
+  const auto item = html.element("li");
+  html.leaf("b", std::to_string(count));
+  html.leaf("span", count == 1 ? one : more);
+}
+
+std::size_t machinesWith(const Fleet& fleet, fleet::NeedId id) {
+  return static_cast<std::size_t>(
+      std::count_if(fleet.machines.begin(), fleet.machines.end(), [id](const fleet::Machine& one) {
+        return std::any_of(one.needs.begin(), one.needs.end(), [id](const fleet::Need& need) { return need.id == id; });
+      }));
+}
+
+void writeFleetOpening(Html& html, const Fleet& fleet) {
+  const auto header = html.element("header");
+  html.leaf("h1", "Fleet");
+  const auto failed = static_cast<std::size_t>(std::count_if(
+      fleet.campaigns.begin(), fleet.campaigns.end(), [](const fleet::FleetCampaign& one) { return !one.result; }));
+  const auto numbers = html.element("ul", {{"class", "numbers"}});
+  writeCount(html, fleet.machines.size(), "machine", "machines");
+  writeCount(html, fleet.campaigns.size(), "campaign", "campaigns");
+  writeCount(html, failed, "campaign without a result", "campaigns without a result");
+  writeCount(html, machinesWith(fleet, fleet::NeedId::changed), "machine that has changed",
+             "machines that have changed");
+}
+
+void writeNeeds(Html& html, const Fleet& fleet) {
+  const auto section = html.element("section", {{"id", "needs"}});
+  html.leaf("h2", "What machines need");
+  const auto scroll = html.element("div", {{"class", "scroll"}});
+  const auto table = html.element("table", {{"class", "words long"}});
+  html.leaf("caption", "Machines that need most first; all needs of each");
+  {
+    const auto head = html.element("thead");
+    const auto row = html.element("tr");
+    for (const char* column : {"machine", "need", "reason", "next step", "report"})
+      html.leaf("th", column, {{"scope", "col"}});
+  }
+  std::size_t shown = 0;
+  for (const fleet::Machine& machine : fleet.machines) {
+    if (++shown > kMostMachinesShown) break;
+    const auto body = html.element("tbody");
+    bool first = true;
+    for (const fleet::Need& need : machine.needs) {
+      const auto row = html.element("tr");
+      html.leaf("th", first ? asIs(machine.name) : "", {{"scope", "row"}});
+      first = false;
+      html.leaf("td", reports::needName(need.id));
+      html.leaf("td", reports::words(need.reason));
+      html.leaf("td", reports::words(need.next));
+      const auto cell = html.element("td");
+      const fleet::FleetCampaign& campaign = fleet.campaigns[need.campaign];
+      if (!campaign.report.empty()) html.leaf("a", asIs(campaign.date), {{"href", campaign.report}});
+    }
+  }
+  if (fleet.machines.size() > kMostMachinesShown)
+    html.paragraph(fmt::format("{} of {} machines; `needs.csv` has all.", kMostMachinesShown, fleet.machines.size()));
+}
+
+std::string stepName(const fleet::FleetStep& step) {
+  switch (step.what) {
+    case fleet::FleetStep::What::compliance:
+      return fmt::format("compliance of joint {}", step.compliance.joint + 1);
+    case fleet::FleetStep::What::geometry:
+      return "geometry";
+    case fleet::FleetStep::What::effect_appeared:
+      return "appeared: " + asIs(fmt::format("{}", fmt::join(step.effects, " or ")));
+    case fleet::FleetStep::What::effect_gone:
+      break;
+  }
+  return "gone: " + asIs(fmt::format("{}", fmt::join(step.effects, " or ")));
+}
+
+std::string stepSize(const fleet::FleetStep& step) {
+  if (step.what == fleet::FleetStep::What::geometry)
+    return fmt::format("{} µm", reports::fixed(reports::um(step.size), 0));
+  if (step.what != fleet::FleetStep::What::compliance) return "–";
+  const Stated share = step.compliance.share();
+  return reports::withUncertainty(100.0 * share.value, 100.0 * (share.high - share.value)) + " %";
+}
+
+void writeSteps(Html& html, const Fleet& fleet) {
+  const auto section = html.element("section", {{"id", "changes"}});
+  html.leaf("h2", "What has changed");
+  html.paragraph(fmt::format(
+      "What is another from a date on, held against the days before it. Effects that all days share cancel in these "
+      "differences. p-values are corrected for the dates at which a change could have been, and by Holm for the {} "
+      "questions of the whole fleet; what is said to have changed is below {}. Between any two dates that follow each "
+      "other: `changes.csv`.",
+      fleet.chart_questions, reports::percent(fleet::kFleetLevel, 0)));
+  if (fleet.steps.empty()) return html.paragraph("Nothing has.");
+  reports::Table table{
+      "Changes", {"machine", "holds from", "what", "size", "p (Holm)", "dates before", "dates since"}, {{"", {}}}};
+  for (const fleet::FleetStep& step : fleet.steps) {
+    table.groups[0].rows.push_back({asIs(step.machine), asIs(fleet.campaigns[step.campaign].date), stepName(step),
+                                    stepSize(step), reports::significant(step.p_holm, 2),
+                                    std::to_string(step.days_before), std::to_string(step.days_after)});
+  }
+  writeTable(html, table);
+}
+
+void writeCharts(Html& html, const Fleet& fleet, const std::vector<reports::Figure>& figures) {
+  if (figures.empty()) return;
+  const auto section = html.element("section", {{"id", "charts"}});
+  html.leaf("h2", "Control charts");
+  html.paragraph(fmt::format(
+      "Compliance by date against the mean of the dates before the first change, in percent of it. Whiskers: 95 %, of "
+      "what is not the same on every date. Limits, in grey: three standard deviations from the stated uncertainties, "
+      "outside which one date in {:.0f} is by chance.",
+      1.0 / fleet::kOutside));
+  const auto charted = std::count_if(fleet.charts.begin(), fleet.charts.end(), [&](const fleet::SeriesCharts& one) {
+    return fleet.series[one.series].campaigns.size() > 1;
+  });
+  if (static_cast<std::size_t>(charted) > figures.size())
+    html.paragraph(fmt::format("Drawn: {} of {}, of the machines that need most.", figures.size(), charted));
+  const auto grid = html.element("div", {{"class", "figures"}});
+  for (const reports::Figure& figure : figures) {
+    const auto element = html.element("figure", {{"id", figure.id}});
+    html.voidElement("img", {{"src", "data:image/png;base64," + base64(figure.png)},
+                             {"alt", figure.alt},
+                             {"width", std::to_string(figure.width)},
+                             {"height", std::to_string(figure.height)}});
+    html.leaf("figcaption", figure.title + ". " + figure.caption);
+  }
+}
+
+std::string statedCell(const Stated& one, double unit) {
+  if (!std::isfinite(one.value)) return "–";
+  if (!std::isfinite(one.low)) return reports::significant(one.value / unit, 4);
+  if (!std::isfinite(one.high))
+    return fmt::format("{} (above {})", reports::significant(one.value / unit, 3),
+                       reports::significant(one.low / unit, 3));
+  const double width = (one.high - one.low) / unit;
+  return fmt::format("{} ({} to {})", reports::toPlaceOf(one.value / unit, width),
+                     reports::toPlaceOf(one.low / unit, width), reports::toPlaceOf(one.high / unit, width));
+}
+
+reports::Row campaignRow(const fleet::FleetCampaign& one) {
+  reports::Row row{asIs(one.date)};
+  if (!one.result) {
+    row.emplace_back("no result");
+    for (int i = 0; i < 9; ++i) row.emplace_back("–");
+    return row;
+  }
+  const fleet::CampaignResult& day = *one.result;
+  row.emplace_back(reports::auditWord(day.audit));
+  for (const Stated& k : day.stiffness) row.emplace_back(statedCell(k, reports::kMega));
+  row.emplace_back(statedCell(day.compensated, 0.01));
+  row.emplace_back(
+      statedCell(day.kind == fleet::DayKind::unloaded ? day.calibrated : Stated{}, 1.0 / reports::kMmPerM));
+  row.emplace_back(day.diagnosed ? asIs(reports::effectsKey(day)) : "–");
+  return row;
+}
+
+void writeDays(Html& html, const Fleet& fleet) {
+  const auto section = html.element("section", {{"id", "dates"}});
+  html.leaf("h2", "Stiffness and accuracy by machine and date");
+  reports::Table table{
+      "Stiffness in 10^{6} Nm/rad, deflection compensated on postures held out in %, calibrated accuracy "
+      "in mm; in brackets the 95 % interval",
+      {"", "date", "audit", "k_{1}", "k_{2}", "k_{3}", "k_{4}", "k_{5}", "k_{6}", "compensated", "accuracy",
+       "besides joint springs"},
+      {}};
+  for (const fleet::Machine& machine : fleet.machines) {
+    if (table.groups.size() == kMostMachinesShown) break;
+    reports::RowGroup group{asIs(machine.name), {}};
+    for (const std::size_t one : machine.campaigns) group.rows.push_back(campaignRow(fleet.campaigns[one]));
+    table.groups.push_back(std::move(group));
+  }
+  writeTable(html, table);
+  if (fleet.machines.size() > kMostMachinesShown)
+    html.paragraph(fmt::format("{} of {} machines; `fleet.csv` has all.", kMostMachinesShown, fleet.machines.size()));
+  std::vector<std::string> failures;
+  for (const fleet::FleetCampaign& one : fleet.campaigns) {
+    if (!one.result) failures.push_back(asIs(one.folder + ": " + one.failure));
+  }
+  html.list(failures);
+}
+
+}  // namespace
+
+std::string fleetPage(const Fleet& fleet, const std::vector<reports::Figure>& figures, const std::string& id) {
+  Html html;
+  {
+    const auto root = html.element("html", {{"lang", "en"}});
+    writeFleetHead(html, id);
+    const auto body = html.element("body");
+    const auto main = html.element("main");
+    writeFleetOpening(html, fleet);
+    writeNeeds(html, fleet);
+    writeSteps(html, fleet);
+    writeCharts(html, fleet, figures);
+    writeDays(html, fleet);
+  }
+  return html.bytes();
+}
+
+}  // namespace stiffscope::page

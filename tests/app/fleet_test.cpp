@@ -1,0 +1,153 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <map>
+#include <regex>
+
+#include "tests/app/command.h"
+
+namespace stiffscope {
+namespace fleet_command_test {
+
+namespace fs = std::filesystem;
+
+const std::vector<std::string> kResults{"fleet.csv", "fleet.jsonl", "changes.csv",
+                                        "steps.csv", "needs.csv",   "fleet.html"};
+
+/// A small day of the sample's machine.
+void simulateDay(const fs::path& scratch, const fs::path& folder, int machine, int measurement) {
+  std::string spec = contentsOf(STIFFSCOPE_SOURCE_DIR "/samples/active.xml");
+  const std::pair<const char*, std::string> changes[] = {
+      {"urdf=\"", "urdf=\"" STIFFSCOPE_SOURCE_DIR "/samples/"},
+      {"seed=\"20170924\" measurement=\"2\"", fmt::format("seed=\"{}\" measurement=\"{}\"", machine, measurement)},
+      {"count=\"19\"", "count=\"8\""},
+      {"count=\"20\"", "count=\"8\""},
+      {"repeats=\"3\"", "repeats=\"2\""},
+      {"readings=\"1000\"", "readings=\"60\""},
+      {"date=\"2026-11-21\"", fmt::format("date=\"2026-01-1{}\"", measurement)}};
+  for (const auto& [from, to] : changes) spec = std::regex_replace(spec, std::regex(from), to);
+  std::ofstream(scratch / "spec.xml") << spec;
+  const Ran ran =
+      runProgram(fmt::format("simulate '{}' --out '{}'", (scratch / "spec.xml").string(), folder.string()), scratch);
+  ASSERT_EQ(ran.status, 0) << ran.err;
+}
+
+class FleetCommand : public testing::Test {
+ protected:
+  ScratchFolder scratch;
+  fs::path fleet = scratch.path() / "fleet";
+
+  void SetUp() override {
+    for (int day = 1; day <= 2; ++day)
+      simulateDay(scratch.path(), fleet / "M1" / ("day" + std::to_string(day)), 1, day);
+    fs::create_directories(fleet / "M2" / "broken");
+    std::ofstream(fleet / "M2" / "broken" / "campaign.xml")
+        << "<campaign format=\"1\" name=\"broken\" date=\"2026-01-11\"/>";
+  }
+
+  Ran run(const std::string& out, const std::string& options = {}) const {
+    return runProgram(fmt::format("fleet '{}' --out '{}' --springs-only {}", fleet.string(),
+                                  (scratch.path() / out).string(), options),
+                      scratch.path());
+  }
+
+  std::map<std::string, std::string> results(const std::string& out) const {
+    std::map<std::string, std::string> bytes;
+    for (const std::string& file : kResults) bytes[file] = contentsOf(scratch.path() / out / file);
+    return bytes;
+  }
+};
+
+TEST_F(FleetCommand, IsBegunAgainAndSharedAndMergedToTheSameBytes) {
+  const Ran whole = run("whole");
+  ASSERT_EQ(whole.status, 0) << whole.err;
+  EXPECT_NE(whole.out.find("2 machines, 3 campaigns, 1 without a result\n"), std::string::npos) << whole.out;
+  EXPECT_NE(whole.out.find("M2               no result"), std::string::npos) << whole.out;
+  const auto expected = results("whole");
+  EXPECT_NE(expected.at("fleet.csv").find("M2,2026-01-11,"), std::string::npos);
+  EXPECT_NE(expected.at("fleet.csv").find("campaign.xml"), std::string::npos);  // the failure's text
+  EXPECT_NE(expected.at("fleet.html").find("data:image/png;base64,"), std::string::npos);
+  EXPECT_NE(expected.at("changes.csv").find("M1,2026-01-11,2026-01-12,compliance,2,"), std::string::npos);
+
+  // As after a kill: one result missing, pages gone. What is there is not done again.
+  std::map<fs::path, fs::file_time_type> kept;
+  for (const auto& entry : fs::directory_iterator(scratch.path() / "whole" / "campaigns"))
+    kept[entry.path()] = entry.last_write_time();
+  ASSERT_EQ(kept.size(), 3u);
+  fs::remove(kept.begin()->first);
+  fs::remove(scratch.path() / "whole" / "fleet.html");
+  ASSERT_EQ(run("whole").status, 0);
+  EXPECT_EQ(results("whole"), expected);
+  for (auto one = std::next(kept.begin()); one != kept.end(); ++one)
+    EXPECT_EQ(fs::last_write_time(one->first), one->second) << one->first;
+
+  // By two that share, in any order; before the second there is nothing to merge.
+  EXPECT_EQ(run("shared", "--shard 2/2").status, 0);
+  EXPECT_FALSE(fs::exists(scratch.path() / "shared" / "fleet.csv"));
+  const Ran early = run("shared", "--merge");
+  EXPECT_EQ(early.status, 2);
+  EXPECT_NE(early.err.find("2 of 3 campaigns have no result yet"), std::string::npos) << early.err;
+  EXPECT_EQ(run("shared", "--shard 1/2 --jobs 1").status, 0);
+  EXPECT_EQ(run("shared", "--merge").status, 0);
+  EXPECT_EQ(results("shared"), expected);
+}
+
+// A process that is killed costs its row, and is begun again by the next run.
+TEST_F(FleetCommand, ACrashCostsItsRow) {
+  const Ran first = runProgram(fmt::format("fleet '{}' --out '{}' --springs-only --jobs 1", (fleet / "M1").string(),
+                                           (scratch.path() / "out").string()),
+                               scratch.path());
+  ASSERT_EQ(first.status, 0) << first.err;
+  // The message of a process that ended without a result stands in the place of one.
+  const fs::path folder = scratch.path() / "out" / "campaigns";
+  const fs::path result = fs::directory_iterator(folder)->path();
+  fs::remove(result);
+  fs::path message = result;
+  std::ofstream(message.replace_extension(".failed")) << "ended by signal 9, Killed";
+  const std::string merge = fmt::format("fleet '{}' --out '{}' --springs-only --merge", (fleet / "M1").string(),
+                                        (scratch.path() / "out").string());
+  ASSERT_EQ(runProgram(merge, scratch.path()).status, 0);
+  EXPECT_NE(contentsOf(scratch.path() / "out" / "fleet.csv").find("\"ended by signal 9, Killed\""), std::string::npos);
+  ASSERT_EQ(runProgram(merge.substr(0, merge.find(" --merge")), scratch.path()).status, 0);
+  EXPECT_FALSE(fs::exists(message));
+  EXPECT_EQ(contentsOf(scratch.path() / "out" / "fleet.csv").find("signal"), std::string::npos);
+}
+
+TEST(FleetOptions, AreRefusedByTheirNames) {
+  const ScratchFolder scratch;
+  const std::string out = (scratch.path() / "out").string();
+  fs::create_directories(scratch.path() / "empty");
+  const auto refused = [&](const std::string& words, const std::string& said) {
+    const Ran ran = runProgram(words + " --out '" + out + "'", scratch.path());
+    EXPECT_EQ(ran.status, 2) << words;
+    EXPECT_NE(ran.err.find(said), std::string::npos) << ran.err;
+    EXPECT_FALSE(fs::exists(out)) << words;
+  };
+  const std::string sample = "fleet '" STIFFSCOPE_SOURCE_DIR "/samples'";
+  refused("fleet '" + (scratch.path() / "empty").string() + "'", "no campaign.xml in it or below it");
+  refused("fleet '" + (scratch.path() / "none").string() + "'", "expected a folder with campaigns");
+  for (const char* shard : {"0/2", "3/2", "1", "a/b", "1/2/3", "-1/2"})
+    refused(sample + " --shard=" + shard, "--shard: ");
+  refused(sample + " --slurm 0", "--slurm");
+  refused("blind --shard=5/4", "--shard: ");
+}
+
+TEST(Slurm, ADryRunWritesAnArrayAndAMerge) {
+  const ScratchFolder scratch;
+  const fs::path out = scratch.path() / "it's here";
+  const Ran ran = runProgram(
+      fmt::format("blind --cases 100 --slurm 4 --slurm-dry-run --sbatch=--mem=2G --out \"{}\"", out.string()),
+      scratch.path());
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  const std::string array = contentsOf(out / "slurm" / "array.sh"), merge = contentsOf(out / "slurm" / "merge.sh");
+  for (const char* part :
+       {"#SBATCH --array=1-4\n", "#SBATCH --requeue\n", "#SBATCH --mem=2G\n", " blind --cases 100 --seed 1 --out '",
+        "it'\\''s here' --as-is ", " --shard \"$SLURM_ARRAY_TASK_ID/4\" --threads \"${SLURM_CPUS_ON_NODE:-1}\"\n"})
+    EXPECT_NE(array.find(part), std::string::npos) << part << "\n" << array;
+  EXPECT_NE(merge.find(" --merge\n"), std::string::npos) << merge;
+  EXPECT_EQ(std::system(fmt::format("sh -n \"{}\"", (out / "slurm" / "array.sh").string()).c_str()), 0);
+}
+
+}  // namespace fleet_command_test
+}  // namespace stiffscope

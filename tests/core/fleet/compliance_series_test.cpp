@@ -1,0 +1,193 @@
+#include "core/fleet/compliance_series.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "core/numerics/distributions.h"
+#include "tests/core/fleet/made_days.h"
+
+namespace stiffscope::fleet {
+namespace compliance_series_test {
+
+constexpr identification::Method kMethod = identification::Method::partial_pose;
+
+std::vector<const CampaignResult*> pointers(const std::vector<CampaignResult>& days) {
+  std::vector<const CampaignResult*> all;
+  for (const CampaignResult& day : days) all.push_back(&day);
+  return all;
+}
+
+Eigen::VectorXd weights(std::initializer_list<double> values) {
+  Eigen::VectorXd all(static_cast<Eigen::Index>(values.size()));
+  Eigen::Index i = 0;
+  for (const double value : values) all[i++] = value;
+  return all;
+}
+
+SpringsOfDay& springs(CampaignResult& day) { return day.springs[static_cast<std::size_t>(kMethod)]; }
+
+// (3 - 1)^2 + (-1 - 2)^2 + 4 + 5 = 22, of which 13 scatter with 6 degrees of freedom: 6 (22 / 13)^2.
+TEST(ComplianceSeries, TwoDaysByHand) {
+  std::vector<CampaignResult> days{dayOf({1.0, 2.0}, 10.0), dayOf({3.0, -1.0}, 12.0)};
+  springs(days[0]).shared[1] = 4.0, springs(days[1]).shared[1] = 5.0;
+  springs(days[0]).dof[1] = 7.0, springs(days[1]).dof[1] = 6.0;
+  const ComplianceSeries series(pointers(days), kMethod);
+  EXPECT_TRUE(series.samePostures());
+  const comparison::Uncertain difference = series.contrast(1, weights({-1.0, 1.0}), {0, 1});
+  EXPECT_DOUBLE_EQ(difference.value, 2.0);
+  EXPECT_DOUBLE_EQ(difference.sd, std::sqrt(22.0));
+  EXPECT_NEAR(difference.dof, 6.0 * 22.0 * 22.0 / (13.0 * 13.0), 1e-12);  // rounding of three products
+}
+
+// The same sum by the rule for two days of one machine, which stands elsewhere.
+TEST(ComplianceSeries, TwoDaysAreAsAPairedFitHasThem) {
+  std::mt19937_64 draws(5);
+  std::normal_distribution<double> normal;
+  std::vector<CampaignResult> days;
+  comparison::PairedFit pair;
+  pair.same_postures = true;
+  pair.influences.resize(9);
+  for (std::size_t t = 0; t < 2; ++t) {
+    std::vector<double> influences(9);
+    for (std::size_t p = 0; p < 9; ++p) {
+      influences[p] = normal(draws);
+      pair.influences[p][t] = Vector6d::Zero();
+      pair.influences[p][t][1] = influences[p];
+    }
+    days.push_back(dayOf(influences, 20.0 + normal(draws)));
+    springs(days[t]).shared[1] = 0.3;
+  }
+  pair.before = springs(days[0]).compliance, pair.after = springs(days[1]).compliance;
+  pair.shared_before[1] = pair.shared_after[1] = 0.3;
+  pair.dof_before = springs(days[0]).dof, pair.dof_after = springs(days[1]).dof;
+  const comparison::Uncertain expected = pair.difference(1);
+  const comparison::Uncertain found =
+      ComplianceSeries(pointers(days), kMethod).contrast(1, weights({-1.0, 1.0}), {0, 1});
+  EXPECT_NEAR(found.value, expected.value, 1e-12);  // rounding alone
+  EXPECT_NEAR(found.sd, expected.sd, 1e-12);
+  EXPECT_NEAR(found.dof, expected.dof, 1e-9);
+}
+
+// Whatever the model misses in a posture on every day alike is no uncertainty of a difference.
+TEST(ComplianceSeries, WhatEveryDayMissesCancels) {
+  std::mt19937_64 draws(6);
+  std::vector<CampaignResult> days = unchangedDays(draws, 6, 12), biased = days;
+  std::normal_distribution<double> large(0.0, 50.0);
+  for (std::size_t p = 0; p < 12; ++p) {
+    const double missed = large(draws);
+    for (CampaignResult& day : biased) springs(day).influences[p][1] += missed;
+  }
+  const Eigen::VectorXd step = weights({-0.5, -0.5, 0.25, 0.25, 0.25, 0.25});
+  const comparison::Uncertain without = ComplianceSeries(pointers(days), kMethod).contrast(1, step, {0, 2});
+  const comparison::Uncertain with = ComplianceSeries(pointers(biased), kMethod).contrast(1, step, {0, 2});
+  EXPECT_NEAR(with.sd, without.sd, 1e-9 * without.sd);  // fifty times larger numbers cancel to their rounding
+  EXPECT_EQ(with.value, without.value);
+}
+
+// Days err by as much as is stated, misfit aside: at the level 5 % at most one series in twenty has a step.
+TEST(ComplianceSeries, UnchangedDaysHaveNoSteps) {
+  std::mt19937_64 draws(7);
+  constexpr int kSeries = 600;
+  int alarms = 0, outside = 0, points = 0;
+  for (int i = 0; i < kSeries; ++i) {
+    const std::vector<CampaignResult> days = unchangedDays(draws, 8, 12);
+    const ComplianceSeries series(pointers(days), kMethod);
+    const std::vector<Step> steps = series.steps(1, 0.05);
+    alarms += steps.empty() ? 0 : 1;
+    for (const ControlChart::Point& point : series.chart(1, {}).points) {
+      outside += point.outside ? 1 : 0;
+      ++points;
+    }
+  }
+  // Bonferroni over seven dates is on the safe side; 30 of 600 are expected at most, and 46 in one run of a thousand.
+  EXPECT_LE(alarms, 46);
+  EXPECT_GE(alarms, 3);  // a test that never speaks would be too safe: neighbouring dates share most of their days
+  // Three standard deviations: 13 of 4800, and 27 in one run of a thousand.
+  EXPECT_LE(outside, 27);
+  EXPECT_EQ(points, 8 * kSeries);
+}
+
+TEST(ComplianceSeries, AStepIsFoundWhereItIs) {
+  std::mt19937_64 draws(8);
+  int found = 0, dated = 0, once = 0;
+  constexpr int kSeries = 200;
+  for (int i = 0; i < kSeries; ++i) {
+    std::vector<CampaignResult> days = unchangedDays(draws, 10, 12);
+    const std::size_t first = 2 + static_cast<std::size_t>(i) % 6;
+    for (std::size_t t = first; t < days.size(); ++t) springs(days[t]).compliance[1] += 6.0;  // six standard deviations
+    const std::vector<Step> steps = ComplianceSeries(pointers(days), kMethod).steps(1, 1e-4);
+    found += steps.empty() ? 0 : 1;
+    once += steps.size() == 1 ? 1 : 0;
+    for (const Step& step : steps) {
+      if (step.first != first) continue;
+      ++dated;
+      EXPECT_NEAR(step.difference.value, 6.0, 4.5 * step.difference.sd);  // 4.5 standard deviations: one in 10^5
+      EXPECT_NEAR(step.before, 100.0, 4.5);
+    }
+  }
+  // At the worst place two days against eight: 6 / sqrt(1/2 + 1/8) = 7.6 deviations, the limit of 1e-4 / 9 being
+  // at 4.4. In one series of a hundred the sum is taken for larger than chance, and with its 12 degrees may not do: 2
+  // of 200 are expected, 7 in one run of 300.
+  EXPECT_GE(found, kSeries - 6);
+  EXPECT_GE(dated, kSeries - 11);  // a neighbouring date is likelier where one day errs by three deviations
+  EXPECT_GE(once, kSeries - 11);
+}
+
+TEST(ComplianceSeries, ThereAndBackAreTwoSteps) {
+  std::mt19937_64 draws(9);
+  std::vector<CampaignResult> days = unchangedDays(draws, 12, 12);
+  for (std::size_t t = 4; t < 8; ++t) springs(days[t]).compliance[1] += 30.0;
+  const std::vector<Step> steps = ComplianceSeries(pointers(days), kMethod).steps(1, 1e-4);
+  ASSERT_EQ(steps.size(), 2u);
+  EXPECT_EQ(steps[0].first, 4u);
+  EXPECT_EQ(steps[1].first, 8u);
+  EXPECT_GT(steps[0].difference.value, 0.0);
+  EXPECT_LT(steps[1].difference.value, 0.0);
+  const ControlChart chart = ComplianceSeries(pointers(days), kMethod).chart(1, steps);
+  for (std::size_t t = 0; t < 12; ++t) EXPECT_EQ(chart.points[t].outside, t >= 4 && t < 8) << t;
+}
+
+// What changes in the postures and is no spring's makes the difference as uncertain as it is.
+TEST(ComplianceSeries, AMisfitThatComesWithADateIsUncertainty) {
+  std::mt19937_64 draws(10);
+  std::vector<CampaignResult> days = unchangedDays(draws, 8, 12);
+  std::normal_distribution<double> large(0.0, 20.0);
+  for (std::size_t p = 0; p < 12; ++p) {
+    const double new_misfit = large(draws);
+    for (std::size_t t = 4; t < 8; ++t) springs(days[t]).influences[p][1] += new_misfit;
+  }
+  for (std::size_t t = 4; t < 8; ++t) springs(days[t]).compliance[1] += 30.0;
+  // 12 postures at 20 each: 69, beside which 30 is nothing; pooled it would be 50 standard deviations.
+  EXPECT_TRUE(ComplianceSeries(pointers(days), kMethod).steps(1, 0.01).empty());
+}
+
+TEST(ComplianceSeries, OtherPosturesAreNotPooled) {
+  std::mt19937_64 draws(11);
+  std::vector<CampaignResult> days = unchangedDays(draws, 4, 12);
+  days[2].loaded_postures[3].q[0] += 0.1;
+  const ComplianceSeries series(pointers(days), kMethod);
+  EXPECT_FALSE(series.samePostures());
+  const comparison::Uncertain difference = series.contrast(1, weights({-1.0, 0.0, 1.0, 0.0}), {0});
+  double scatter = 0.0;
+  for (std::size_t p = 0; p < 12; ++p) {
+    const double a = springs(days[0]).influences[p][1], b = springs(days[2]).influences[p][1];
+    scatter += p == 3 ? a * a + b * b : (b - a) * (b - a);
+  }
+  EXPECT_NEAR(difference.sd, std::sqrt(scatter), 1e-12);
+}
+
+TEST(ComplianceSeries, AJointThatADayDoesNotSeeHasNoChart) {
+  std::mt19937_64 draws(12);
+  std::vector<CampaignResult> days = unchangedDays(draws, 4, 12);
+  springs(days[1]).identifiable[1] = false;
+  const ComplianceSeries series(pointers(days), kMethod);
+  EXPECT_FALSE(series.has(1));
+  EXPECT_TRUE(series.steps(1, 1.0).empty());
+  EXPECT_TRUE(series.chart(1, {}).points.empty());
+}
+
+}  // namespace compliance_series_test
+}  // namespace stiffscope::fleet

@@ -1,0 +1,174 @@
+#include "core/fleet/fleet.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "core/fleet/remarks.h"
+#include "tests/core/fleet/made_days.h"
+
+namespace stiffscope::fleet {
+namespace fleet_test {
+
+std::vector<FleetCampaign> campaignsOf(const std::string& machine, std::vector<CampaignResult> days) {
+  std::vector<FleetCampaign> campaigns;
+  for (std::size_t t = 0; t < days.size(); ++t) {
+    FleetCampaign one;
+    one.machine = machine, one.date = "2026-01-" + std::to_string(10 + t), one.folder = machine + "/" + one.date;
+    days[t].diagnosed = true;
+    one.result = std::move(days[t]);
+    campaigns.push_back(std::move(one));
+  }
+  return campaigns;
+}
+
+void add(std::vector<FleetCampaign>& all, std::vector<FleetCampaign> more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+Fleet studied(std::vector<FleetCampaign> campaigns) {
+  sortCampaigns(campaigns);
+  return studyFleet(campaigns, pairsOf(seriesOf(campaigns)));
+}
+
+SpringsOfDay& springs(FleetCampaign& one) {
+  return one.result->springs[static_cast<std::size_t>(identification::Method::partial_pose)];
+}
+
+const Machine& machine(const Fleet& fleet, const std::string& name) {
+  return *std::find_if(fleet.machines.begin(), fleet.machines.end(),
+                       [&](const Machine& one) { return one.name == name; });
+}
+
+TEST(Fleet, MachinesThatNeedMostStandFirst) {
+  std::mt19937_64 draws(1);
+  std::vector<FleetCampaign> all;
+  add(all, campaignsOf("well", unchangedDays(draws, 6, 12)));
+  std::vector<FleetCampaign> softer = campaignsOf("softer", unchangedDays(draws, 6, 12));
+  for (std::size_t t = 3; t < 6; ++t) springs(softer[t]).compliance[1] += 20.0;
+  add(all, softer);
+  std::vector<FleetCampaign> failing = campaignsOf("failing", unchangedDays(draws, 6, 12));
+  failing.back().result->audit = preparation::AuditVerdict::fail;
+  failing.back().result->failed_checks = {"tare"};
+  add(all, failing);
+  std::vector<FleetCampaign> broken = campaignsOf("broken", unchangedDays(draws, 6, 12));
+  broken[2].result.reset();
+  broken[2].failure = "states.csv:3: fx_n";
+  add(all, broken);
+  std::vector<FleetCampaign> strange = campaignsOf("strange", unchangedDays(draws, 6, 12));
+  for (FleetCampaign& one : strange) one.result->effects = {{{"unknown"}, ""}};
+  add(all, strange);
+  const Fleet fleet = studied(all);
+  ASSERT_EQ(fleet.machines.size(), 5u);
+  EXPECT_EQ(fleet.machines[0].name, "broken");
+  EXPECT_EQ(fleet.machines[1].name, "failing");
+  EXPECT_EQ(fleet.machines[2].name, "softer");
+  EXPECT_EQ(fleet.machines[3].name, "strange");
+  EXPECT_EQ(fleet.machines[4].name, "well");
+  EXPECT_EQ(fleet.machines[0].needs.front().id, NeedId::no_result);
+  EXPECT_EQ(fleet.machines[4].needs.front().id, NeedId::nothing);
+  ASSERT_EQ(fleet.steps.size(), 1u);
+  EXPECT_EQ(fleet.campaigns[fleet.steps[0].campaign].date, "2026-01-13");
+  EXPECT_EQ(fleet.steps[0].compliance.joint, 1);
+  EXPECT_LE(fleet.steps[0].p_holm, kFleetLevel);
+  EXPECT_EQ(fleet.chart_questions, 5u);
+  // The broken day misses in the series, and the days about it follow each other.
+  const auto of_broken = std::count_if(fleet.pairs.begin(), fleet.pairs.end(), [&](const FleetPair& pair) {
+    return fleet.campaigns[pair.after].machine == "broken";
+  });
+  EXPECT_EQ(of_broken, 4);
+}
+
+TEST(Fleet, AnEffectThatStaysIsAChangeAndOneOfTheLastDayAQuestion) {
+  std::mt19937_64 draws(2);
+  const EffectFound base{{"base_compliance"}, ""}, bearing{{"bearing_tilt"}, "joint 2"};
+  std::vector<FleetCampaign> loose = campaignsOf("loose", unchangedDays(draws, 6, 12));
+  std::vector<FleetCampaign> once = campaignsOf("once", unchangedDays(draws, 6, 12));
+  std::vector<FleetCampaign> flickers = campaignsOf("flickers", unchangedDays(draws, 6, 12));
+  for (std::size_t t = 0; t < 6; ++t) {
+    loose[t].result->effects = t < 4 ? std::vector{bearing} : std::vector{bearing, base};
+    once[t].result->effects = t < 5 ? std::vector{bearing} : std::vector{bearing, base};
+    flickers[t].result->effects = t % 2 == 0 ? std::vector{bearing} : std::vector{bearing, base};
+  }
+  std::vector<FleetCampaign> all = loose;
+  add(all, once), add(all, flickers);
+  const Fleet fleet = studied(all);
+  EXPECT_EQ(machine(fleet, "loose").needs.front().id, NeedId::changed);
+  EXPECT_TRUE(machine(fleet, "loose").needs.front().reason.is(RemarkId::effect_appeared));
+  EXPECT_EQ(fleet.campaigns[machine(fleet, "loose").needs.front().campaign].date, "2026-01-14");
+  EXPECT_EQ(machine(fleet, "once").needs.front().id, NeedId::perhaps_changed);
+  EXPECT_EQ(machine(fleet, "flickers").needs.front().id, NeedId::nothing);
+}
+
+TEST(Fleet, AChangeOfThePairsIsCorrectedOverTheFleet) {
+  std::mt19937_64 draws(3);
+  std::vector<FleetCampaign> all = campaignsOf("a", unchangedDays(draws, 3, 12));
+  add(all, campaignsOf("b", unchangedDays(draws, 3, 12)));
+  sortCampaigns(all);
+  std::vector<FleetPair> pairs = pairsOf(seriesOf(all));
+  ASSERT_EQ(pairs.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    pairs[i].result.emplace();
+    pairs[i].result->p_value[1] = 0.01 * static_cast<double>(i + 1);
+  }
+  const Fleet fleet = studyFleet(all, pairs);
+  EXPECT_EQ(fleet.pair_questions, 4u);
+  EXPECT_DOUBLE_EQ(fleet.pairs[0].p_holm[1], 0.04);
+  EXPECT_DOUBLE_EQ(fleet.pairs[1].p_holm[1], 0.06);
+  EXPECT_DOUBLE_EQ(fleet.pairs[3].p_holm[1], 0.06);
+  EXPECT_FALSE(std::isfinite(fleet.pairs[0].p_holm[0]));
+}
+
+TEST(Fleet, StatesOfTheEncodersAreNotMixed) {
+  std::mt19937_64 draws(4);
+  std::vector<FleetCampaign> all = campaignsOf("a", unchangedDays(draws, 4, 12));
+  all[1].result->encoders = all[3].result->encoders = campaign::DoubleEncoder::active;
+  const std::vector<DaySeries> series = seriesOf(all);
+  ASSERT_EQ(series.size(), 2u);
+  for (const FleetPair& pair : pairsOf(series))
+    EXPECT_EQ(all[pair.before].result->encoders, all[pair.after].result->encoders);
+}
+
+TEST(Fleet, WhoseACampaignIs) {
+  EXPECT_EQ(machineOf("F-17", "arm of cell 3", "lab/cell3/2026-01-05"), "F-17");
+  EXPECT_EQ(machineOf("", "arm of cell 3", "lab/cell3/2026-01-05"), "arm of cell 3");
+  EXPECT_EQ(machineOf("", "", "lab/cell3/2026-01-05"), "cell3");
+  EXPECT_EQ(machineOf("", "", "lab/cell3/2026-01-05/"), "cell3");
+  EXPECT_EQ(machineOf("", "", "2026-01-05"), "2026-01-05");
+}
+
+// Two days that follow each other: the difference with what their postures share taken off, by hand.
+TEST(Fleet, DaysThatFollowEachOtherAreComparedFromWhatIsKept) {
+  std::vector<FleetCampaign> all = campaignsOf("a", {dayOf({0.6, 0.8}, 100.0), dayOf({0.3, 1.2}, 103.0)});
+  std::vector<FleetPair> pairs = pairsOf(seriesOf(all));
+  compareLoaded(all, pairs);
+  ASSERT_EQ(pairs.size(), 1u);
+  const PairResult& result = *pairs[0].result;
+  EXPECT_TRUE(result.same_postures);
+  EXPECT_EQ(result.postures, 2);
+  EXPECT_DOUBLE_EQ(result.difference[1].value, 3.0);
+  // sd^2 = 0.3^2 + 0.4^2; Student's factor of two degrees of freedom at 95 % is 4.303.
+  EXPECT_NEAR(result.difference[1].high, 3.0 + 4.303 * 0.5, 1e-3);
+  // t = 6: two-sided p of two degrees is 1 - t / sqrt(t^2 + 2).
+  EXPECT_NEAR(result.p_value[1], 1.0 - 6.0 / std::sqrt(38.0), 1e-9);
+  EXPECT_NEAR(result.taken[1].value, -0.03, 1e-15);
+  EXPECT_FALSE(std::isfinite(result.difference[0].value));
+}
+
+TEST(Fleet, AMovedGeometryIsAChange) {
+  std::mt19937_64 draws(5);
+  std::vector<FleetCampaign> all = campaignsOf("a", unchangedDays(draws, 3, 12));
+  for (FleetCampaign& one : all) one.result->kind = DayKind::unloaded;
+  std::vector<FleetPair> pairs = pairsOf(seriesOf(all));
+  for (FleetPair& pair : pairs) pair.result.emplace().kind = DayKind::unloaded;
+  pairs[0].result->machine_p = 0.4, pairs[1].result->machine_p = 1e-6, pairs[1].result->at_targets = 2e-4;
+  const Fleet fleet = studyFleet(all, pairs);
+  ASSERT_EQ(fleet.steps.size(), 1u);
+  EXPECT_EQ(fleet.steps[0].what, FleetStep::What::geometry);
+  EXPECT_EQ(fleet.campaigns[fleet.steps[0].campaign].date, "2026-01-12");
+  EXPECT_DOUBLE_EQ(fleet.steps[0].p_holm, 2e-6);
+}
+
+}  // namespace fleet_test
+}  // namespace stiffscope::fleet
