@@ -126,7 +126,7 @@ class LoadingRowMaker {
 
   void addState(const identification::LoadCase& one, const effects::ArmState& rest, double largest, Eigen::Index at_row,
                 SystemRows& rows) const {
-    effects::ArmState state = rest;
+    effects::ArmState& state = rows.states.emplace_back(rest);
     state.step = one.step;
     state.time_s = timeOf(one.pose, one.step);
     state.loaded = one.wrench.force.norm() > campaign::kReturnShare * largest;
@@ -156,7 +156,6 @@ class LoadingRowMaker {
           jacobian * at_.compliance.asDiagonal() * wrench_to_torque;
     }
     rows.by_wrench.push_back(std::move(by_wrench));
-    rows.states.push_back(std::move(state));
   }
 
   void addPosition(const effects::ArmState& rest, SystemRows& rows) const {

@@ -42,8 +42,8 @@ struct ArmState {
 /// All states of one posture in the order of the load steps; the first is unloaded.
 using PostureStates = std::vector<ArmState>;
 
-/// The states of one posture in a tenth of their room, for a day of ten thousand: the arm, which they have in common, by
-/// its joint angles, and by state what the load is.
+/// The states of one posture in a tenth of their room, for a day of ten thousand: the arm, which they have in common,
+/// by its joint angles, and by state what the load is.
 class CompactPosture {
  public:
   struct OfState {

@@ -275,8 +275,7 @@ EffectFit fitToAll(const preparation::PreparedCampaign& prepared, const Requeste
   effects.fit = diagnosis::fitGap(*input, start->state, allowed, rules);
   requireSeen(effects.fit, *input);
   for (std::size_t i = 0; i < effects.fit.data.postures.size(); ++i)
-    effects.day[effects.fit.data.postures[i].pose] = {
-        effects::CompactPosture(effects.fit.data.postures[i].states), i};
+    effects.day[effects.fit.data.postures[i].pose] = {effects::CompactPosture(effects.fit.data.postures[i].states), i};
   effects.start = std::move(start);
   effects.input = std::move(input);
   effects.free = freeParameters(effects);

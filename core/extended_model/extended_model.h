@@ -34,7 +34,7 @@ struct EffectSpread {
 /// Parts that were chosen because they stand out stay chosen in all of this.
 struct ExtendedModel {
   EffectFit effects;
-  campaign::Campaign campaign;  ///< what `with` was identified from
+  campaign::Campaign campaign;             ///< what `with` was identified from
   identification::Identification without;  ///< by springs alone; its cases and equations are let go
   identification::Identification with;
   EffectSpread spread;

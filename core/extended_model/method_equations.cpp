@@ -94,7 +94,8 @@ std::vector<ExtendedEquations> equationsOf(const std::vector<identification::Cas
     } else {
       Eigen::Index count = 0, at = 0;
       for (std::size_t i = first[p]; i < first[p + 1]; ++i) count += rows[i].right.size();
-      own.springs = {Eigen::Matrix<double, Eigen::Dynamic, 6>(count, 6), Eigen::VectorXd(count), rows[first[p]].posture};
+      own.springs = {Eigen::Matrix<double, Eigen::Dynamic, 6>(count, 6), Eigen::VectorXd(count),
+                     rows[first[p]].posture};
       for (std::size_t i = first[p]; i < first[p + 1]; ++i) {
         const Eigen::MatrixXd here = by_steps(i);
         own.by_steps.conservativeResize(count, here.cols());
@@ -152,8 +153,8 @@ std::vector<CaseEffects> caseEffects(const EffectFit& effects, const Eigen::Matr
     const LoadCase& load_case = result.cases[i];
     all[i] = effectsIn(effects, steps, effects.statesOf(load_case.pose), fit_from_r0, load_case);
     if (result.wrist.empty()) return;
-    all[i].wrist_machine = identification::wristByReflectors(load_case, result.frames.wrist.radii, result.wrist[i]) *
-                           all[i].by_machine;
+    all[i].wrist_machine =
+        identification::wristByReflectors(load_case, result.frames.wrist.radii, result.wrist[i]) * all[i].by_machine;
   });
   return all;
 }

@@ -26,8 +26,8 @@ std::vector<CaseEffects> caseEffects(const EffectFit& effects, const Eigen::Matr
 std::vector<CaseEffects> caseEffects(const diagnosis::GapStudy& study, const EffectColumns& columns,
                                      const identification::Identification& result);
 
-/// A method's normal equations of one posture with the effects in them, A c + E z = b: z the steps by which the effects'
-/// parameters leave their fitted values, b the corrected readings' displacement.
+/// A method's normal equations of one posture with the effects in them, A c + E z = b: z the steps by which the
+/// effects' parameters leave their fitted values, b the corrected readings' displacement.
 struct ExtendedNormal {
   identification::NormalEquations springs;                 ///< A^T A and A^T b
   Eigen::Matrix<double, 6, Eigen::Dynamic> by_steps = {};  ///< A^T E
