@@ -51,12 +51,8 @@ void addEffectsUncertainty(ExtendedModel& model) {
   }
 }
 
-}  // namespace
-
-namespace {
-
-/// Lets go what the result of springs alone is not asked for beside the model: cases and equations, which of a long day
-/// are as large as the readings.
+/// Lets go what the result of springs alone is not asked for where estimates alone are wanted: cases and equations,
+/// which of a long day are as large as the readings.
 void keepStatements(identification::Identification& alone) {
   alone.cases = {};
   alone.wrist = {};
@@ -74,11 +70,11 @@ ExtendedModel extendModel(const campaign::Campaign& campaign, EffectFit effects,
   // Effects of size zero change nothing and have no covariance to propagate.
   if (model.effects.free.empty()) {
     model.with = model.without;
-    keepStatements(model.without);
+    if (options.estimates_only) keepStatements(model.without);
     model.campaign = campaign;
     return model;
   }
-  keepStatements(model.without);
+  if (options.estimates_only) keepStatements(model.without);
   std::vector<identification::LeftOutPosture> left_out;
   model.campaign = correctedFor(model.effects, campaign, left_out);
   identification::IdentifyOptions own = identification::valuesOnly(options);

@@ -34,9 +34,8 @@ struct EffectSpread {
 /// Parts that were chosen because they stand out stay chosen in all of this.
 struct ExtendedModel {
   EffectFit effects;
-  campaign::Campaign campaign;             ///< what `with` was identified from
-  identification::Identification without;  ///< by springs alone; its cases and equations are let go
-  identification::Identification with;
+  campaign::Campaign campaign;  ///< what `with` was identified from
+  identification::Identification without, with;
   EffectSpread spread;
   std::optional<HiddenEffects> hidden;               ///< of the model that the data support: what could still hide
   std::unique_ptr<const diagnosis::GapStudy> study;  ///< the equations that `hidden` was weighed in; null without it
