@@ -23,9 +23,9 @@ int framesOf(const CampaignSource& source, const ModelChoice& choice, const Outl
   const auto opened = source.open();
   const preparation::PreparedCampaign& prepared = *opened;
   std::optional<extended_model::ExtendedModel> model;
-  // Nothing of subsets is shown.
+  // Nothing of how good the stiffnesses are is shown.
   if (identification::whatLoadsLack(prepared.campaign).empty())
-    model = modelOf(prepared, choice, identification::valuesOnly({}));
+    model = modelOf(prepared, choice, identification::estimatesOnly({}));
   const campaign::Campaign& campaign = prepared.campaign;
   const frames::Frames frames = model ? model->with.frames : identification::solvedFrames(campaign);
   const auto json = [&] {

@@ -18,6 +18,7 @@
 #include "core/identification/warnings.h"
 #include "core/io/input_error.h"
 #include "core/mistakes/find_mistakes.h"
+#include "core/numerics/parallel.h"
 #include "reports/json/campaign_json.h"
 #include "reports/json/identification_json.h"
 #include "reports/json/json.h"
@@ -79,10 +80,16 @@ int identifyCampaign(const IdentifyRequest& request, const CampaignSource& sourc
   const preparation::PreparedCampaign& prepared = *opened;
   if (encodersAlone(prepared.campaign)) return identifyEncodersAlone(prepared, outlet);
   requireLoad(prepared.campaign);
-  const mistakes::ModelAgreement agreement = mistakes::findMistakes(prepared.campaign);
-  const std::optional<extended_model::ExtendedModel> improved = modelOf(prepared, request.model, options);
+  mistakes::ModelAgreement agreement;
+  std::optional<extended_model::ExtendedModel> improved;
+  identification::Identification springs;
+  numerics::onAllCores(2, [&](std::size_t part) {
+    if (part == 1) return void(agreement = mistakes::findMistakes(prepared.campaign));
+    improved = modelOf(prepared, request.model, options);
+    if (!improved) springs = identification::identify(prepared.campaign, options);
+  });
   const campaign::Campaign& campaign = improved ? improved->campaign : prepared.campaign;
-  const identification::Identification result = improved ? improved->with : identification::identify(campaign, options);
+  const identification::Identification& result = improved ? improved->with : springs;
   if (options.subsets.size >= static_cast<int>(result.cases.size()) && !result.cases.empty()) {
     throw io::InputError({"--subset-size"}, std::to_string(options.subsets.size),
                          fmt::format("expected fewer than the {} postures that identify", result.cases.size()));

@@ -12,6 +12,7 @@
 #include "core/audit/checks.h"
 #include "core/audit/remarks.h"
 #include "core/campaign/state_points.h"
+#include "core/numerics/parallel.h"
 
 namespace stiffscope::audit {
 
@@ -130,10 +131,9 @@ AuditReport audit(const preparation::PreparedCampaign& prepared) {
   report.checks = prepared.screening;
   report.rejected = prepared.preparation.rejected;
   const AuditInput input = auditInput(prepared);
-  for (const Check& check : kAllChecks) {
-    Findings findings = check.of(input);
-    std::move(findings.begin(), findings.end(), std::back_inserter(report.checks));
-  }
+  std::vector<Findings> findings(kAllChecks.size());
+  numerics::onAllCores(findings.size(), [&](std::size_t i) { findings[i] = kAllChecks[i].of(input); });
+  for (Findings& of_check : findings) std::move(of_check.begin(), of_check.end(), std::back_inserter(report.checks));
   const std::set<std::string> made = madeChecks(report.checks);
   report.made = static_cast<int>(made.size());
   report.of = static_cast<int>(preparation::kAuditCheckIds.size());

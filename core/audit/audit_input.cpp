@@ -2,6 +2,7 @@
 
 #include "core/audit/limits.h"
 #include "core/identification/method_solution.h"
+#include "core/numerics/parallel.h"
 #include "core/preparation/repeatability.h"
 
 namespace stiffscope::audit {
@@ -24,14 +25,20 @@ AuditInput auditInput(const preparation::PreparedCampaign& prepared) {
   input.scatter = prepared.scatter;
   input.noise = preparation::declaredNoise(input.campaign);
   input.states = campaign::statePoints(input.campaign);
-  identification::SolvedDay day = identification::solveDay(input.campaign);
-  input.step = day.step;
-  input.frames = std::move(day.frames);
-  input.arm = std::move(day.arm);
-  input.rigid = frames::rigidPoints(input.campaign, sagOf(input));
-  input.absolute = fitAbsolutePositions(input.campaign, input.frames, input.arm.geometry, input.states, input.noise);
-  input.model = mistakes::findMistakes(input.campaign);
-  input.controller = mistakes::controllerAgreement(input.campaign, kControllerDigits);
+  const auto solve = [&] {
+    identification::SolvedDay day = identification::solveDay(input.campaign);
+    input.step = day.step;
+    input.frames = std::move(day.frames);
+    input.arm = std::move(day.arm);
+    input.rigid = frames::rigidPoints(input.campaign, sagOf(input));
+    input.absolute = fitAbsolutePositions(input.campaign, input.frames, input.arm.geometry, input.states, input.noise);
+  };
+  // Neither asks what the other finds.
+  numerics::onAllCores(2, [&](std::size_t part) {
+    if (part == 0) return solve();
+    input.model = mistakes::findMistakes(input.campaign);
+    input.controller = mistakes::controllerAgreement(input.campaign, kControllerDigits);
+  });
   return input;
 }
 

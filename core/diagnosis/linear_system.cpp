@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
+#include <utility>
 
 #include "core/effects/gravity_equilibrium.h"
 #include "core/frames/arm_parameters.h"
 #include "core/identification/load_case.h"
 #include "core/numerics/normal_equations.h"
+#include "core/numerics/parallel.h"
 #include "core/preparation/finding.h"
 #include "metrology/rigid_motion.h"
 
@@ -268,10 +271,8 @@ GapPosture unwhitened(const SystemInput& input, const SystemState& state, const 
                       const GapLayout& layout, const SystemRows& rows) {
   GapPosture posture;
   posture.pose = rows.pose;
-  posture.states = rows.states;
   posture.unloaded_readings = rows.unloaded_readings;
   posture.loaded_readings = rows.loaded_readings;
-  posture.by_wrench = rows.by_wrench;
   const Eigen::Index at_rest = input.absolute ? rows.position.size() : 0;
   const Eigen::Index per_state = rows.states.front().rows();
   posture.position_rows = at_rest;
@@ -304,13 +305,14 @@ GapPosture unwhitened(const SystemInput& input, const SystemState& state, const 
 }
 
 /// Derivatives of measured less modelled by the geometry's steps: differences of the rows themselves.
-void addGeometry(const SystemInput& input, const SystemState& state, const std::vector<SystemRows>& rows,
-                 LinearSystem& data) {
+void addGeometry(const SystemInput& input, const SystemState& state, const LoadingRows& maker,
+                 const std::vector<SystemRows>& rows, LinearSystem& data) {
   const Eigen::Index steps = frames::ArmParameters::count(input.campaign.targets.size());
-  for (Eigen::Index k = 0; k < steps; ++k) {
+  numerics::onAllCores(static_cast<std::size_t>(steps), [&](std::size_t step) {
+    const auto k = static_cast<Eigen::Index>(step);
     const frames::LoadingGeometry there = frames::moved(
         state.geometry, frames::ArmParameters::kSmall * Eigen::VectorXd::Unit(steps, k), state.at.epoch_centre);
-    const auto other = loadingRows(input.campaign, there, state.at, state.corrections);
+    const auto other = maker.rows(there, state.at, state.corrections);
     for (std::size_t i = 0; i < rows.size(); ++i) {
       GapPosture& posture = data.postures[i];
       auto column = posture.columns.col(data.layout.geometry + k);
@@ -321,7 +323,7 @@ void addGeometry(const SystemInput& input, const SystemState& state, const std::
           ((rows[i].displacement - rows[i].by_compliance * c) - (other[i].displacement - other[i].by_compliance * c)) /
           frames::ArmParameters::kSmall;
     }
-  }
+  });
 }
 
 Eigen::Matrix<double, 7, 7> stiffnessNormalOf(const GapPosture& posture, const Eigen::MatrixXd& covariance) {
@@ -356,20 +358,28 @@ void whiten(const GapCovariance& covariance, GapPosture& posture) {
 
 void addPostureEquations(const SystemInput& input, const SystemState& state, const ContainedEffects& effects_now,
                          LinearSystem& data) {
-  const auto rows = loadingRows(input.campaign, state.geometry, state.at, state.corrections);
-  for (const SystemRows& one : rows) data.postures.push_back(unwhitened(input, state, effects_now, data.layout, one));
-  addGeometry(input, state, rows, data);
+  const LoadingRows maker(input.campaign);
+  std::vector<SystemRows> rows = maker.rows(state.geometry, state.at, state.corrections);
+  data.postures.resize(rows.size());
+  numerics::onAllCores(rows.size(), [&](std::size_t i) {
+    data.postures[i] = unwhitened(input, state, effects_now, data.layout, rows[i]);
+    data.postures[i].states = std::move(rows[i].states);
+    data.postures[i].by_wrench = std::move(rows[i].by_wrench);
+  });
+  addGeometry(input, state, maker, rows, data);
   for (const GapPosture& posture : data.postures) data.loading_rows += posture.right.size();
 }
 
 void whitenPostures(const SystemInput& input, const SystemState& state, LinearSystem& data) {
-  double noise = 0.0, count = 0.0;
-  for (GapPosture& posture : data.postures) {
-    const GapCovariance covariance = gapCovariance(input, state, posture);
-    whiten(covariance, posture);
-    noise += covariance.displacement_trace;
-    count += covariance.displacements;
-  }
+  std::vector<double> traces(data.postures.size()), counts(data.postures.size());
+  numerics::onAllCores(data.postures.size(), [&](std::size_t i) {
+    const GapCovariance covariance = gapCovariance(input, state, data.postures[i]);
+    whiten(covariance, data.postures[i]);
+    traces[i] = covariance.displacement_trace;
+    counts[i] = covariance.displacements;
+  });
+  const double noise = std::accumulate(traces.begin(), traces.end(), 0.0),
+               count = std::accumulate(counts.begin(), counts.end(), 0.0);
   data.state_noise = count > 0.0 ? std::sqrt(noise / count) : 0.0;
 }
 
@@ -399,15 +409,17 @@ void addSweepEquations(const SystemInput& input, const SystemState& state, const
   const auto rows = sweepRows(input.campaign, state.geometry, state.r0_from_sweeps, state.at);
   const PositionByGeometry by_geometry(state.geometry, state.at, state.at.epoch_centre);
   Eigen::Index total = 0;
-  for (const SweepRows& one : rows) total += one.position.size();
-  data.as_read.rows.setZero(total, data.layout.end + 1);
-  Eigen::Index row = 0;
+  std::vector<Eigen::Index> first;
   for (const SweepRows& one : rows) {
-    auto own = data.as_read.rows.middleRows(row, one.position.size());
-    fill(input, state, effects_now, data.layout, by_geometry, one, own);
-    row += own.rows();
+    first.push_back(total);
+    total += one.position.size();
     data.as_read.points.insert(data.as_read.points.end(), one.state.points.begin(), one.state.points.end());
   }
+  data.as_read.rows.setZero(total, data.layout.end + 1);
+  numerics::onAllCores(rows.size(), [&](std::size_t i) {
+    fill(input, state, effects_now, data.layout, by_geometry, rows[i],
+         data.as_read.rows.middleRows(first[i], rows[i].position.size()));
+  });
   data.sweep_rows += total;
 }
 

@@ -16,14 +16,10 @@ namespace stiffscope::diagnosis {
 
 namespace {
 
-struct TimesOfPose {
-  std::map<int, double> by_step;
-};
-
-std::vector<TimesOfPose> timesOf(const campaign::Campaign& campaign) {
-  std::vector<TimesOfPose> times(campaign.pose_ids.size());
+std::vector<std::map<int, double>> timesOf(const campaign::Campaign& campaign) {
+  std::vector<std::map<int, double>> times(campaign.pose_ids.size());
   for (const campaign::State& state : campaign.states->rows)
-    times[static_cast<std::size_t>(state.pose)].by_step[state.step] = state.time_s;
+    times[static_cast<std::size_t>(state.pose)][state.step] = state.time_s;
   return times;
 }
 
@@ -61,23 +57,25 @@ robot::Wrench corrected(const robot::Wrench& read, const effects::ArmState& stat
 class LoadingRowMaker {
  public:
   LoadingRowMaker(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,
-                  const effects::LinearizationPoint& at, const effects::Corrections& corrections)
-      : campaign_(campaign), geometry_(geometry), at_(at), corrections_(corrections), times_(timesOf(campaign)) {
-    const identification::LoadReadings readings(campaign, identification::loadSteps(campaign));
-    for (const int step : readings.steps()) {
-      for (identification::LoadCase& one : identification::loadCases(campaign, readings, geometry, step))
-        cases_[one.pose].push_back(std::move(one));
-    }
-  }
+                  const effects::LinearizationPoint& at, const effects::Corrections& corrections,
+                  const identification::LoadReadings& readings, const std::vector<std::map<int, double>>& times)
+      : campaign_(campaign),
+        geometry_(geometry),
+        at_(at),
+        corrections_(corrections),
+        times_(times),
+        cases_(campaign, readings, geometry) {}
 
-  std::vector<SystemRows> run() const {
+  std::vector<SystemRows> run(std::size_t first, std::size_t end) const {
     std::vector<SystemRows> rows;
-    for (const auto& [pose, cases] : cases_) {
+    for (std::size_t pose = first; pose < end; ++pose) {
+      const std::vector<identification::LoadCase> cases = cases_.ofPose(pose);
+      if (cases.empty()) continue;
       const std::vector<int> targets = commonTargets(cases);
       double largest = 0.0;
       for (const identification::LoadCase& one : cases) largest = std::max(largest, one.wrench.force.norm());
       if (targets.empty() || largest <= 0.0) continue;
-      rows.push_back(rowsOf(pose, cases, targets, largest));
+      rows.push_back(rowsOf(static_cast<int>(pose), cases, targets, largest));
     }
     return rows;
   }
@@ -116,6 +114,7 @@ class LoadingRowMaker {
     if (cases.front().flange_unloaded) rest.flange = *cases.front().flange_unloaded;
     rows.unloaded_readings = std::max(1, cases.front().targets.front().unloaded_readings);
     rows.loaded_readings = std::max(1, cases.front().targets.front().loaded_readings);
+    rows.states.reserve(cases.size() + 1);
     rows.states.push_back(rest);
     for (std::size_t k = 0; k < cases.size(); ++k) {
       addState(cases[k], rest, largest, static_cast<Eigen::Index>(k) * per_state, rows);
@@ -127,7 +126,7 @@ class LoadingRowMaker {
 
   void addState(const identification::LoadCase& one, const effects::ArmState& rest, double largest, Eigen::Index at_row,
                 SystemRows& rows) const {
-    effects::ArmState state = rest;
+    effects::ArmState& state = rows.states.emplace_back(rest);
     state.step = one.step;
     state.time_s = timeOf(one.pose, one.step);
     state.loaded = one.wrench.force.norm() > campaign::kReturnShare * largest;
@@ -157,7 +156,6 @@ class LoadingRowMaker {
           jacobian * at_.compliance.asDiagonal() * wrench_to_torque;
     }
     rows.by_wrench.push_back(std::move(by_wrench));
-    rows.states.push_back(std::move(state));
   }
 
   void addPosition(const effects::ArmState& rest, SystemRows& rows) const {
@@ -174,7 +172,7 @@ class LoadingRowMaker {
   }
 
   double timeOf(int pose, int step) const {
-    const auto& by_step = times_[static_cast<std::size_t>(pose)].by_step;
+    const auto& by_step = times_[static_cast<std::size_t>(pose)];
     const auto found = by_step.find(step);
     return found == by_step.end() ? campaign::kNoTime : found->second;
   }
@@ -183,8 +181,8 @@ class LoadingRowMaker {
   const frames::LoadingGeometry& geometry_;
   const effects::LinearizationPoint& at_;
   const effects::Corrections& corrections_;
-  std::vector<TimesOfPose> times_;
-  std::map<int, std::vector<identification::LoadCase>> cases_;
+  const std::vector<std::map<int, double>>& times_;
+  identification::LoadCaseMaker cases_;
 };
 
 }  // namespace
@@ -198,14 +196,24 @@ double compensatorSlope(const effects::LinearizationPoint& at, const Vector6d& t
   return slope;
 }
 
-std::vector<SystemRows> loadingRows(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,
-                                    const effects::LinearizationPoint& at, const effects::Corrections& corrections) {
+LoadingRows::LoadingRows(const campaign::Campaign& campaign)
+    : campaign_(campaign), readings_(campaign, identification::loadSteps(campaign)), times_(timesOf(campaign)) {}
+
+std::vector<SystemRows> LoadingRows::rows(const frames::LoadingGeometry& geometry,
+                                          const effects::LinearizationPoint& at,
+                                          const effects::Corrections& corrections, std::size_t first,
+                                          std::size_t end) const {
   frames::LoadingGeometry shifted = geometry;
   if (shifted.r0_from_loading) {
     shifted.r0_from_loading =
         metrology::motionAbout(at.epoch_centre, corrections.frame).inverse() * *geometry.r0_from_loading;
   }
-  return LoadingRowMaker(campaign, shifted, at, corrections).run();
+  return LoadingRowMaker(campaign_, shifted, at, corrections, readings_, times_).run(first, end);
+}
+
+std::vector<SystemRows> loadingRows(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,
+                                    const effects::LinearizationPoint& at, const effects::Corrections& corrections) {
+  return LoadingRows(campaign).rows(geometry, at, corrections);
 }
 
 std::vector<SweepRows> sweepRows(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,

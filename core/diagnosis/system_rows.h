@@ -1,12 +1,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <map>
 #include <vector>
 
 #include "core/campaign/campaign.h"
 #include "core/effects/arm_state.h"
 #include "core/effects/effect_model.h"
 #include "core/frames/arm_parameters.h"
+#include "core/identification/load_case.h"
 
 namespace stiffscope::diagnosis {
 
@@ -57,7 +59,28 @@ struct SweepRows {
 };
 
 /// Rows of the loading (or of `displacements`), in the order of poses. Reflectors that some step of a posture
-/// lacks are left out of that posture; a posture without a loaded state is left out.
+/// lacks are left out of that posture; a posture without a loaded state is left out. What does not depend on the
+/// geometry is gathered once for the many geometries by which their derivatives are found. Refers to the campaign.
+class LoadingRows {
+ public:
+  explicit LoadingRows(const campaign::Campaign& campaign);
+
+  std::vector<SystemRows> rows(const frames::LoadingGeometry& geometry, const effects::LinearizationPoint& at,
+                               const effects::Corrections& corrections) const {
+    return rows(geometry, at, corrections, 0, poses());
+  }
+  /// Those of the poses from `first` on, before `end`.
+  std::vector<SystemRows> rows(const frames::LoadingGeometry& geometry, const effects::LinearizationPoint& at,
+                               const effects::Corrections& corrections, std::size_t first, std::size_t end) const;
+
+  std::size_t poses() const { return readings_.poses(); }
+
+ private:
+  const campaign::Campaign& campaign_;
+  identification::LoadReadings readings_;
+  std::vector<std::map<int, double>> times_;  // by pose and step, s
+};
+
 std::vector<SystemRows> loadingRows(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,
                                     const effects::LinearizationPoint& at, const effects::Corrections& corrections);
 

@@ -1,5 +1,7 @@
 #include "core/effects/arm_state.h"
 
+#include <algorithm>
+
 #include "core/robot/kinematics.h"
 
 namespace stiffscope::effects {
@@ -14,6 +16,42 @@ robot::ArmPosture movedPosture(const robot::Robot& arm, const Vector6d& turned, 
   robot::ArmPosture posture = robot::postureAt(arm, turned);
   for (std::size_t b = 0; b < moved.size(); ++b) posture.motion[b] = moved[b] * posture.motion[b];
   return posture;
+}
+
+CompactPosture::CompactPosture(const PostureStates& posture) {
+  const ArmState& rest = posture.front();
+  pose_ = rest.pose;
+  q_ = rest.q;
+  turned_ = rest.turned;
+  const auto isMoved = [](const Eigen::Isometry3d& motion) { return motion.matrix() != Eigen::Matrix4d::Identity(); };
+  if (std::any_of(rest.moved.begin(), rest.moved.end(), isMoved)) moved_.assign(rest.moved.begin(), rest.moved.end());
+  flange_ = rest.flange;
+  targets_ = rest.targets;
+  points_ = rest.points;
+  of_states_.reserve(posture.size());
+  for (const ArmState& state : posture)
+    of_states_.push_back({state.step, state.time_s, state.loaded, state.cell_axes, state.load, state.load_torque});
+}
+
+PostureStates CompactPosture::states(const frames::LoadingGeometry& geometry) const {
+  BodyMotions moved = noBodyMotions();
+  std::copy(moved_.begin(), moved_.end(), moved.begin());
+  ArmState rest = stateMoved(geometry, q_, turned_, moved);
+  rest.pose = pose_;
+  rest.flange = flange_;
+  rest.targets = targets_;
+  rest.points = points_;
+  PostureStates states(of_states_.size(), rest);
+  for (std::size_t s = 0; s < states.size(); ++s) {
+    const OfState& own = of_states_[s];
+    states[s].step = own.step;
+    states[s].time_s = own.time_s;
+    states[s].loaded = own.loaded;
+    states[s].cell_axes = own.cell_axes;
+    states[s].load = own.load;
+    states[s].load_torque = own.load_torque;
+  }
+  return states;
 }
 
 ArmState stateAt(const frames::LoadingGeometry& geometry, const Vector6d& q, const Vector6d& joint_offset) {

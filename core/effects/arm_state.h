@@ -42,6 +42,41 @@ struct ArmState {
 /// All states of one posture in the order of the load steps; the first is unloaded.
 using PostureStates = std::vector<ArmState>;
 
+/// The states of one posture in a tenth of their room, for a day of ten thousand: the arm, which they have in common,
+/// by its joint angles, and by state what the load is.
+class CompactPosture {
+ public:
+  struct OfState {
+    int step = 0;
+    double time_s = campaign::kNoTime;
+    bool loaded = false;
+    Eigen::Matrix3d cell_axes = Eigen::Matrix3d::Identity();
+    robot::Wrench load;
+    Vector6d load_torque = Vector6d::Zero();
+  };
+
+  CompactPosture() = default;
+  /// States that differ by their loads alone, one at least.
+  explicit CompactPosture(const PostureStates& posture);
+
+  /// As they were, in the geometry in which they were made.
+  PostureStates states(const frames::LoadingGeometry& geometry) const;
+
+  int pose() const { return pose_; }
+  void setPose(int pose) { pose_ = pose; }
+  const Eigen::Isometry3d& flange() const { return flange_; }
+  const std::vector<OfState>& ofStates() const { return of_states_; }
+
+ private:
+  int pose_ = -1;
+  Vector6d q_ = Vector6d::Zero(), turned_ = Vector6d::Zero();
+  std::vector<Eigen::Isometry3d> moved_;  // empty where no body is
+  Eigen::Isometry3d flange_ = Eigen::Isometry3d::Identity();
+  std::vector<int> targets_;
+  std::vector<Eigen::Vector3d> points_;
+  std::vector<OfState> of_states_;
+};
+
 /// The geometry's part of a state: posture, axes, flange and gravity load at q with the gravity sag, its
 /// joints turned by `joint_offset` (rad) besides.
 ArmState stateAt(const frames::LoadingGeometry& geometry, const Vector6d& q, const Vector6d& joint_offset);

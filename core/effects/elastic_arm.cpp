@@ -62,9 +62,22 @@ ElasticArm::Deflection ElasticArm::deflectionBy(const PostureStates& posture, st
 
 std::optional<Eigen::Isometry3d> ElasticArm::toolMotion(const PostureStates& posture, std::size_t s,
                                                         const ToolLoad* load) const {
+  PostureStates states = posture;
+  return settledTool(states, s, load);
+}
+
+std::optional<Eigen::Isometry3d> ElasticArm::toolMotion(PostureStates& posture, std::size_t s,
+                                                        const ToolLoad* load) const {
+  ArmState before = posture[s];
+  const std::optional<Eigen::Isometry3d> tool = settledTool(posture, s, load);
+  posture[s] = std::move(before);
+  return tool;
+}
+
+std::optional<Eigen::Isometry3d> ElasticArm::settledTool(PostureStates& states, std::size_t s,
+                                                         const ToolLoad* load) const {
   constexpr int kMostSteps = 60;
   constexpr double kSettled = 1e-10;  // rad
-  PostureStates states = posture;
   ArmState& state = states[s];
   Vector6d angles = state.q;
   Deflection deflection;

@@ -46,9 +46,12 @@ class ElasticArm {
   /// zero, in state `s` of a posture: its q, its history of loads, whether it is loaded. `load` acts there;
   /// null: the own weight alone. Empty where the arm does not come to rest.
   std::optional<Eigen::Isometry3d> toolMotion(const PostureStates& posture, std::size_t s, const ToolLoad* load) const;
+  /// The same on states that the caller has for it: state `s` is moved, and put back.
+  std::optional<Eigen::Isometry3d> toolMotion(PostureStates& posture, std::size_t s, const ToolLoad* load) const;
 
  private:
   struct Deflection;
+  std::optional<Eigen::Isometry3d> settledTool(PostureStates& states, std::size_t s, const ToolLoad* load) const;
   Deflection deflectionBy(const PostureStates& posture, std::size_t s) const;
 
   const frames::LoadingGeometry& geometry_;

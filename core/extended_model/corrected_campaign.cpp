@@ -3,16 +3,19 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <deque>
+#include <functional>
+#include <iterator>
 #include <map>
 #include <set>
 #include <utility>
+#include <vector>
 
 #include "core/effects/all.h"
 #include "core/effects/gravity_equilibrium.h"
 #include "core/extended_model/effect_offsets.h"
 #include "core/identification/outliers.h"
 #include "core/io/input_error.h"
+#include "core/numerics/parallel.h"
 #include "metrology/rigid_motion.h"
 
 namespace stiffscope::extended_model {
@@ -47,13 +50,12 @@ Eigen::Matrix3d turnOf(const Eigen::Vector3d& w) {
   return Eigen::AngleAxisd(size, w / size).toRotationMatrix();
 }
 
-/// The day's states under load by pose and step.
-std::map<std::pair<int, int>, const effects::ArmState*> loadedStates(const EffectFit& effects) {
-  std::map<std::pair<int, int>, const effects::ArmState*> states;
-  for (const auto& [pose, posture] : effects.day) {
-    for (std::size_t s = 1; s < posture.states.size(); ++s) states[{pose, posture.states[s].step}] = &posture.states[s];
-  }
-  return states;
+/// The day's state under load of a pose and step; null where there is none.
+const effects::CompactPosture::OfState* loadedState(const DayPosture& posture, int step) {
+  const auto& states = posture.states.ofStates();
+  const auto found = std::find_if(states.begin() + 1, states.end(),
+                                  [&](const effects::CompactPosture::OfState& one) { return one.step == step; });
+  return found == states.end() ? nullptr : &*found;
 }
 
 /// What the effects correct in wrenches and frame, as the fit's own equations have it.
@@ -75,17 +77,17 @@ void correctWrenches(const EffectFit& effects, const effects::Corrections& by, c
   if (!by.load_point.isZero(0.0)) moveLoadPoint(by.load_point, campaign);
   const Eigen::Matrix3d turn = turnOf(by.cell_turn);
   const Eigen::Vector3d weight = -by.missing_weight * effects.fit.state.at.r0_from_base_link.linear().col(2);
-  const std::map<std::pair<int, int>, const effects::ArmState*> states = loadedStates(effects);
   for (campaign::State& row : campaign.states->rows) {
-    const auto found = states.find({row.pose, row.step});
-    if (found == states.end()) continue;
-    const effects::ArmState* state = found->second;
+    const auto found = effects.day.find(row.pose);
+    if (found == effects.day.end()) continue;
+    const effects::CompactPosture::OfState* state = loadedState(found->second, row.step);
+    if (state == nullptr) continue;
     auto force = row.wrench_in_cell.head<3>();
     auto moment = row.wrench_in_cell.tail<3>();
     force = turn * Eigen::Vector3d(force);
     moment = turn * Eigen::Vector3d(moment);
     if (!state->loaded) continue;
-    const Eigen::Vector3d arm = state->flange.linear() * effects.fit.state.at.load_offset;
+    const Eigen::Vector3d arm = found->second.states.flange().linear() * effects.fit.state.at.load_offset;
     force += by.cell_force + state->cell_axes.transpose() * weight;
     moment += state->cell_axes.transpose() * arm.cross(weight);
   }
@@ -96,38 +98,44 @@ class Shifter {
  public:
   /// `frame`: motion of the loading's frame, as frame_error has it, that is undone first.
   Shifter(const EffectFit& effects, const Vector6d& frame)
-      : effects_(effects), frame_(frame), state_(effects.fit.state) {
-    for (const auto& [pose, posture] : effects.day) postures_[pose] = &posture.states;
-  }
+      : effects_(effects), frame_(frame), state_(effects.fit.state) {}
 
-  void loading(const campaign::States& states, campaign::Loading& table) {
+  void loading(const campaign::States& states, campaign::Loading& table) const {
+    std::map<int, const campaign::State*> resting;  // those that were never loaded
     for (const campaign::State& row : states.rows) {
-      if (row.step != 0 || postures_.count(row.pose) > 0) continue;
-      resting_.push_back({atRest(row.pose, row.q, row.time_s)});
-      postures_[row.pose] = &resting_.back();
+      if (row.step == 0 && !effects_.day.contains(row.pose)) resting.emplace(row.pose, &row);
     }
+    const auto statesOf = [&](int pose) -> effects::PostureStates {
+      const auto rest = resting.find(pose);
+      if (rest == resting.end()) return effects_.statesOf(pose);
+      return {atRest(pose, rest->second->q, rest->second->time_s)};
+    };
     const Eigen::Isometry3d r0_from_loading = state_.geometry.r0_from_loading.value_or(Eigen::Isometry3d::Identity());
     const Eigen::Isometry3d loading_from_r0 = r0_from_loading.inverse();
     const Eigen::Isometry3d corrected =
         metrology::motionAbout(state_.at.epoch_centre, frame_).inverse() * r0_from_loading;
-    const auto places = unloadedPlaces(table, corrected);
-    for (campaign::LoadingReading& row : table.rows) {
+    const Offsets offsets(effects_, unloadedPlaces(table, corrected), statesOf);
+    numerics::smallWorkOnAllCores(table.rows.size(), [&](std::size_t i) {
+      campaign::LoadingReading& row = table.rows[i];
       const Eigen::Vector3d point = corrected * row.point;
-      row.point =
-          loading_from_r0 * (point - offsetIn(row.pose, row.step, row.target, places.at({row.pose, row.target})));
-    }
+      row.point = loading_from_r0 * (point - offsets.of(row.pose, row.step, row.target));
+    });
   }
 
-  void displacements(campaign::Displacements& table) {
+  void displacements(campaign::Displacements& table) const {
     const Eigen::Matrix3d table_from_r0 =
         state_.geometry.displacements_in_r0.value_or(Eigen::Matrix3d::Identity()).transpose();
-    for (campaign::Displacement& row : table.rows) {
-      const auto known = postures_.find(row.pose);
+    Places places;
+    for (const campaign::Displacement& row : table.rows) {
       const auto& at_zero = state_.geometry.targets_at_zero[static_cast<std::size_t>(row.target)];
-      if (known == postures_.end() || !at_zero) continue;
-      const Eigen::Vector3d place = known->second->front().posture.motion[6] * *at_zero;
+      if (!effects_.day.contains(row.pose) || !at_zero) continue;
+      auto& [sum, count] = places[row.pose][row.target];
+      if (count == 0) sum = effects_.statesOf(row.pose).front().posture.motion[6] * *at_zero, count = 1;
+    }
+    const Offsets offsets(effects_, places, [&](int pose) { return effects_.statesOf(pose); });
+    for (campaign::Displacement& row : table.rows) {
       row.displacement -=
-          table_from_r0 * (offsetIn(row.pose, row.step, row.target, place) - offsetIn(row.pose, 0, row.target, place));
+          table_from_r0 * (offsets.of(row.pose, row.step, row.target) - offsets.of(row.pose, 0, row.target));
     }
   }
 
@@ -142,7 +150,59 @@ class Shifter {
   }
 
  private:
-  using Key = std::pair<int, int>;  // pose and target
+  struct Sum {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    int count = 0;
+
+    Eigen::Vector3d mean() const { return sum / count; }
+  };
+  using Places = std::map<int, std::map<int, Sum>>;  // by pose, then target
+
+  /// Of all postures and reflectors that have a place, in all states.
+  class Offsets {
+   public:
+    Offsets(const EffectFit& effects, const Places& places,
+            const std::function<effects::PostureStates(int pose)>& states_of) {
+      std::vector<const Places::value_type*> postures;
+      for (const auto& posture : places) {
+        by_pose_.emplace(posture.first, postures.size());
+        postures.push_back(&posture);
+      }
+      of_posture_.resize(postures.size());
+      numerics::onAllCores(postures.size(), [&](std::size_t i) {
+        const auto& [pose, by_target] = *postures[i];
+        const effects::PostureStates states = states_of(pose);
+        if (states.empty()) return;
+        const PostureOffsets own(effects, states, {});
+        OfPosture& here = of_posture_[i];
+        for (const effects::ArmState& state : states) here.steps.push_back(state.step);
+        for (const auto& [target, place] : by_target) {
+          here.targets.push_back(target);
+          const std::vector<Eigen::Vector3d> by_state = own.of(target, place.mean());
+          here.offsets.insert(here.offsets.end(), by_state.begin(), by_state.end());
+        }
+      });
+    }
+
+    Eigen::Vector3d of(int pose, int step, int target) const {
+      const auto found = by_pose_.find(pose);
+      if (found == by_pose_.end()) return Eigen::Vector3d::Zero();
+      const OfPosture& here = of_posture_[found->second];
+      const auto s = std::find(here.steps.begin(), here.steps.end(), step) - here.steps.begin();
+      const auto t = std::find(here.targets.begin(), here.targets.end(), target) - here.targets.begin();
+      if (s == std::ssize(here.steps) || t == std::ssize(here.targets)) return Eigen::Vector3d::Zero();
+      return here.offsets[static_cast<std::size_t>(t) * here.steps.size() + static_cast<std::size_t>(s)];
+    }
+
+   private:
+    struct OfPosture {
+      std::vector<int> steps, targets;
+      std::vector<Eigen::Vector3d> offsets;  // by target, then state
+    };
+
+    std::map<int, std::size_t> by_pose_;
+    std::vector<OfPosture> of_posture_;
+  };
 
   /// The arm at rest, not loaded, with the effects' own turns in.
   effects::ArmState atRest(int pose, const Vector6d& q, double time_s) const {
@@ -153,51 +213,24 @@ class Shifter {
   }
 
   /// Where reflectors stand in step 0 (mean of its readings), else wherever they were read.
-  static std::map<Key, Eigen::Vector3d> unloadedPlaces(const campaign::Loading& table,
-                                                       const Eigen::Isometry3d& r0_from_loading) {
-    std::map<Key, std::pair<Eigen::Vector3d, int>> sums;
-    for (const bool unloaded : {true, false}) {
-      std::map<Key, std::pair<Eigen::Vector3d, int>> here;
-      for (const campaign::LoadingReading& row : table.rows) {
-        const Key key{row.pose, row.target};
-        if ((row.step == 0) != unloaded || sums.count(key) > 0) continue;
-        auto& [sum, count] = here.try_emplace(key, Eigen::Vector3d::Zero(), 0).first->second;
-        sum += r0_from_loading * row.point, ++count;
-      }
-      sums.merge(here);
+  static Places unloadedPlaces(const campaign::Loading& table, const Eigen::Isometry3d& r0_from_loading) {
+    Places at_rest, else_where;
+    for (const campaign::LoadingReading& row : table.rows) {
+      Sum& sum = (row.step == 0 ? at_rest : else_where)[row.pose][row.target];
+      sum.sum += r0_from_loading * row.point, ++sum.count;
     }
-    std::map<Key, Eigen::Vector3d> places;
-    for (const auto& [key, sum] : sums) places[key] = sum.first / sum.second;
-    return places;
-  }
-
-  Eigen::Vector3d offsetIn(int pose, int step, int target, const Eigen::Vector3d& place) {
-    const auto known = postures_.find(pose);
-    if (known == postures_.end()) return Eigen::Vector3d::Zero();
-    const effects::PostureStates& states = *known->second;
-    const Key key{pose, target};
-    if (offsets_.count(key) == 0) {
-      const PostureOffsets& own = by_pose_.try_emplace(pose, effects_, states, PostureOffsets::Which{}).first->second;
-      offsets_[key] = own.of(target, place);
-    }
-    for (std::size_t s = 0; s < states.size(); ++s) {
-      if (states[s].step == step) return offsets_[key][s];
-    }
-    return Eigen::Vector3d::Zero();
+    for (auto& [pose, by_target] : else_where) at_rest[pose].merge(by_target);
+    return at_rest;
   }
 
   const EffectFit& effects_;
   Vector6d frame_;
   const diagnosis::SystemState& state_;
-  std::map<int, const effects::PostureStates*> postures_;
-  std::deque<effects::PostureStates> resting_;  ///< those that were never loaded
-  std::map<int, PostureOffsets> by_pose_;
-  std::map<Key, std::vector<Eigen::Vector3d>> offsets_;
 };
 
 /// Every reading of loading, displacements and, where they took part in the fit, sweeps.
 void shiftReadings(const EffectFit& effects, const Vector6d& frame, campaign::Campaign& campaign) {
-  Shifter shifter(effects, frame);
+  const Shifter shifter(effects, frame);
   if (campaign.loading && campaign.states && effects.fit.state.geometry.r0_from_loading)
     shifter.loading(*campaign.states, *campaign.loading);
   if (campaign.displacements) shifter.displacements(*campaign.displacements);

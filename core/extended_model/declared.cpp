@@ -33,7 +33,8 @@ Declared declaredOf(const campaign::Campaign& campaign, const identification::Id
   const auto add = [&](BudgetSource source, void (*move)(campaign::Campaign&)) {
     campaign::Campaign other = campaign;
     move(other);
-    const identification::Identification moved = identification::identify(other, identification::valuesOnly(options));
+    const identification::Identification moved =
+        identification::identify(other, identification::estimatesOnly(options));
     Declared::Column column{source, {}};
     for (const identification::Method which : identification::kMethods) {
       Vector6d& change = column.compliance[static_cast<std::size_t>(which)];

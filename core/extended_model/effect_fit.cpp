@@ -13,6 +13,7 @@
 #include "core/diagnosis/preconditions.h"
 #include "core/diagnosis/system_rows.h"
 #include "core/effects/all.h"
+#include "core/numerics/parallel.h"
 #include "core/preparation/subsample.h"
 #include "metrology/linear_algebra.h"
 
@@ -274,7 +275,7 @@ EffectFit fitToAll(const preparation::PreparedCampaign& prepared, const Requeste
   effects.fit = diagnosis::fitGap(*input, start->state, allowed, rules);
   requireSeen(effects.fit, *input);
   for (std::size_t i = 0; i < effects.fit.data.postures.size(); ++i)
-    effects.day[effects.fit.data.postures[i].pose] = {effects.fit.data.postures[i].states, i};
+    effects.day[effects.fit.data.postures[i].pose] = {effects::CompactPosture(effects.fit.data.postures[i].states), i};
   effects.start = std::move(start);
   effects.input = std::move(input);
   effects.free = freeParameters(effects);
@@ -303,15 +304,24 @@ EffectFit fitToAll(const preparation::PreparedCampaign& prepared, const Requeste
 EffectFit overWholeDay(EffectFit spread, const preparation::PreparedCampaign& whole) {
   if (spread.fit.data.postures.empty()) return spread;
   const diagnosis::SystemState& state = spread.fit.state;
+  const diagnosis::LoadingRows whole_rows(whole.campaign);
+  constexpr std::size_t kBlock = 64;  // the rows themselves of a whole day would be most of the memory
+  std::vector<std::vector<effects::CompactPosture>> blocks((whole_rows.poses() + kBlock - 1) / kBlock);
+  numerics::onAllCores(blocks.size(), [&](std::size_t block) {
+    for (const diagnosis::SystemRows& rows :
+         whole_rows.rows(state.geometry, state.at, state.corrections, block * kBlock,
+                         std::min(whole_rows.poses(), (block + 1) * kBlock)))
+      blocks[block].emplace_back(rows.states);
+  });
   std::map<int, DayPosture> day;
-  for (diagnosis::SystemRows& rows :
-       diagnosis::loadingRows(whole.campaign, state.geometry, state.at, state.corrections))
-    day[rows.pose].states = std::move(rows.states);
+  for (std::vector<effects::CompactPosture>& block : blocks) {
+    for (effects::CompactPosture& one : block) day[one.pose()].states = std::move(one);
+  }
   const std::vector<std::size_t> kept = preparation::spreadPostures(whole.campaign, preparation::kMostDiagnosed);
   for (auto& [pose, posture] : spread.day) {
-    DayPosture& own = day[static_cast<int>(kept[static_cast<std::size_t>(pose)])];
-    own = std::move(posture);
-    for (effects::ArmState& one : own.states) one.pose = static_cast<int>(kept[static_cast<std::size_t>(pose)]);
+    const auto of_whole = static_cast<int>(kept[static_cast<std::size_t>(pose)]);
+    posture.states.setPose(of_whole);
+    day[of_whole] = std::move(posture);
   }
   spread.day = std::move(day);
   return spread;

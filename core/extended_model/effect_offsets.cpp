@@ -31,11 +31,12 @@ PostureOffsets::PostureOffsets(const EffectFit& effects, const effects::PostureS
   const effects::ElasticArm with(state.geometry, state.at.compliance, state.at,
                                  machineEffects(effects, effects.parameters()));
   const effects::ElasticArm springs(state.geometry, state.at.compliance, state.at, {});
+  effects::PostureStates states = posture;
   for (std::size_t s = 0; s < posture.size(); ++s) {
     effects::ToolLoad load{{}, posture[s].load.force, posture[s].load.moment};
     const auto restOf = [&](const effects::ElasticArm& arm) {
       if (s > 0) load.point_at_zero = with_.front().inverse() * posture[s].load.point;
-      return arm.toolMotion(posture, s, s > 0 ? &load : nullptr);
+      return arm.toolMotion(states, s, s > 0 ? &load : nullptr);
     };
     const auto one = restOf(with), other = restOf(springs);
     if (!one || !other) {
@@ -47,14 +48,17 @@ PostureOffsets::PostureOffsets(const EffectFit& effects, const effects::PostureS
 }
 
 std::vector<Eigen::Vector3d> PostureOffsets::linear(int target, const Eigen::Vector3d& place, bool machine) const {
-  effects::PostureStates states = posture_;
-  for (effects::ArmState& state : states) state.targets = {target}, state.points = {place};
-  std::vector<Eigen::Vector3d> offsets(states.size(), Eigen::Vector3d::Zero());
+  effects::PostureStates states;
+  std::vector<Eigen::Vector3d> offsets(posture_.size(), Eigen::Vector3d::Zero());
   for (const diagnosis::ChosenModel& one : effects_.fit.set.models) {
     const effects::EffectModel& model = effects_.input->models[one.model];
     const bool wanted =
         machine ? effects::natureOf(model.effect) == effects::EffectNature::machine : shiftsReadings(model);
     if (!wanted) continue;
+    if (states.empty()) {
+      states = posture_;
+      for (effects::ArmState& state : states) state.targets = {target}, state.points = {place};
+    }
     const Eigen::VectorXd own = effects_.parametersOf(one);
     for (std::size_t s = 0; s < states.size(); ++s) offsets[s] += model.columns(effects_.fit.state.at, states, s) * own;
   }

@@ -185,7 +185,7 @@ class MethodJudge {
     out.bootstrap = bootstrap();
   }
 
-  /// Complete Pose at the length of its equations.
+  /// Complete Pose at another length than its own.
   void fill(const MachineDisplacement& machine, identification::LengthSensitivity& out) const {
     const std::vector<double> all(equations_.reflectors.size(), 1.0);
     out.compliance = solvedCompliance(equations_, which_, own_.estimate.identifiable, all, noSteps());
@@ -276,11 +276,11 @@ void describeDisplacements(const MachineDisplacement& machine, identification::I
   with.wrist_displacement = machine.wrist;
 }
 
-/// Complete Pose against its length, as the methods are judged, on fewer subsets.
+/// Complete Pose, with its equations, against its length, as the methods are judged, on fewer subsets.
 void judgeLengths(const identification::IdentifyOptions& options, const std::vector<CaseEffects>& cases,
-                  const MachineDisplacement& machine, EffectRefits& refits, ExtendedModel& model) {
+                  const MachineDisplacement& machine, MethodEquations equations, EffectRefits& refits,
+                  ExtendedModel& model) {
   identification::Identification& with = model.with;
-  if (!with.of(identification::Method::complete_pose).available) return;
   identification::IdentifyOptions few = options;
   constexpr std::uint64_t kMost = 50;  // each fits springs and effects anew
   few.subsets.sample = std::min(kMost, few.subsets.sample);
@@ -288,8 +288,7 @@ void judgeLengths(const identification::IdentifyOptions& options, const std::vec
   for (identification::LengthSensitivity& one : with.length_sensitivity) lengths.push_back(&one);
   if (with.residual_length) lengths.push_back(&*with.residual_length);
   for (identification::LengthSensitivity* one : lengths) {
-    const MethodEquations equations = methodEquations(with, identification::Method::complete_pose, cases, one->length);
-    if (equations.reflectors.empty()) return;
+    equations.pose = poseNormals(with, cases, one->length);
     MethodJudge(few, model, identification::Method::complete_pose, equations, refits).fill(machine, *one);
   }
 }
@@ -300,14 +299,20 @@ void evaluateExtended(const identification::IdentifyOptions& options, const std:
                       ExtendedModel& model) {
   const MachineDisplacement machine = machineDisplacement(model.with, cases);
   EffectRefits refits(model);
+  const Eigen::Index steps = model.spread.parameters.cols();
   for (const identification::Method which : identification::kMethods) {
-    if (!model.with.of(which).available) continue;
-    const MethodEquations equations = methodEquations(model.with, which, cases);
-    if (equations.reflectors.empty()) continue;
-    MethodJudge(options, model, which, equations, refits)
-        .fill(machine, model.with.methods[static_cast<std::size_t>(which)]);
+    identification::MethodResult& method = model.with.methods[static_cast<std::size_t>(which)];
+    auto& spread = model.spread.compliance[static_cast<std::size_t>(which)];
+    spread.setZero(6, steps);
+    if (!method.available) continue;
+    MethodEquations equations = methodEquations(model.with, which, cases);
+    // To first order: d c = -G E S, G the method's solution of its equations A c + E theta = b.
+    spread = complianceBySteps(equations, which, method.estimate.identifiable, steps);
+    if (equations.reflectors.empty() || options.estimates_only) continue;
+    MethodJudge(options, model, which, equations, refits).fill(machine, method);
+    if (which == identification::Method::complete_pose)
+      judgeLengths(options, cases, machine, std::move(equations), refits, model);
   }
-  judgeLengths(options, cases, machine, refits, model);
   describeDisplacements(machine, model.with);
 }
 

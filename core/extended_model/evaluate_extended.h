@@ -11,7 +11,7 @@ namespace stiffscope::extended_model {
 /// subset of postures (all up to a thousand, else a thousand drawn, and
 /// fewer of a long day) effects and springs are fitted anew, the effects by
 /// one linear step, the equations following them to first order. Fills shares, residuals, `subsets`, and the bootstrap
-/// where it is asked for, of every available method, and the displacements by case.
+/// where it is asked for, of every available method, `model.spread.compliance`, and the displacements by case.
 void evaluateExtended(const identification::IdentifyOptions& options, const std::vector<CaseEffects>& cases,
                       ExtendedModel& model);
 

@@ -23,25 +23,6 @@ namespace stiffscope::extended_model {
 
 namespace {
 
-/// To first order: d c = -G E S, G the method's solution of its equations A c + E theta = b.
-void findSpread(const std::vector<CaseEffects>& cases, ExtendedModel& model) {
-  EffectSpread& spread = model.spread;
-  const Eigen::Index count = spread.parameters.cols();
-  for (const identification::Method which : identification::kMethods) {
-    auto& columns = spread.compliance[static_cast<std::size_t>(which)];
-    columns.setZero(6, count);
-    const identification::MethodResult& method = model.with.of(which);
-    if (!method.available) continue;
-    const MethodEquations equations = methodEquations(model.with, which, cases);
-    const std::vector<double> all(equations.reflectors.size(), 1.0);
-    const auto at = [&](const Eigen::VectorXd& steps) {
-      return solvedCompliance(equations, which, method.estimate.identifiable, all, steps);
-    };
-    const Vector6d here = at(Eigen::VectorXd::Zero(count));
-    for (Eigen::Index k = 0; k < count; ++k) columns.col(k) = at(Eigen::VectorXd::Unit(count, k)) - here;
-  }
-}
-
 /// Equations that a method fits: three a reflector and case; of Complete Pose six a case.
 double rowsOf(const identification::MethodResult& method, identification::Method which) {
   double rows = 0.0;
@@ -70,6 +51,15 @@ void addEffectsUncertainty(ExtendedModel& model) {
   }
 }
 
+/// Lets go what the result of springs alone is not asked for where estimates alone are wanted: cases and equations,
+/// which of a long day are as large as the readings.
+void keepStatements(identification::Identification& alone) {
+  alone.cases = {};
+  alone.wrist = {};
+  for (identification::MethodResult& method : alone.methods)
+    method.wrist_rows = {}, method.target_rows = {}, method.pose_rows = {};
+}
+
 }  // namespace
 
 ExtendedModel extendModel(const campaign::Campaign& campaign, EffectFit effects,
@@ -80,9 +70,11 @@ ExtendedModel extendModel(const campaign::Campaign& campaign, EffectFit effects,
   // Effects of size zero change nothing and have no covariance to propagate.
   if (model.effects.free.empty()) {
     model.with = model.without;
+    if (options.estimates_only) keepStatements(model.without);
     model.campaign = campaign;
     return model;
   }
+  if (options.estimates_only) keepStatements(model.without);
   std::vector<identification::LeftOutPosture> left_out;
   model.campaign = correctedFor(model.effects, campaign, left_out);
   identification::IdentifyOptions own = identification::valuesOnly(options);
@@ -91,9 +83,8 @@ ExtendedModel extendModel(const campaign::Campaign& campaign, EffectFit effects,
   model.with.left_out.insert(model.with.left_out.end(), left_out.begin(), left_out.end());
   model.spread.parameters = covarianceRoot(model.effects.covariance);
   const std::vector<CaseEffects> cases = caseEffects(model.effects, model.spread.parameters, model.with);
-  findSpread(cases, model);
-  addEffectsUncertainty(model);
   evaluateExtended(options, cases, model);
+  addEffectsUncertainty(model);
   model.with.shown_first = identification::methodShownFirst(model.with, options.papers_choice);
   model.with.cautions = identification::warningsOf(model.campaign, model.with);
   return model;
@@ -187,7 +178,7 @@ ExtendedModel supportedModel(const preparation::PreparedCampaign& prepared, cons
   if (thinned) {
     std::vector<identification::LeftOutPosture> left_out;
     seen = chosen.free.empty() ? spread->campaign : correctedFor(chosen, spread->campaign, left_out);
-    seen_by_springs = identification::identify(seen, identification::valuesOnly(options));
+    seen_by_springs = identification::identify(seen, identification::estimatesOnly(options));
     chosen = overWholeDay(std::move(chosen), prepared);
   }
   ExtendedModel model = extendModel(campaign, std::move(chosen), options);

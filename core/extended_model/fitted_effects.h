@@ -33,7 +33,7 @@ struct AddedEffect {
 
 /// A posture of the day as the fit sees it.
 struct DayPosture {
-  effects::PostureStates states;
+  effects::CompactPosture states;
   std::optional<std::size_t> in_fit;  ///< which of the fit's postures; empty where a long day's fit left it out
 };
 
@@ -60,6 +60,12 @@ struct EffectFit {
       gap;  ///< of the deflection, rms per coordinate over all load steps: stiffnesses alone, noise, with the effects
   diagnosis::Shrink shrink;  ///< of that rms on postures held out
   double explained = 0.0;    ///< the same in variance, less noise: the share of the gap that the effects explain
+
+  /// A posture of the day as the fit's equations have it; empty where the day does not have it.
+  effects::PostureStates statesOf(int pose) const {
+    const auto found = day.find(pose);
+    return found == day.end() ? effects::PostureStates() : found->second.states.states(fit.state.geometry);
+  }
 
   const Eigen::VectorXd& parameters() const { return fit.set.effects; }
   /// First of an effect's parameters among all, and its own.

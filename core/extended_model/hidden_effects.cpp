@@ -186,14 +186,7 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> gains(const std::vector<CaseEffects>& c
                                                Eigen::Index parameters) {
   const MethodEquations equations = methodEquations(seen, which, cases);
   if (equations.reflectors.empty()) return {};
-  const std::vector<double> all(equations.reflectors.size(), 1.0);
-  const auto at = [&](const Eigen::VectorXd& steps) {
-    return solvedCompliance(equations, which, seen.of(which).estimate.identifiable, all, steps);
-  };
-  const Vector6d here = at(Eigen::VectorXd::Zero(parameters));
-  Eigen::Matrix<double, 6, Eigen::Dynamic> gain(6, parameters);
-  for (Eigen::Index k = 0; k < parameters; ++k) gain.col(k) = at(Eigen::VectorXd::Unit(parameters, k)) - here;
-  return gain;
+  return complianceBySteps(equations, which, seen.of(which).estimate.identifiable, parameters);
 }
 
 bool allPositive(const Vector6d& compliance, const robot::JointMask& identifiable) {

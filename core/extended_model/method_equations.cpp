@@ -7,6 +7,7 @@
 #include "core/identification/complete_pose.h"
 #include "core/identification/decoupled_partial_pose.h"
 #include "core/identification/estimate.h"
+#include "core/numerics/parallel.h"
 
 namespace stiffscope::extended_model {
 
@@ -65,31 +66,51 @@ CaseEffects effectsIn(const EffectFit& effects, const Eigen::MatrixXd& steps, co
   return here;
 }
 
-/// Appends a case's equations to those of its posture.
-void append(const identification::CaseEquations& springs, const Eigen::MatrixXd& by_steps,
-            std::vector<ExtendedEquations>& postures) {
-  if (postures.empty() || !identification::sharePosture(postures.back().springs, springs)) {
-    postures.push_back({springs, by_steps, {}, {}});
-    return;
+/// Where the cases of each posture begin, and after the last their end: cases of one follow each other.
+std::vector<std::size_t> posturesOf(const std::vector<identification::CaseEquations>& rows) {
+  std::vector<std::size_t> first;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (i == 0 || !identification::sharePosture(rows[i - 1], rows[i])) first.push_back(i);
   }
-  ExtendedEquations& whole = postures.back();
-  const Eigen::Index before = whole.springs.right.size(), rows = springs.right.size();
-  whole.springs.matrix.conservativeResize(before + rows, Eigen::NoChange);
-  whole.springs.right.conservativeResize(before + rows);
-  whole.by_steps.conservativeResize(before + rows, Eigen::NoChange);
-  whole.springs.matrix.bottomRows(rows) = springs.matrix;
-  whole.springs.right.tail(rows) = springs.right;
-  whole.by_steps.bottomRows(rows) = by_steps;
+  first.push_back(rows.size());
+  return first;
 }
 
-void fillNormal(std::vector<ExtendedEquations>& postures) {
-  for (ExtendedEquations& one : postures) {
-    one.normal = identification::normalEquations(one.springs);
-    one.normal_by_steps = one.springs.matrix.transpose() * one.by_steps;
-  }
+ExtendedNormal normalOf(const identification::CaseEquations& springs, const Eigen::MatrixXd& by_steps) {
+  return {identification::normalEquations(springs), springs.matrix.transpose() * by_steps};
 }
 
-std::map<int, const diagnosis::GapPosture*> posturesOf(const diagnosis::GapFit& fit) {
+/// One point's or the reflectors' equations, a posture each; `by_steps(i)` of a case.
+template <class BySteps>
+std::vector<ExtendedEquations> equationsOf(const std::vector<identification::CaseEquations>& rows,
+                                           const BySteps& by_steps) {
+  const std::vector<std::size_t> first = posturesOf(rows);
+  std::vector<ExtendedEquations> equations(first.size() - 1);
+  numerics::smallWorkOnAllCores(equations.size(), [&](std::size_t p) {
+    ExtendedEquations& own = equations[p];
+    if (first[p + 1] == first[p] + 1) {
+      own.springs = rows[first[p]];
+      own.by_steps = by_steps(first[p]);
+    } else {
+      Eigen::Index count = 0, at = 0;
+      for (std::size_t i = first[p]; i < first[p + 1]; ++i) count += rows[i].right.size();
+      own.springs = {Eigen::Matrix<double, Eigen::Dynamic, 6>(count, 6), Eigen::VectorXd(count),
+                     rows[first[p]].posture};
+      for (std::size_t i = first[p]; i < first[p + 1]; ++i) {
+        const Eigen::MatrixXd here = by_steps(i);
+        own.by_steps.conservativeResize(count, here.cols());
+        own.springs.matrix.middleRows(at, here.rows()) = rows[i].matrix;
+        own.springs.right.segment(at, here.rows()) = rows[i].right;
+        own.by_steps.middleRows(at, here.rows()) = here;
+        at += here.rows();
+      }
+    }
+    own.normal = normalOf(own.springs, own.by_steps);
+  });
+  return equations;
+}
+
+std::map<int, const diagnosis::GapPosture*> fittedPostures(const diagnosis::GapFit& fit) {
   std::map<int, const diagnosis::GapPosture*> postures;
   for (const diagnosis::GapPosture& one : fit.data.postures) postures[one.pose] = &one;
   return postures;
@@ -99,7 +120,7 @@ std::map<int, const diagnosis::GapPosture*> posturesOf(const diagnosis::GapFit& 
 
 std::vector<CaseEffects> caseEffects(const diagnosis::GapStudy& study, const EffectColumns& columns,
                                      const identification::Identification& result) {
-  const std::map<int, const diagnosis::GapPosture*> postures = posturesOf(study.fit);
+  const std::map<int, const diagnosis::GapPosture*> postures = fittedPostures(study.fit);
   const Eigen::Isometry3d fit_from_r0 = fitFrom(result.geometry, study.fit.state.geometry);
   std::vector<CaseEffects> all(result.cases.size());
   for (std::size_t i = 0; i < result.cases.size(); ++i) {
@@ -127,20 +148,19 @@ std::vector<CaseEffects> caseEffects(const diagnosis::GapStudy& study, const Eff
 std::vector<CaseEffects> caseEffects(const EffectFit& effects, const Eigen::MatrixXd& steps,
                                      const identification::Identification& result) {
   const Eigen::Isometry3d fit_from_r0 = fitFrom(result.geometry, effects.fit.state.geometry);
-  std::vector<CaseEffects> all;
-  for (std::size_t i = 0; i < result.cases.size(); ++i) {
+  std::vector<CaseEffects> all(result.cases.size());
+  numerics::onAllCores(all.size(), [&](std::size_t i) {
     const LoadCase& load_case = result.cases[i];
-    all.push_back(effectsIn(effects, steps, effects.day.at(load_case.pose).states, fit_from_r0, load_case));
-    if (result.wrist.empty()) continue;
-    all.back().wrist_machine =
-        identification::wristByReflectors(load_case, result.frames.wrist.radii, result.wrist[i]) *
-        all.back().by_machine;
-  }
+    all[i] = effectsIn(effects, steps, effects.statesOf(load_case.pose), fit_from_r0, load_case);
+    if (result.wrist.empty()) return;
+    all[i].wrist_machine =
+        identification::wristByReflectors(load_case, result.frames.wrist.radii, result.wrist[i]) * all[i].by_machine;
+  });
   return all;
 }
 
 MethodEquations methodEquations(const identification::Identification& result, Method method,
-                                const std::vector<CaseEffects>& effects, std::optional<double> length) {
+                                const std::vector<CaseEffects>& effects) {
   const identification::MethodResult& own = result.of(method);
   MethodEquations equations;
   const bool alike = own.target_rows.size() == result.cases.size() &&
@@ -148,42 +168,104 @@ MethodEquations methodEquations(const identification::Identification& result, Me
                      (method != Method::complete_pose || own.pose_rows.size() == result.cases.size());
   if (!alike) return equations;
   for (std::size_t i = 0; i < result.cases.size(); ++i) {
-    const LoadCase& load_case = result.cases[i];
-    if (own.target_rows[i].right.size() != effects[i].by_steps.rows()) return {};
-    append(own.target_rows[i], effects[i].by_steps, equations.reflectors);
-    if (!own.wrist_rows.empty() && !result.wrist.empty()) {
-      append(own.wrist_rows[i],
-             identification::wristByReflectors(load_case, result.frames.wrist.radii, result.wrist[i]) *
-                 effects[i].by_steps,
-             equations.wrist);
-    }
-    if (method != Method::complete_pose) continue;
-    const double divisor = length.value_or(result.characteristic_length.length);
-    Eigen::MatrixXd pose =
-        identification::poseByReflectors(own.geometry, load_case, result.frames.tcp_in_flange) * effects[i].by_steps;
-    pose.topRows<3>() /= divisor;
-    append(identification::normalised(own.pose_rows[i], divisor), pose, equations.solved);
+    if (own.target_rows[i].right.size() != effects[i].by_steps.rows()) return equations;
   }
-  for (auto* postures : {&equations.solved, &equations.reflectors, &equations.wrist}) fillNormal(*postures);
-  if (method == Method::partial_pose) equations.solved = equations.reflectors;
-  if (method == Method::decoupled_partial_pose) equations.solved = equations.wrist;
+  equations.reflectors =
+      equationsOf(own.target_rows, [&](std::size_t i) -> const Eigen::MatrixXd& { return effects[i].by_steps; });
+  if (!own.wrist_rows.empty() && !result.wrist.empty()) {
+    equations.wrist = equationsOf(own.wrist_rows, [&](std::size_t i) -> Eigen::MatrixXd {
+      return identification::wristByReflectors(result.cases[i], result.frames.wrist.radii, result.wrist[i]) *
+             effects[i].by_steps;
+    });
+  }
+  if (method == Method::complete_pose)
+    equations.pose = poseNormals(result, effects, result.characteristic_length.length);
   return equations;
+}
+
+std::vector<ExtendedNormal> poseNormals(const identification::Identification& result,
+                                        const std::vector<CaseEffects>& effects, double length) {
+  const identification::MethodResult& own = result.of(Method::complete_pose);
+  const std::vector<std::size_t> first = posturesOf(own.pose_rows);
+  std::vector<ExtendedNormal> normals(first.size() - 1);
+  numerics::smallWorkOnAllCores(normals.size(), [&](std::size_t p) {
+    for (std::size_t i = first[p]; i < first[p + 1]; ++i) {
+      Eigen::MatrixXd by_steps =
+          identification::poseByReflectors(own.geometry, result.cases[i], result.frames.tcp_in_flange) *
+          effects[i].by_steps;
+      by_steps.topRows<3>() /= length;
+      ExtendedNormal one = normalOf(identification::normalised(own.pose_rows[i], length), by_steps);
+      if (i == first[p]) {
+        normals[p] = std::move(one);
+      } else {
+        normals[p].springs += one.springs;
+        normals[p].by_steps += one.by_steps;
+      }
+    }
+  });
+  return normals;
+}
+
+namespace {
+
+ExtendedNormal sumOf(const std::vector<ExtendedEquations>& postures, const std::vector<double>& weights) {
+  ExtendedNormal sum;
+  for (std::size_t p = 0; p < postures.size(); ++p) postures[p].normal.addTo(weights[p], sum);
+  return sum;
+}
+
+/// What a method solves, summed over postures with weights.
+class SummedEquations {
+ public:
+  SummedEquations(const MethodEquations& equations, Method method, const std::vector<double>& weights)
+      : decoupled_(method == Method::decoupled_partial_pose) {
+    if (method == Method::complete_pose) {
+      for (std::size_t p = 0; p < equations.pose.size(); ++p) equations.pose[p].addTo(weights[p], first_);
+      return;
+    }
+    first_ = sumOf(decoupled_ ? equations.wrist : equations.reflectors, weights);
+    if (decoupled_) second_ = sumOf(equations.reflectors, weights);
+  }
+
+  Vector6d compliance(const robot::JointMask& unknown, const Eigen::VectorXd& steps) const {
+    return decoupled_ ? identification::solveDecoupled(first_.at(steps), second_.at(steps), unknown)
+                      : identification::solveNormal(first_.at(steps), unknown);
+  }
+
+ private:
+  bool decoupled_;
+  ExtendedNormal first_, second_;
+};
+
+}  // namespace
+
+void ExtendedNormal::addTo(double weight, ExtendedNormal& sum) const {
+  if (weight == 0.0) return;
+  sum.springs.matrix += weight * springs.matrix;
+  sum.springs.right += weight * springs.right;
+  if (sum.by_steps.cols() == 0) sum.by_steps.setZero(6, by_steps.cols());
+  sum.by_steps += weight * by_steps;
+}
+
+identification::NormalEquations ExtendedNormal::at(const Eigen::VectorXd& steps) const {
+  identification::NormalEquations normal = springs;
+  if (by_steps.cols() > 0) normal.right -= by_steps * steps;
+  return normal;
 }
 
 Vector6d solvedCompliance(const MethodEquations& equations, Method method, const robot::JointMask& unknown,
                           const std::vector<double>& weights, const Eigen::VectorXd& steps) {
-  const auto sum = [&](const std::vector<ExtendedEquations>& postures) {
-    identification::NormalEquations whole;
-    for (std::size_t p = 0; p < postures.size(); ++p) {
-      if (weights[p] == 0.0) continue;
-      whole.matrix += weights[p] * postures[p].normal.matrix;
-      whole.right += weights[p] * (postures[p].normal.right - postures[p].normal_by_steps * steps);
-    }
-    return whole;
-  };
-  return method == Method::decoupled_partial_pose
-             ? identification::solveDecoupled(sum(equations.solved), sum(equations.reflectors), unknown)
-             : identification::solveNormal(sum(equations.solved), unknown);
+  return SummedEquations(equations, method, weights).compliance(unknown, steps);
+}
+
+Eigen::Matrix<double, 6, Eigen::Dynamic> complianceBySteps(const MethodEquations& equations, Method method,
+                                                           const robot::JointMask& unknown, Eigen::Index count) {
+  const SummedEquations summed(equations, method, std::vector<double>(equations.reflectors.size(), 1.0));
+  const Vector6d here = summed.compliance(unknown, Eigen::VectorXd::Zero(count));
+  Eigen::Matrix<double, 6, Eigen::Dynamic> by_steps(6, count);
+  for (Eigen::Index k = 0; k < count; ++k)
+    by_steps.col(k) = summed.compliance(unknown, Eigen::VectorXd::Unit(count, k)) - here;
+  return by_steps;
 }
 
 }  // namespace stiffscope::extended_model

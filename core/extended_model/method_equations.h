@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "core/diagnosis/gap_study.h"
@@ -27,13 +26,21 @@ std::vector<CaseEffects> caseEffects(const EffectFit& effects, const Eigen::Matr
 std::vector<CaseEffects> caseEffects(const diagnosis::GapStudy& study, const EffectColumns& columns,
                                      const identification::Identification& result);
 
-/// The equations of one posture with the effects in them, b = A c + E z: z the steps by which the effects' parameters
-/// leave their fitted values, b the corrected readings' displacement.
+/// A method's normal equations of one posture with the effects in them, A c + E z = b: z the steps by which the
+/// effects' parameters leave their fitted values, b the corrected readings' displacement.
+struct ExtendedNormal {
+  identification::NormalEquations springs;                 ///< A^T A and A^T b
+  Eigen::Matrix<double, 6, Eigen::Dynamic> by_steps = {};  ///< A^T E
+
+  void addTo(double weight, ExtendedNormal& sum) const;
+  identification::NormalEquations at(const Eigen::VectorXd& steps) const;
+};
+
+/// Equations and normal equations of one posture.
 struct ExtendedEquations {
-  identification::CaseEquations springs;                     ///< A and b
-  Eigen::MatrixXd by_steps;                                  ///< E
-  identification::NormalEquations normal;                    ///< A^T A and A^T b
-  Eigen::Matrix<double, 6, Eigen::Dynamic> normal_by_steps;  ///< A^T E
+  identification::CaseEquations springs;  ///< A and b
+  Eigen::MatrixXd by_steps;               ///< E
+  ExtendedNormal normal;
 
   /// b - E z.
   Eigen::VectorXd rightAt(const Eigen::VectorXd& steps) const { return springs.right - by_steps * steps; }
@@ -41,18 +48,27 @@ struct ExtendedEquations {
 
 /// Those of one method, a posture each, at its compliances (K_c, middle posture) and in its geometry.
 struct MethodEquations {
-  std::vector<ExtendedEquations> solved;      ///< what the method solves first: pose (normalised), reflectors, P_wrist
   std::vector<ExtendedEquations> reflectors;  ///< which the decoupled method solves second
   std::vector<ExtendedEquations> wrist;       ///< P_wrist's; empty where not measured
+  std::vector<ExtendedNormal> pose;           ///< Complete Pose's own, normalised; empty for the other methods
 };
 
-/// Empty where the method's cases are not those of `result.cases`. `length`: Complete Pose's, m; without it its own.
+/// Empty where the method's cases are not those of `result.cases`.
 MethodEquations methodEquations(const identification::Identification& result, identification::Method method,
-                                const std::vector<CaseEffects>& effects, std::optional<double> length = std::nullopt);
+                                const std::vector<CaseEffects>& effects);
+
+/// Complete Pose's own at a characteristic length (m), a posture each.
+std::vector<ExtendedNormal> poseNormals(const identification::Identification& result,
+                                        const std::vector<CaseEffects>& effects, double length);
 
 /// The method's compliances with the effects moved by `steps`, from postures with weights.
 Vector6d solvedCompliance(const MethodEquations& equations, identification::Method method,
                           const robot::JointMask& unknown, const std::vector<double>& weights,
                           const Eigen::VectorXd& steps);
+
+/// How the compliances follow each of `count` steps, from all postures: one column a step.
+Eigen::Matrix<double, 6, Eigen::Dynamic> complianceBySteps(const MethodEquations& equations,
+                                                           identification::Method method,
+                                                           const robot::JointMask& unknown, Eigen::Index count);
 
 }  // namespace stiffscope::extended_model

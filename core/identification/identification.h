@@ -31,6 +31,10 @@ struct IdentifyOptions {
   TrustLimits trust;
   bool papers_choice = false;  ///< show first the paper's method, DPP, where it can be had, whatever it compensates
   bool robust = false;         ///< leave postures out that disagree with the rest (outliers.h); they are always named
+  /// Estimates with their scatter, equations and frames, and nothing that judges them: no shares, residuals, subsets
+  /// and lengths, no outlying postures, no part of the uncertainty that postures share. For where these alone are
+  /// looked at.
+  bool estimates_only = false;
 };
 
 /// Deflection compensated by the estimate from all postures, and over the subsets.

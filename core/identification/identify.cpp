@@ -53,6 +53,12 @@ IdentifyOptions valuesOnly(IdentifyOptions options) {
   return options;
 }
 
+IdentifyOptions estimatesOnly(IdentifyOptions options) {
+  options = valuesOnly(std::move(options));
+  options.estimates_only = true;
+  return options;
+}
+
 frames::Frames solvedFrames(const campaign::Campaign& campaign) {
   if (!campaign.loading || !whatLoadsLack(campaign).empty() || !heaviestStep(campaign)) {
     return frames::measureFrames(campaign);
@@ -96,10 +102,10 @@ Identification identifyOnce(const campaign::Campaign& campaign, const IdentifyOp
   runCompletePose(runs, result);
   runPartialPose(runs, result);
   runDecoupledPartialPose(runs, result);
-  addSharedUncertainty(runs, result);
+  if (!options.estimates_only) addSharedUncertainty(runs, result);
   result.shown_first = methodShownFirst(result, options.papers_choice);
   LoadedArm& shown = runs.swept.cases.empty() ? runs.calibrated : runs.swept;
-  result.outlying = outlyingOf(shown, runs.unknown);
+  if (!options.estimates_only) result.outlying = outlyingOf(shown, runs.unknown);
   describeLoads(campaign, std::move(shown), result);
   addTransmission(campaign, result);
   return result;

@@ -23,6 +23,9 @@ Identification identify(const campaign::Campaign& campaign, const IdentifyOption
 /// The options for values alone: no subsets, no bootstrap, no outliers sought.
 IdentifyOptions valuesOnly(IdentifyOptions options = {});
 
+/// The options for estimates alone (IdentifyOptions::estimates_only).
+IdentifyOptions estimatesOnly(IdentifyOptions options = {});
+
 /// The frames alone: with the own weight taken off where the campaign has what identifies the stiffnesses,
 /// else without.
 frames::Frames solvedFrames(const campaign::Campaign& campaign);

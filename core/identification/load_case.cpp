@@ -275,45 +275,90 @@ LoadCase caseOfState(const campaign::Campaign& campaign, const frames::LoadingGe
   return load_case;
 }
 
+/// Of the posture of the case before.
+struct LoadCaseMaker::UnloadedArm {
+  std::optional<Vector6d> q;  ///< empty: of none yet
+  Vector6d sagged = Vector6d::Zero();
+  robot::ArmPosture posture;
+  robot::ArmAxes axes;
+  std::vector<int> targets;  ///< by which the flange is measured
+  std::optional<Eigen::Isometry3d> flange;
+};
+
+LoadCaseMaker::LoadCaseMaker(const campaign::Campaign& campaign, const LoadReadings& readings,
+                             const frames::LoadingGeometry& geometry)
+    : campaign_(campaign), readings_(readings), geometry_(geometry) {
+  if (!campaign.states || !campaign.load_cell) return;
+  absolute_ = campaign.loading.has_value() && geometry.r0_from_loading.has_value();
+  any_ = absolute_ || (campaign.displacements && geometry.displacements_in_r0);
+  if (any_) turns_with_ = bodyOfCellAxes(*campaign.load_cell, geometry);
+}
+
+Remark LoadCaseMaker::fill(std::size_t pose, int step, UnloadedArm& arm, LoadCase& load_case) const {
+  const campaign::State *unloaded = readings_.state(pose, 0), *loaded = readings_.state(pose, step);
+  if (loaded == nullptr) return Remark(RemarkId::no_state_of_step);
+  load_case.pose = static_cast<int>(pose);
+  load_case.step = step;
+  load_case.q = unloaded ? unloaded->q : loaded->q;
+  load_case.servo = loaded->q - load_case.q;
+  load_case.absolute = absolute_;
+  if (!arm.q || *arm.q != load_case.q) {
+    arm.q = load_case.q;
+    arm.sagged = geometry_.sagged(load_case.q);
+    arm.posture = robot::postureAt(geometry_.arm, arm.sagged);
+    arm.axes = robot::axesAt(geometry_.arm, arm.posture);
+  }
+  load_case.q_sagged = arm.sagged;
+  load_case.axes = arm.axes;
+  if (absolute_) {
+    load_case.targets = measuredMoves(readings_, pose, step, *geometry_.r0_from_loading);
+    std::vector<int> targets;
+    for (const TargetMove& move : load_case.targets) targets.push_back(move.target);
+    if (arm.targets != targets) {
+      arm.flange = measuredFlange(geometry_, load_case.targets, false);
+      arm.targets = std::move(targets);
+    }
+    load_case.flange_unloaded = arm.flange;
+    load_case.flange_loaded = measuredFlange(geometry_, load_case.targets, true);
+  } else {
+    load_case.targets =
+        declaredMoves(geometry_, readings_.differences(pose, step), *geometry_.displacements_in_r0, arm.posture);
+  }
+  if (load_case.targets.empty()) return Remark(RemarkId::no_reflector_in_both_states);
+  load_case.wrench = cellWrench(*campaign_.load_cell, geometry_, arm.posture, load_case.flange_unloaded,
+                                load_case.flange_loaded, loaded->wrench_in_cell);
+  load_case.wrench_unturned = load_case.wrench;
+  load_case.wrench_turns_with = turns_with_ == 6 && load_case.flange_loaded ? 0 : turns_with_;
+  load_case.unturned = arm.posture.motion[static_cast<std::size_t>(load_case.wrench_turns_with)].linear();
+  return {};
+}
+
+Remark LoadCaseMaker::fill(std::size_t pose, int step, LoadCase& load_case) const {
+  UnloadedArm arm;
+  return fill(pose, step, arm, load_case);
+}
+
+std::vector<LoadCase> LoadCaseMaker::ofPose(std::size_t pose) const {
+  std::vector<LoadCase> cases;
+  if (!any_) return cases;
+  cases.reserve(readings_.steps().size());
+  UnloadedArm arm;
+  for (const int step : readings_.steps()) {
+    if (!fill(pose, step, arm, cases.emplace_back()).empty()) cases.pop_back();
+  }
+  return cases;
+}
+
 std::vector<LoadCase> loadCases(const campaign::Campaign& campaign, const LoadReadings& readings,
                                 const frames::LoadingGeometry& geometry, int step,
                                 std::vector<LeftOutPosture>* left_out) {
+  const LoadCaseMaker maker(campaign, readings, geometry);
   std::vector<LoadCase> cases;
-  if (!campaign.states || !campaign.load_cell) return cases;
-  const bool absolute = campaign.loading.has_value() && geometry.r0_from_loading.has_value();
-  if (!absolute && (!campaign.displacements || !geometry.displacements_in_r0)) return cases;
-  const int turns_with = bodyOfCellAxes(*campaign.load_cell, geometry);
-  // Why a posture has no case; empty where it has.
-  const auto fill = [&](std::size_t pose, LoadCase& load_case) -> Remark {
-    const campaign::State *unloaded = readings.state(pose, 0), *loaded = readings.state(pose, step);
-    if (loaded == nullptr) return Remark(RemarkId::no_state_of_step);
-    load_case.pose = static_cast<int>(pose);
-    load_case.step = step;
-    load_case.q = unloaded ? unloaded->q : loaded->q;
-    load_case.servo = loaded->q - load_case.q;
-    load_case.absolute = absolute;
-    load_case.q_sagged = geometry.sagged(load_case.q);
-    const robot::ArmPosture posture = unloadedPosture(geometry.arm, load_case);
-    load_case.axes = robot::axesAt(geometry.arm, posture);
-    if (absolute) {
-      load_case.targets = measuredMoves(readings, pose, step, *geometry.r0_from_loading);
-      load_case.flange_unloaded = measuredFlange(geometry, load_case.targets, false);
-      load_case.flange_loaded = measuredFlange(geometry, load_case.targets, true);
-    } else {
-      load_case.targets =
-          declaredMoves(geometry, readings.differences(pose, step), *geometry.displacements_in_r0, posture);
-    }
-    if (load_case.targets.empty()) return Remark(RemarkId::no_reflector_in_both_states);
-    load_case.wrench = cellWrench(*campaign.load_cell, geometry, posture, load_case.flange_unloaded,
-                                  load_case.flange_loaded, loaded->wrench_in_cell);
-    load_case.wrench_unturned = load_case.wrench;
-    load_case.wrench_turns_with = turns_with == 6 && load_case.flange_loaded ? 0 : turns_with;
-    load_case.unturned = posture.motion[static_cast<std::size_t>(load_case.wrench_turns_with)].linear();
-    return {};
-  };
+  if (!maker.any()) return cases;
   cases.resize(readings.poses());
   std::vector<Remark> lacking(cases.size());
-  numerics::smallWorkOnAllCores(cases.size(), [&](std::size_t pose) { lacking[pose] = fill(pose, cases[pose]); });
+  numerics::smallWorkOnAllCores(cases.size(),
+                                [&](std::size_t pose) { lacking[pose] = maker.fill(pose, step, cases[pose]); });
   std::size_t kept = 0;
   for (std::size_t pose = 0; pose < cases.size(); ++pose) {
     if (lacking[pose].empty()) {

@@ -123,6 +123,32 @@ struct LeftOutPosture {
   Remark reason;
 };
 
+/// Load cases in one geometry, one after the other. What cases of one posture have in common, the unloaded arm, is
+/// computed once for those that ofPose makes. Keeps references.
+class LoadCaseMaker {
+ public:
+  LoadCaseMaker(const campaign::Campaign& campaign, const LoadReadings& readings,
+                const frames::LoadingGeometry& geometry);
+
+  /// Fills the case of a posture and step; else says why it has none.
+  Remark fill(std::size_t pose, int step, LoadCase& load_case) const;
+  /// Those that a posture has, of the readings' steps in their order.
+  std::vector<LoadCase> ofPose(std::size_t pose) const;
+
+  /// Whether the campaign has what cases are made from; there are none where not.
+  bool any() const { return any_; }
+
+ private:
+  struct UnloadedArm;
+  Remark fill(std::size_t pose, int step, UnloadedArm& unloaded, LoadCase& load_case) const;
+
+  const campaign::Campaign& campaign_;
+  const LoadReadings& readings_;
+  const frames::LoadingGeometry& geometry_;
+  bool any_ = false, absolute_ = false;
+  int turns_with_ = 0;
+};
+
 /// The load cases of one of the readings' steps, a posture each, in the order of the campaign's poses. A
 /// posture without that step, without an unloaded state or without a common reflector has none, and is named
 /// in `left_out`.

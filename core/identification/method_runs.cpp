@@ -64,6 +64,7 @@ void evaluateMethod(const frames::LoadingGeometry& geometry, PointEquations equa
   out.geometry = geometry;
   out.wrist_rows = std::move(equations.wrist);
   out.target_rows = std::move(equations.reflectors);
+  if (options.estimates_only) return;
   SubsetMethod subset;
   subset.unknown = out.estimate.identifiable;
   subset.normal = std::move(normal);
@@ -169,7 +170,7 @@ void runCompletePose(MethodRuns& runs, Identification& result) {
   out.pose_rows = poseEquations(runs.swept, tcp);
   for (const CaseEquations& one : out.pose_rows) scaled.push_back(normalised(one, length));
   evaluateMethod(runs.swept.geometry, std::move(equations), normalByPosture(scaled), false, runs.options, out);
-  studyLengths(runs.swept.cases, runs.options, result);
+  if (!runs.options.estimates_only) studyLengths(runs.swept.cases, runs.options, result);
 }
 
 void runPartialPose(MethodRuns& runs, Identification& result) {

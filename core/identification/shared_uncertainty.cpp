@@ -1,6 +1,9 @@
 #include "core/identification/method_runs.h"
 
+#include <utility>
+
 #include "core/frames/joint_axes.h"
+#include "core/numerics/parallel.h"
 #include "metrology/lines.h"
 
 namespace stiffscope::identification {
@@ -12,24 +15,21 @@ class MovedFrames {
  public:
   MovedFrames(const campaign::Campaign& campaign, const frames::Frames& frames, const frames::LoadingGeometry& geometry,
               const std::vector<int>& steps)
-      : campaign_(campaign),
-        frames_(frames),
-        compliance_(geometry.compliance),
-        readings_(campaign, steps),
-        moved_(frames) {}
+      : campaign_(campaign), frames_(frames), compliance_(geometry.compliance), readings_(campaign, steps) {}
 
   /// `axes`: lines of the axes that are measured, in their order.
-  LoadedArm withAxes(const std::vector<metrology::Line>& axes) {
+  LoadedArm withAxes(const std::vector<metrology::Line>& axes) const {
+    frames::Frames moved = frames_;
     std::size_t next = 0;
-    for (frames::MeasuredAxis& axis : moved_.axes) {
+    for (frames::MeasuredAxis& axis : moved.axes) {
       if (axis.measured) axis.at_zero.line = axes[next++];
     }
-    moved_.arm = frames::armInR0(campaign_.robot, moved_.axes);
-    const Eigen::Isometry3d carry = moved_.arm.r0_from_points * frames_.arm.r0_from_points.inverse();
-    for (std::size_t k = 0; k < moved_.targets_in_r0_at_zero.size(); ++k) {
-      if (frames_.targets_in_r0_at_zero[k]) moved_.targets_in_r0_at_zero[k] = carry * *frames_.targets_in_r0_at_zero[k];
+    moved.arm = frames::armInR0(campaign_.robot, moved.axes);
+    const Eigen::Isometry3d carry = moved.arm.r0_from_points * frames_.arm.r0_from_points.inverse();
+    for (std::size_t k = 0; k < moved.targets_in_r0_at_zero.size(); ++k) {
+      if (frames_.targets_in_r0_at_zero[k]) moved.targets_in_r0_at_zero[k] = carry * *frames_.targets_in_r0_at_zero[k];
     }
-    return load(moved_);
+    return load(moved);
   }
 
   LoadedArm withRadius(std::size_t target, double step) const {
@@ -50,7 +50,6 @@ class MovedFrames {
   const frames::Frames& frames_;
   const Vector6d compliance_;
   const LoadReadings readings_;
-  frames::Frames moved_;
 };
 
 Eigen::VectorXd solveAll(const std::vector<ComplianceOf>& solves, const LoadedArm& arm) {
@@ -66,7 +65,7 @@ std::vector<SweptParts> sweptParts(const campaign::Campaign& campaign, const fra
                                    const std::vector<ComplianceOf>& solves) {
   std::vector<SweptParts> parts(solves.size());
   if (solves.empty() || !frames.arm.points_placed) return parts;
-  MovedFrames moved(campaign, frames, geometry, steps);
+  const MovedFrames moved(campaign, frames, geometry, steps);
   const frames::AxesCovariance all_axes = frames::axesCovariance(frames.axes);
   std::vector<metrology::MeasuredLine> lines;
   std::vector<Eigen::Index> rows;
@@ -75,24 +74,39 @@ std::vector<SweptParts> sweptParts(const campaign::Campaign& campaign, const fra
     lines.push_back(frames.axes[axis].at_zero);
     for (Eigen::Index k = 0; k < 4; ++k) rows.push_back(4 * static_cast<Eigen::Index>(axis) + k);
   }
-  const Eigen::MatrixXd by_axes = metrology::derivativesByLines(
-      lines, [&](const std::vector<metrology::Line>& axes) { return solveAll(solves, moved.withAxes(axes)); });
-  const Eigen::MatrixXd of_axes = all_axes(rows, rows);
-
   const frames::WristCentre& wrist = frames.wrist;
-  const auto swept = static_cast<Eigen::Index>(wrist.measured ? wrist.targets.size() : 0);
-  Eigen::MatrixXd by_radii = Eigen::MatrixXd::Zero(by_axes.rows(), swept);
+  const std::size_t swept = wrist.measured ? wrist.targets.size() : 0;
+  const auto numbers = 6 * static_cast<Eigen::Index>(solves.size());
+  Eigen::MatrixXd by_axes(numbers, 4 * static_cast<Eigen::Index>(lines.size()));
+  Eigen::MatrixXd with_radii(numbers, static_cast<Eigen::Index>(swept));
+  Eigen::VectorXd unmoved;
   constexpr double kStep = 1e-5;  // m
-  const Eigen::VectorXd unmoved = swept > 0 ? solveAll(solves, moved.unmoved()) : Eigen::VectorXd();
-  for (Eigen::Index k = 0; k < swept; ++k) {
-    const auto target = static_cast<std::size_t>(wrist.targets[static_cast<std::size_t>(k)]);
-    by_radii.col(k) = (solveAll(solves, moved.withRadius(target, kStep)) - unmoved) / kStep;
-  }
+  // Axes, each by itself, then radii, then nothing moved.
+  numerics::onAllCores(lines.size() + (swept > 0 ? swept + 1 : 0), [&](std::size_t i) {
+    if (i < lines.size()) {
+      by_axes.middleCols<4>(4 * static_cast<Eigen::Index>(i)) =
+          metrology::derivativesByLines({lines[i]}, [&](const std::vector<metrology::Line>& axis) {
+            std::vector<metrology::Line> axes;
+            for (const metrology::MeasuredLine& line : lines) axes.push_back(line.line);
+            axes[i] = axis.front();
+            return solveAll(solves, moved.withAxes(axes));
+          });
+    } else if (const std::size_t k = i - lines.size(); k < swept) {
+      with_radii.col(static_cast<Eigen::Index>(k)) =
+          solveAll(solves, moved.withRadius(static_cast<std::size_t>(wrist.targets[k]), kStep));
+    } else {
+      unmoved = solveAll(solves, moved.unmoved());
+    }
+  });
+  const Eigen::MatrixXd of_axes = all_axes(rows, rows);
+  const Eigen::MatrixXd by_radii =
+      swept > 0 ? Eigen::MatrixXd((with_radii.colwise() - unmoved) / kStep) : std::move(with_radii);
+  const auto radii = static_cast<Eigen::Index>(swept);
   for (std::size_t k = 0; k < solves.size(); ++k) {
     const auto at = 6 * static_cast<Eigen::Index>(k);
     parts[k].frames = by_axes.middleRows<6>(at) * of_axes * by_axes.middleRows<6>(at).transpose();
     if (swept == 0) continue;
-    parts[k].wrist = by_radii.middleRows<6>(at) * wrist.spheres.covariance.bottomRightCorner(swept, swept) *
+    parts[k].wrist = by_radii.middleRows<6>(at) * wrist.spheres.covariance.bottomRightCorner(radii, radii) *
                      by_radii.middleRows<6>(at).transpose();
   }
   return parts;
@@ -102,11 +116,12 @@ Matrix6d calibratedPart(const campaign::Campaign& campaign, const frames::Geomet
                         const frames::WristCentre& wrist, const std::vector<int>& steps, const ComplianceOf& solve) {
   const LoadReadings readings(campaign, steps);
   const Vector6d unmoved = solve(loadedArm(campaign, readings, calibration.geometry, wrist, steps));
+  std::vector<Vector6d> changes(calibration.spread.size());
+  numerics::onAllCores(changes.size(), [&](std::size_t i) {
+    changes[i] = solve(loadedArm(campaign, readings, calibration.spread[i], wrist, steps)) - unmoved;
+  });
   Matrix6d covariance = Matrix6d::Zero();
-  for (const frames::LoadingGeometry& moved : calibration.spread) {
-    const Vector6d change = solve(loadedArm(campaign, readings, moved, wrist, steps)) - unmoved;
-    covariance += change * change.transpose();
-  }
+  for (const Vector6d& change : changes) covariance += change * change.transpose();
   return covariance;
 }
 

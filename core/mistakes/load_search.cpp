@@ -316,33 +316,36 @@ class LoadSearcher {
     for (const campaign::State& row : campaign_.states->rows) {
       if (row.step != 0) postures[row.pose].push_back(&row);
     }
-    for (auto one = postures.begin(); one != postures.end(); ++one) {
-      for (auto other = postures.begin(); other != one; ++other) {
-        if (one->second.size() != other->second.size() || one->second.empty()) continue;
-        bool same = true, all_of_six = true;
-        for (std::size_t i = 0; same && i < one->second.size(); ++i) {
-          const campaign::State &a = *one->second[i], &b = *other->second[i];
-          same = a.step == b.step && a.wrench_in_cell == b.wrench_in_cell;
-          all_of_six &= a.wrench_in_cell.cwiseAbs().minCoeff() > 0.0;
-        }
+    // Postures of like wrenches, earlier ones first: of ten thousand not each is held against each.
+    std::map<std::vector<double>, std::vector<int>> alike;
+    for (const auto& [pose, rows] : postures) {
+      std::vector<double> digits;
+      bool all_of_six = true;
+      for (const campaign::State* row : rows) {
+        digits.push_back(row->step);
+        digits.insert(digits.end(), row->wrench_in_cell.begin(), row->wrench_in_cell.end());
+        all_of_six &= (row->wrench_in_cell.array().abs() > 0.0).all();  // nor is one NaN
+      }
+      if (!all_of_six) continue;
+      std::vector<int>& earlier = alike[std::move(digits)];
+      for (const int other : earlier) {
         constexpr double kOtherPosture = 2.0 * io::kDegree;
-        if (!same || !all_of_six ||
-            (one->second.front()->q - other->second.front()->q).cwiseAbs().maxCoeff() < kOtherPosture)
-          continue;
+        if ((rows.front()->q - postures.at(other).front()->q).cwiseAbs().maxCoeff() < kOtherPosture) continue;
         // The later of two is the one that was not updated, unless the springs say otherwise.
-        const auto left = [&](int pose) {
-          const auto at = std::find(loads_.poses().begin(), loads_.poses().end(), pose);
+        const auto left = [&](int of) {
+          const auto at = std::find(loads_.poses().begin(), loads_.poses().end(), of);
           return at == loads_.poses().end()
                      ? 0.0
                      : found_.fit.pose_left[static_cast<std::size_t>(at - loads_.poses().begin())];
         };
-        const bool later = left(one->first) >= left(other->first);
-        const int stale = later ? one->first : other->first, own = later ? other->first : one->first;
+        const bool later = left(pose) >= left(other);
+        const int stale = later ? pose : other, own = later ? other : pose;
         found_.cures.push_back({"row_order", whereOf(stale),
                                 Remark(RemarkId::wrenches_repeated, nameOf(stale), nameOf(own)),
                                 Remark(RemarkId::loads_left, left(stale), left(own)), left(stale), left(own)});
         return true;
       }
+      earlier.push_back(pose);
     }
     return false;
   }

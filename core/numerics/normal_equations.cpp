@@ -1,5 +1,9 @@
 #include "core/numerics/normal_equations.h"
 
+#include <algorithm>
+
+#include "core/numerics/parallel.h"
+
 namespace stiffscope::numerics {
 
 std::vector<int> columnsInSpanOfEarlier(const Eigen::MatrixXd& jacobian, const std::vector<int>& order) {
@@ -24,7 +28,17 @@ std::vector<int> columnsInSpanOfEarlier(const Eigen::MatrixXd& jacobian, const s
 
 Eigen::MatrixXd normalMatrix(const Eigen::MatrixXd& equations) {
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(equations.cols(), equations.cols());
-  normal.selfadjointView<Eigen::Lower>().rankUpdate(equations.transpose());
+  constexpr Eigen::Index kManyRows = 1000, kColumns = 32;
+  if (equations.rows() < kManyRows) {
+    normal.selfadjointView<Eigen::Lower>().rankUpdate(equations.transpose());
+  } else {
+    const Eigen::Index end = equations.cols();
+    onAllCores(static_cast<std::size_t>((end + kColumns - 1) / kColumns), [&](std::size_t block) {
+      const Eigen::Index from = kColumns * static_cast<Eigen::Index>(block), count = std::min(kColumns, end - from);
+      normal.block(from, from, end - from, count).noalias() =
+          equations.rightCols(end - from).transpose() * equations.middleCols(from, count);
+    });
+  }
   normal.triangularView<Eigen::StrictlyUpper>() = normal.transpose();
   return normal;
 }

@@ -10,6 +10,7 @@
 #include "core/campaign/repeated_keys.h"
 #include "core/campaign/row_names.h"
 #include "core/frames/joint_axes.h"
+#include "core/numerics/parallel.h"
 #include "core/preparation/drift_nests.h"
 #include "core/preparation/nest_outliers.h"
 #include "core/preparation/remarks.h"
@@ -106,17 +107,26 @@ Screening screenReadings(campaign::Campaign campaign) {
   }
   screen("lost_beam", AuditVerdict::fail, lostBeams(result.campaign), RemarkId::readings_at_zero,
          Remark(RemarkId::nothing_inside_station));
-  screen("duplicate_readings", AuditVerdict::warn, duplicates(result.campaign), RemarkId::readings_repeated,
+  // What each finds, while none before it rejects a reading: three searches at the same time.
+  std::vector<RejectedReading> same;
+  RepeatScatter scatter;
+  NestOutliers nests;
+  numerics::onAllCores(3, [&](std::size_t part) {
+    if (part == 0) scatter = repeatScatter(result.campaign);
+    if (part == 1) same = duplicates(result.campaign);
+    if (part == 2) nests = nestOutliers(result.campaign);
+  });
+  screen("duplicate_readings", AuditVerdict::warn, same, RemarkId::readings_repeated,
          Remark(RemarkId::no_chance_of_same_digits));
-  RepeatScatter scatter = repeatScatter(result.campaign);
+  if (!same.empty()) scatter = repeatScatter(result.campaign);
   if (scatter.tested) {
     screen("repeat_outliers", AuditVerdict::warn, scatter.outliers, RemarkId::repeats_stand_apart,
            byChance(Remark(RemarkId::chi_square_of_repeat)));
   } else {
     result.checks.push_back(notTestable("repeat_outliers", scatter.reason));
   }
+  if (!same.empty() || !scatter.outliers.empty()) nests = nestOutliers(result.campaign);
   if (scatter.outliers.empty()) result.scatter = std::move(scatter);
-  const NestOutliers nests = nestOutliers(result.campaign);
   if (!nests.tested) {
     result.checks.push_back(notTestable("nest_outliers", nests.reason));
     return result;
