@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace stiffscope::render {
@@ -10,6 +11,18 @@ namespace stiffscope::render {
 struct Size {
   int width = 1200;
   int height = 700;
+  /// Two pixels instead of each in both directions, for print and dense screens: the picture as it is rendered anyway,
+  /// not averaged down.
+  bool doubled = false;
+};
+
+/// Where something stands that has a value: a bar's end, a point, a box. For what is laid over a picture.
+struct Mark {
+  double x = 0, y = 0;     ///< shares of the picture's width from the left, of its height from the top
+  std::string series;      ///< as in the legend; a rich text
+  std::string category;    ///< the posture, the joint, the row; empty where the axis is one of numbers
+  double value = 0;        ///< in the unit of the axis
+  double category_at = 0;  ///< where there is no category: on the horizontal axis
 };
 
 /// A picture: rows from top to bottom, three bytes (red, green, blue) a pixel, no padding.
@@ -17,6 +30,7 @@ struct Image {
   int width = 0;
   int height = 0;
   std::vector<std::uint8_t> rgb;
+  std::vector<Mark> marks;  ///< of a chart, in the order in which they are drawn
 
   /// The three bytes of the pixel `x` from the left, `y` from the top. Not checked.
   const std::uint8_t* at(int x, int y) const {
@@ -24,7 +38,8 @@ struct Image {
   }
 };
 
-/// `image` as a PNG file in memory: 8-bit RGB, no time stamp or text chunk, so equal images give equal bytes.
+/// `image` as a PNG file in memory: 8 bits, with a palette where it has no more than 256 colours (a third to compress),
+/// else RGB; no time stamp or text chunk, so equal images give equal bytes.
 /// Throws std::invalid_argument when the size and the number of bytes of `image` disagree, std::runtime_error
 /// when libpng fails.
 std::vector<std::uint8_t> encodePng(const Image& image);

@@ -9,6 +9,7 @@
 #include "reports/page/html.h"
 #include "reports/page/sections.h"
 #include "reports/words/audit_figures.h"
+#include "reports/words/conformity_words.h"
 #include "reports/words/day_words.h"
 #include "reports/words/listed.h"
 #include "reports/words/names.h"
@@ -238,13 +239,11 @@ std::vector<std::string> leftOut(const reports::ReportCampaign& one) {
 
 }  // namespace
 
-bool hasLeftOut(const reports::ReportCampaign& one) { return isLoaded(one) || !leftOut(one).empty(); }
+bool hasLeftOut(const reports::ReportCampaign& one) { return !leftOut(one).empty(); }
 
 void writeLeftOut(Html& html, const reports::ReportContent& content) {
   const auto write = [&](const reports::ReportCampaign& one) {
-    const std::vector<std::string> items = leftOut(one);
-    if (isLoaded(one) && one.identification.left_out.empty()) html.paragraph("No posture was left out.");
-    html.list(items);
+    html.list(leftOut(one));
   };
   writeForEach(html, content, "left-out", "What was left out, and why", hasLeftOut, write);
 }
@@ -268,7 +267,13 @@ void writeProvenance(Html& html, const reports::ReportContent& content) {
       table.groups.front().rows.push_back({reports::asIs(file.name), "`" + file.sha256 + "`"});
     writeTable(html, table);
   });
-  if (content.versions.empty() && content.settings.empty() && content.command_line.empty()) return;
+}
+
+bool hasVersions(const reports::ReportContent& content) {
+  return !content.versions.empty() || !content.settings.empty() || !content.command_line.empty();
+}
+
+void writeVersions(Html& html, const reports::ReportContent& content) {
   const auto section = html.element("section", {{"id", "versions"}});
   html.leaf("h2", "How this page was made");
   if (!content.command_line.empty()) {
@@ -286,10 +291,11 @@ void writeScope(Html& html, const reports::ReportContent& content) {
   const auto section = html.element("section", {{"id", "scope"}});
   html.leaf("h2", "Uncertainty, decision rule and scope");
   std::vector<std::string> items;
+  if (!content.limits_file.empty()) items.push_back(reports::decisionRuleWords());
   using reports::DayKind;
   for (const DayKind kind : {DayKind::unloaded, DayKind::loaded, DayKind::sweeps}) {
     if (!reports::anyOfKind(content.campaigns, kind)) continue;
-    for (const std::string& item : reports::scopeWords(kind)) {
+    for (const std::string& item : reports::scopeWords(kind, !content.limits_file.empty())) {
       if (std::find(items.begin(), items.end(), item) == items.end()) items.push_back(item);
     }
   }
