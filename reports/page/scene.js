@@ -580,7 +580,7 @@
       rich(table.createCaption(), point.label + ' in ' + this.frame.where);
       const row = (cells) => {
         const line = table.insertRow();
-        cells.forEach((cell, i) => rich(line.appendChild(element(i ? 'td' : 'th')), cell));
+        cells.forEach((cell, i) => rich(line.appendChild(i ? element('td') : element('th', { scope: 'row' })), cell));
       };
       row(['in R_{0}, mm', 'x_{0}', 'y_{0}', 'z_{0}', 'length']);
       const vectors = this.vectorsOf(point);
