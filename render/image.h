@@ -30,7 +30,7 @@ struct Image {
   int width = 0;
   int height = 0;
   std::vector<std::uint8_t> rgb;
-  std::vector<Mark> marks;  ///< of a chart, in the order in which they are drawn
+  std::vector<Mark> marks;  ///< of a chart in the order in which they are drawn; of a scene its points, without values
 
   /// The three bytes of the pixel `x` from the left, `y` from the top. Not checked.
   const std::uint8_t* at(int x, int y) const {
@@ -38,10 +38,13 @@ struct Image {
   }
 };
 
-/// `image` as a PNG file in memory: 8 bits, with a palette where it has no more than 256 colours (a third to compress),
-/// else RGB; no time stamp or text chunk, so equal images give equal bytes.
+/// `image` as a PNG file in memory: 8-bit RGB, no time stamp or text chunk, so equal images give equal bytes.
 /// Throws std::invalid_argument when the size and the number of bytes of `image` disagree, std::runtime_error
 /// when libpng fails.
 std::vector<std::uint8_t> encodePng(const Image& image);
+
+/// The same in 256 colours at most, a third as large and as long to make: for pictures of which a page carries dozens.
+/// Flat colours stay exact; of shades and of the edges of letters neighbours become one, a few of 255 steps apart.
+std::vector<std::uint8_t> encodeSmallPng(const Image& image);
 
 }  // namespace stiffscope::render

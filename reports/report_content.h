@@ -32,9 +32,9 @@ struct ReportCampaign {
   const diagnosis::Diagnosis* diagnosis = nullptr;
   const extended_model::ExtendedModel* improved =
       nullptr;  ///< effects were asked for: `campaign` and `identification` are of it
-  const accuracy::AccuracyDiagnosis* accuracy = nullptr;     ///< of a day without a load; the calibration is in it
-  calibration::CalibrationOptions calibrated_by = {};        ///< how that was held out
-  const workspace::WorkspaceStiffness* workspace = nullptr;  ///< of a loaded day
+  const accuracy::AccuracyDiagnosis* accuracy = nullptr;         ///< of a day without a load; the calibration is in it
+  calibration::CalibrationOptions calibrated_by = {};            ///< how that was held out
+  const workspace::WorkspaceStiffness* workspace = nullptr;      ///< of a loaded day
   const std::vector<conformity::Decision>* decisions = nullptr;  ///< on the acceptance limits, where there are any
 };
 
@@ -82,16 +82,17 @@ struct Figure {
   std::string caption;  ///< what to see in it, with the number
   std::string alt;      ///< what the picture shows, for those who do not see it
   std::vector<std::uint8_t> png;
-  int width = 0;                    ///< pixels
-  int height = 0;                   ///< pixels
-  std::vector<FigureMark> marks = {};        ///< empty: nothing is laid over it
-  std::string value_name, category_name;     ///< what the axes say: "Residual (µm)", "Posture"
-  std::string section = "figures";  ///< id of the section of the page that it stands in; see kFigureSections
+  int width = 0;                          ///< pixels
+  int height = 0;                         ///< pixels
+  std::vector<FigureMark> marks = {};     ///< empty: nothing is laid over it
+  std::string value_name, category_name;  ///< what the axes say: "Residual (µm)", "Posture"
+  std::string section = "figures";        ///< id of the section of the page that it stands in; see kFigureSections
 };
 
 /// The sections that have figures, in the order of the page: figures are counted in it.
-inline constexpr std::array kFigureSections{"opening", "accuracy", "station",   "accuracy-gap", "wrist", "links",   "stiffness",
-                                            "subsets",  "workspace", "compensation", "gap",   "figures", "audit"};
+inline constexpr std::array kFigureSections{"opening", "accuracy",  "station", "accuracy-gap", "wrist",
+                                            "links",   "stiffness", "subsets", "workspace",    "compensation",
+                                            "gap",     "figures",   "audit"};
 
 /// The name of its file in a report's folder.
 inline std::string pictureFile(const Figure& figure) { return figure.id + ".png"; }

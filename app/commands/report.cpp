@@ -155,7 +155,7 @@ struct Result {
   std::optional<accuracy::AccuracyDiagnosis> accuracy;     ///< of a day without a load
   identification::Identification own;                      ///< without any
   std::optional<workspace::WorkspaceStiffness> workspace;  ///< of a loaded day with stiffnesses
-  std::string scene;  ///< app/figures/page_scene.h; empty: none
+  std::string scene;                                       ///< app/figures/page_scene.h; empty: none
   bool loaded = false;
 
   const campaign::Campaign& campaign() const { return improved ? improved->campaign : prepared.campaign; }
@@ -321,7 +321,8 @@ int writeReport(const ReportArguments& arguments) {
   if (limits) {
     decisions = decisionsOf(*limits, results, content);
     content.limits_file = limits->file;
-    content.settings.push_back({"acceptance limits", reports::asIs(limits->file) + ", SHA-256 `" + limits->sha256 + "`"});
+    content.settings.push_back(
+        {"acceptance limits", reports::asIs(limits->file) + ", SHA-256 `" + limits->sha256 + "`"});
   }
   for (std::size_t i = 0; i < decisions.size(); ++i) content.campaigns[i].decisions = &decisions[i];
   content.figures = makeFigures(content.campaigns, {arguments.paper}, content.avoided);

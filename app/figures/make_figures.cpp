@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <type_traits>
+
 #include "app/figures/accuracy_figures.h"
 #include "app/figures/arm_scenes.h"
 #include "app/view/view_material.h"
@@ -31,7 +33,10 @@ void nameAxes(const Picture& picture, reports::Figure& figure) {
     figure.category_name = picture.diagrams.back().x_title;
   } else if constexpr (requires { picture.rows; }) {
     figure.value_name = picture.x_title;
-  } else if constexpr (requires { picture.panels; picture.methods; }) {
+  } else if constexpr (requires {
+                         picture.panels;
+                         picture.methods;
+                       }) {
     figure.value_name = picture.y_title;
     figure.category_name = "Joint";
   }
@@ -42,9 +47,12 @@ reports::Figure drawn(reports::Figure figure, const Picture& picture, render::Si
   size.doubled = true;
   render::Image image = render::render(picture, size);
   nameAxes(picture, figure);
-  for (render::Mark& mark : image.marks)
-    figure.marks.push_back({mark.x, mark.y, std::move(mark.series), std::move(mark.category), mark.value, mark.category_at});
-  figure.png = render::encodePng(image);
+  if constexpr (!std::is_same_v<Picture, render::ArmScene>) {  // that has no values
+    for (render::Mark& mark : image.marks)
+      figure.marks.push_back(
+          {mark.x, mark.y, std::move(mark.series), std::move(mark.category), mark.value, mark.category_at});
+  }
+  figure.png = render::encodeSmallPng(image);
   figure.width = image.width;
   figure.height = image.height;
   return figure;

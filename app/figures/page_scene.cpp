@@ -30,11 +30,16 @@ Json moveJson(const Eigen::Vector3d& move) { return vectorJson(move, io::kMicrom
 
 Json paletteJson(const render::Palette& palette, const render::Colour& effects) {
   const auto colour = [](const render::Colour& c) { return Json::array({c.red, c.green, c.blue}); };
-  return {{"paper", colour(palette.paper)},         {"ink", colour(palette.ink)},
-          {"grid", colour(palette.grid)},           {"measured", colour(palette.measured)},
-          {"predicted", colour(palette.predicted)}, {"residual", colour(palette.residual)},
-          {"effects", colour(effects)},             {"target", colour(palette.target)},
-          {"wrist", colour(palette.wrist)},         {"link", colour(palette.link)},
+  return {{"paper", colour(palette.paper)},
+          {"ink", colour(palette.ink)},
+          {"grid", colour(palette.grid)},
+          {"measured", colour(palette.measured)},
+          {"predicted", colour(palette.predicted)},
+          {"residual", colour(palette.residual)},
+          {"effects", colour(effects)},
+          {"target", colour(palette.target)},
+          {"wrist", colour(palette.wrist)},
+          {"link", colour(palette.link)},
           {"joint", colour(palette.joint)}};
 }
 
@@ -65,8 +70,8 @@ Json frameJson(const std::string& id, const std::string& where, const std::strin
   Json joints = Json::array(), axes = Json::array();
   for (const Eigen::Vector3d& point : arm.joint_points) joints.push_back(placeJson(point));
   for (const Eigen::Vector3d& axis : arm.axis_directions) axes.push_back(vectorJson(axis, 0.01));
-  return {{"id", id},         {"where", where}, {"load", load},          {"posture", posture}, {"step", step},
-          {"joints", joints}, {"axes", axes},   {"points", Json::array()}};
+  return {{"id", id},     {"where", where},   {"load", load}, {"posture", posture},
+          {"step", step}, {"joints", joints}, {"axes", axes}, {"points", Json::array()}};
 }
 
 /// Which postures of a long day are shown.
@@ -117,7 +122,8 @@ Json loadedPoints(const ViewFrame& frame, std::size_t index, const std::vector<N
       const render::ScenePoint* same = by != nullptr ? pointNamed(by->scene.poses.front(), point->label) : nullptr;
       if (same != nullptr && same->predicted) json["p"][reports::namesOf(one.method).key] = moveJson(*same->predicted);
     }
-    const render::ScenePoint* as_read = before != nullptr ? pointNamed(before->scene.poses.front(), point->label) : nullptr;
+    const render::ScenePoint* as_read =
+        before != nullptr ? pointNamed(before->scene.poses.front(), point->label) : nullptr;
     // P_wrist is found by the geometry, which correcting changes too: there is no such difference of one point.
     const bool is_wrist = json.contains("wrist");
     if (!is_wrist && as_read != nullptr && as_read->measured && point->measured)
@@ -155,13 +161,14 @@ std::string loadedSceneJson(const reports::ReportCampaign& one, const campaign::
   json["residual_factor"] = picture.residual_factor;
   json["corrected"] = before.has_value();
   for (const NamedMaterial& method : methods)
-    json["methods"].push_back({{"key", reports::namesOf(method.method).key}, {"name", reports::namesOf(method.method).brief}});
+    json["methods"].push_back(
+        {{"key", reports::namesOf(method.method).key}, {"name", reports::namesOf(method.method).brief}});
   json["vectors"].push_back(vectorKind("m", "measured", "measured", 5));
   if (!methods.empty()) {
     json["vectors"].push_back(vectorKind("p", "predicted", "predicted", 2.5));
     json["vectors"].push_back(vectorKind("r", "residual", "residual", 3.5));
   }
-  if (before) json["vectors"].push_back(vectorKind("e", "effects, taken off what was measured", "effects", 3.5));
+  if (before) json["vectors"].push_back(vectorKind("e", "effects", "effects", 3.5));
   const int first_posture = one.identification.cases[median].pose;
   for (std::size_t i = 0; i < material.frames.size(); ++i) {
     const ViewFrame& frame = material.frames[i];
@@ -200,8 +207,8 @@ std::string accuracySceneJson(const reports::ReportCampaign& one) {
       posture = error.posture;
       const auto& at = calibration.day.postures[posture];
       const std::string& id = calibration.day.pose_ids[static_cast<std::size_t>(at.pose)];
-      json["frames"].push_back(frameJson(id, "posture " + id, "", at.pose, 0,
-                                         bareArm(frames, robot::postureAt(frames.arm.arm, at.q))));
+      json["frames"].push_back(
+          frameJson(id, "posture " + id, "", at.pose, 0, bareArm(frames, robot::postureAt(frames.arm.arm, at.q))));
     }
     const Eigen::Vector3d left = r0_from_base.linear() * error.of(CalibratedModel::geometry);
     Json point{{"label", reports::pointName(calibration.day.targets[static_cast<std::size_t>(error.target)])},

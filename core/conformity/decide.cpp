@@ -32,8 +32,10 @@ Sought stiffness(const DayResult& day, int joint) {
   const identification::MethodResult& shown = day.identification->of(identification::bestMethod(*day.identification));
   if (!shown.available || !shown.estimate.identifiable[static_cast<std::size_t>(joint)])
     return {std::nullopt, Missing::not_identified};
-  const CoverageInterval interval = identification::stiffnessInterval(shown.estimate, joint);
-  return found(shown.estimate.stiffness(joint), interval);
+  const double k = shown.estimate.stiffness(joint), u = identification::expandedUncertainty(shown.estimate, joint);
+  // The U that is stated; one that is open above still has a lower end.
+  return found(
+      k, std::isfinite(u) ? CoverageInterval{k - u, k + u} : identification::stiffnessInterval(shown.estimate, joint));
 }
 
 Sought compensated(const DayResult& day, bool at_wrist) {

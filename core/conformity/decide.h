@@ -41,12 +41,12 @@ struct DayResult {
   const identification::Identification* identification = nullptr;  ///< of a loaded day
   const frames::Frames* swept = nullptr;                           ///< where circles were swept
   const workspace::WorkspaceStiffness* workspace = nullptr;
-  const calibration::Calibration* calibration = nullptr;  ///< of an unloaded day
+  const calibration::Calibration* calibration = nullptr;   ///< of an unloaded day
   const comparison::DeflectionAvoided* avoided = nullptr;  ///< by this day's encoders, against another day
 };
 
-/// Guarded acceptance with the guard band w = U (JCGM 106:2012, 8.3.2; ISO 14253-1): a limit is kept where the whole 95 %
-/// interval of the quantity keeps it, value - U >= least and value + U <= most, U to each side the distance of the
+/// Guarded acceptance with the guard band w = U (JCGM 106:2012, 8.3.2; ISO 14253-1): a limit is kept where the whole 95
+/// % interval of the quantity keeps it, value - U >= least and value + U <= most, U to each side the distance of the
 /// interval's end. The chance of accepting what is outside is then 2.5 % at most for one limit. Everything else fails,
 /// `in_guard_band` where the value itself keeps the limit.
 Decision decide(const Limit& limit, const Measured& measured);
@@ -56,8 +56,8 @@ Decision decide(const Limit& limit, const Measured& measured);
 /// interval of their own.
 std::vector<Decision> decide(const Limits& limits, const DayResult& day);
 
-/// Over the days of a report, whose decisions are of the same limits in one order: fail where one fails; pass where each
-/// limit passes on some day and was evaluated on all days that measure what it is on; else not evaluated.
+/// Over the days of a report, whose decisions are of the same limits in one order: fail where one fails; pass where
+/// each limit passes on some day and was evaluated on all days that measure what it is on; else not evaluated.
 Verdict overall(const std::vector<std::vector<Decision>>& by_day);
 
 }  // namespace stiffscope::conformity

@@ -56,9 +56,9 @@ LimitColumns columnsOf(const std::string& file, std::size_t line, const std::vec
     const std::string name(header[i]);
     const auto found = std::find(known.begin(), known.end(), name);
     if (found == known.end())
-      throw io::InputError({file, line, name}, "",
-                           "not a column of a file of limits; expected name, least, most, reason" +
-                               io::nearestNameHint(name, known));
+      throw io::InputError(
+          {file, line, name}, "",
+          "not a column of a file of limits; expected name, least, most, reason" + io::nearestNameHint(name, known));
     auto& place = columns.at[static_cast<std::size_t>(found - known.begin())];
     if (place) throw io::InputError({file, line, name}, "", "this column stands there twice");
     place = i;
@@ -118,19 +118,23 @@ Limits readLimits(const std::filesystem::path& path) {
   Limits limits{path.filename().string(), io::sha256Hex(bytes), {}};
   io::CsvLines lines(file, bytes);
   std::vector<std::string_view> cells;
-  if (!lines.next(cells)) throw io::InputError({file}, "", "expected a first line with the columns name, least, most, reason");
+  if (!lines.next(cells))
+    throw io::InputError({file}, "", "expected a first line with the columns name, least, most, reason");
   const LimitColumns columns = columnsOf(file, lines.line(), cells);
   while (lines.next(cells)) {
-    const std::size_t width = std::count_if(columns.at.begin(), columns.at.end(), [](const auto& at) { return at.has_value(); });
+    const std::size_t width =
+        std::count_if(columns.at.begin(), columns.at.end(), [](const auto& at) { return at.has_value(); });
     if (lines.cellCount() != width)
-      throw io::InputError({file, lines.line()}, "",
-                           fmt::format("{} cells, expected {} as in the first line; a reason with a comma stands in double quotes",
-                                       lines.cellCount(), width));
+      throw io::InputError(
+          {file, lines.line()}, "",
+          fmt::format("{} cells, expected {} as in the first line; a reason with a comma stands in double quotes",
+                      lines.cellCount(), width));
     Limit limit = limitOf(file, lines.line(), columns, cells);
     for (const Limit& other : limits.limits) {
       if (other.quantity == limit.quantity)
-        throw io::InputError({file, lines.line(), "name"}, nameOf(limit.quantity).name,
-                             fmt::format("line {} has a limit on this already; least and most may stand in one row", other.line));
+        throw io::InputError(
+            {file, lines.line(), "name"}, nameOf(limit.quantity).name,
+            fmt::format("line {} has a limit on this already; least and most may stand in one row", other.line));
     }
     limits.limits.push_back(std::move(limit));
   }

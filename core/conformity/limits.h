@@ -9,10 +9,10 @@
 
 namespace stiffscope::conformity {
 
-/// What a limit can be on, in the unit that its name ends in. Of a loaded day: the stiffnesses by the method shown first,
-/// what it compensates on postures held out, the softest direction at P_TCP over the day's postures, and, of a pair, what
-/// active encoders avoid. Of an unloaded day: position errors on postures held out, by the URDF's arm and by the
-/// calibrated one. Of circle sweeps: the largest difference of a distance between axes from the URDF's.
+/// What a limit can be on, in the unit that its name ends in. Of a loaded day: the stiffnesses by the method shown
+/// first, what it compensates on postures held out, the softest direction at P_TCP over the day's postures, and, of a
+/// pair, what active encoders avoid. Of an unloaded day: position errors on postures held out, by the URDF's arm and by
+/// the calibrated one. Of circle sweeps: the largest difference of a distance between axes from the URDF's.
 enum class Quantity {
   k1,
   k2,

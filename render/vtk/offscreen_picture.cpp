@@ -15,6 +15,7 @@
 #include "render/vtk/canvas.h"
 #include "render/vtk/gl_window.h"
 #include "render/vtk/painting.h"
+#include "render/vtk/scene_stage.h"
 
 class vtkRenderer;
 
@@ -31,6 +32,14 @@ Image drawArmScene(const ArmScene& scene, Size size) {
   const ArmLayers layers(scene, {size});
   Image image = renderOffscreen(layers.renderers(), size);
   layers.rethrow();
+  const auto mark = [&](const ScenePoint& point) {
+    const Spot at = layers.stage().projection.spotOf(point.position);
+    image.marks.push_back({at.x / size.width, at.y / size.height, point.label, "", 0.0, 0.0});
+  };
+  for (const ArmPose& pose : scene.poses) {
+    for (const ScenePoint& target : pose.targets) mark(target);
+    if (pose.wrist) mark(*pose.wrist);
+  }
   return image;
 }
 

@@ -40,7 +40,8 @@ void writeFacts(Html& html, const std::string& caption, const std::vector<std::s
   for (const Fact& fact : facts) {
     const auto line = html.element("tr");
     html.leaf("th", fact.name, {{"scope", "row"}});
-    const bool same = std::all_of(fact.of.begin(), fact.of.end(), [&](const auto& words) { return words == fact.of.front(); });
+    const bool same =
+        std::all_of(fact.of.begin(), fact.of.end(), [&](const auto& words) { return words == fact.of.front(); });
     if (same && fact.of.size() > 1) {
       html.leaf("td", fact.of.front(), {{"colspan", std::to_string(fact.of.size())}});
       continue;
@@ -52,7 +53,8 @@ void writeFacts(Html& html, const std::string& caption, const std::vector<std::s
 std::vector<std::string> columnNames(const reports::ReportContent& content) {
   std::vector<std::string> names;
   std::set<std::string> states;
-  for (const reports::ReportCampaign& one : content.campaigns) states.insert(reports::encoderWords(one.campaign.double_encoder));
+  for (const reports::ReportCampaign& one : content.campaigns)
+    states.insert(reports::encoderWords(one.campaign.double_encoder));
   const bool told_apart = states.size() == content.campaigns.size() && !states.contains("");
   for (const reports::ReportCampaign& one : content.campaigns)
     names.push_back(told_apart ? reports::capitalised(reports::encoderWords(one.campaign.double_encoder))
@@ -66,7 +68,8 @@ namespace {
 std::string instrument(const std::string& model, const std::string& serial, const std::string& certificate) {
   std::string words = reports::asIs(model.empty() ? std::string("model not stated") : model);
   words += serial.empty() ? "" : fmt::format(", serial number {}", reports::asIs(serial));
-  return words + (certificate.empty() ? "; certificate not stated" : fmt::format("; certificate {}", reports::asIs(certificate)));
+  return words + (certificate.empty() ? "; certificate not stated"
+                                      : fmt::format("; certificate {}", reports::asIs(certificate)));
 }
 
 }  // namespace

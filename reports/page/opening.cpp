@@ -193,7 +193,6 @@ void writeWarnings(Html& html, const reports::ReportContent& content) {
   }
 }
 
-
 /// Column heads for campaigns of a kind: their names, or `alone` where there is one.
 std::vector<std::string> headsOf(const reports::ReportContent& content, const About& about, const std::string& alone) {
   if (content.campaigns.size() == 1) return {alone};
@@ -213,9 +212,8 @@ std::string stiffnessWords(const reports::ReportCampaign& one, int joint) {
   const double u = identification::expandedUncertainty(estimate, joint);
   const double k = estimate.stiffness(joint) / reports::kMega;
   const std::string mark = reports::words(estimate.mark(joint));
-  const std::string words =
-      std::isfinite(u) ? reports::withUncertainty(k, u / reports::kMega)
-                       : fmt::format("{} (U open)", reports::significant(k, 3));
+  const std::string words = std::isfinite(u) ? reports::withUncertainty(k, u / reports::kMega)
+                                             : fmt::format("{} (U open)", reports::significant(k, 3));
   return mark.empty() ? words : fmt::format("{} ({})", words, mark);
 }
 
@@ -266,7 +264,8 @@ void addErrors(const reports::ReportContent& content, reports::Table& table) {
     for (const reports::ReportCampaign& one : content.campaigns) {
       if (!isUnloaded(one)) continue;
       const auto& models = one.accuracy->calibration.models;
-      const auto found = std::find_if(models.begin(), models.end(), [model](const auto& m) { return m.model == model; });
+      const auto found =
+          std::find_if(models.begin(), models.end(), [model](const auto& m) { return m.model == model; });
       any = any || found != models.end();
       const bool there = found != models.end();
       const calibration::PositionErrors errors =
@@ -288,9 +287,10 @@ void addDistances(const reports::ReportContent& content, reports::Table& table) 
     for (const reports::ReportCampaign& one : content.campaigns) {
       const frames::LinkGeometry& link = one.identification.frames.links[i];
       any = any || link.distance_sd.has_value();
-      row.emplace_back(link.distance_sd ? reports::withUncertainty((link.distance - link.nominal_distance) / io::kMillimetre,
-                                                                   reports::expanded(*link.distance_sd) / io::kMillimetre)
-                                        : "–");
+      row.emplace_back(link.distance_sd
+                           ? reports::withUncertainty((link.distance - link.nominal_distance) / io::kMillimetre,
+                                                      reports::expanded(*link.distance_sd) / io::kMillimetre)
+                           : "–");
     }
     if (any) table.groups.front().rows.push_back(std::move(row));
   }
@@ -313,10 +313,10 @@ reports::Table resultTable(const reports::ReportContent& content) {
   return table;
 }
 
-
 /// The limits with what came of them, of one campaign.
 void writeLimits(Html& html, const reports::ReportCampaign& one) {
-  reports::Table table{"Acceptance limits", {"Limit on", "Asked for", "Found (95\u00a0%)", "Verdict", "Reason"}, {{}}, true, "limits"};
+  reports::Table table{
+      "Acceptance limits", {"Limit on", "Asked for", "Found (95\u00a0%)", "Verdict", "Reason"}, {{}}, true, "limits"};
   reports::DataTable& data = table.data.emplace();
   data.columns = {"name", "least", "most", "value", "low", "high", "verdict", "in_guard_band", "missing", "reason"};
   for (const conformity::Decision& decision : *one.decisions) {
@@ -329,12 +329,11 @@ void writeLimits(Html& html, const reports::ReportCampaign& one) {
       return value ? reports::DataCell(*value / unit) : reports::DataCell();
     };
     const auto& found = decision.measured;
-    data.rows.push_back({std::string(conformity::nameOf(limit.quantity).name), number(limit.least), number(limit.most),
-                         found ? number(found->value) : reports::DataCell(),
-                         found ? number(found->interval.low) : reports::DataCell(),
-                         found ? number(found->interval.high) : reports::DataCell(),
-                         std::string(reports::nameOf(decision.verdict)), decision.in_guard_band ? 1.0 : 0.0,
-                         std::string(reports::nameOf(decision.missing)), limit.reason});
+    data.rows.push_back(
+        {std::string(conformity::nameOf(limit.quantity).name), number(limit.least), number(limit.most),
+         found ? number(found->value) : reports::DataCell(), found ? number(found->interval.low) : reports::DataCell(),
+         found ? number(found->interval.high) : reports::DataCell(), std::string(reports::nameOf(decision.verdict)),
+         decision.in_guard_band ? 1.0 : 0.0, std::string(reports::nameOf(decision.missing)), limit.reason});
   }
   writeTable(html, table);
 }
@@ -362,8 +361,10 @@ void writeJudgements(Html& html, const reports::ReportContent& content) {
     sentences.push_back(reports::auditMeaning(*one.audit, kindOf(one)));
   }
   if (sentences.empty()) return;
-  const bool same = std::all_of(sentences.begin(), sentences.end(), [&](const auto& one) { return one == sentences.front(); });
-  if (same) return html.paragraph(sentences.size() > 1 ? "Of all days: " + sentences.front() : sentences.front(), "judgement");
+  const bool same =
+      std::all_of(sentences.begin(), sentences.end(), [&](const auto& one) { return one == sentences.front(); });
+  if (same)
+    return html.paragraph(sentences.size() > 1 ? "Of all days: " + sentences.front() : sentences.front(), "judgement");
   const std::vector<std::string> names = columnNames(content);
   std::size_t next = 0;
   for (std::size_t i = 0; i < content.campaigns.size(); ++i) {
@@ -378,9 +379,13 @@ void writeOpening(Html& html, const reports::ReportContent& content) {
   const auto header = html.element("header");
   html.leaf("h1", content.title);
   html.paragraph(fmt::format("Report {}", reports::reportId(content)), "faint");
-  html.paragraph(content.verdict, "verdict");
-  if (content.campaigns.empty()) return;
+  const bool loaded = reports::anyOfKind(content.campaigns, reports::DayKind::loaded);
+  // Of loads two sentences: what the diagnosis finds, what the audit says; the numbers are in the table below.
+  if (const std::string diagnosis = reports::diagnosisVerdict(content.campaigns); !diagnosis.empty())
+    html.paragraph(diagnosis, "verdict");
   writeJudgements(html, content);
+  if (!loaded) html.paragraph(content.verdict, "verdict");
+  if (content.campaigns.empty()) return;
   if (const std::vector<KeyNumber> numbers = keyNumbers(content); !numbers.empty()) {
     const auto list = html.element("ul", {{"class", "numbers"}});
     for (const KeyNumber& number : numbers) {
@@ -401,6 +406,7 @@ void writeOpening(Html& html, const reports::ReportContent& content) {
     writeFiguresOf(html, content, "opening");
   }
   writeAcceptance(html, content);
+  if (loaded) html.paragraph(content.verdict);
   writeWarnings(html, content);
 }
 

@@ -339,7 +339,7 @@
         const label = element('label', { title: 'share of the effects in the displacement (c)' });
         this.shareBox = element('input', { type: 'checkbox' });
         this.shareBox.addEventListener('change', () => { this.byShare = this.shareBox.checked; this.draw(); });
-        label.append(this.shareBox, document.createTextNode('colour by share of the effects'));
+        label.append(this.shareBox, document.createTextNode('by share'));
         this.bar.appendChild(label);
       }
       if (data.vectors.length > 0) {

@@ -122,8 +122,9 @@ void writeConditions(Html& html, const reports::ReportContent& content) {
     const Facts said = whoAndWhat(content.campaigns[i]);
     facts.emplace_back();
     for (const reports::Row& row : rows.rows) {
-      const bool again = std::any_of(said.begin(), said.end(),
-                                     [&row](const auto& one) { return one.first == row[0].text && one.second == row[1].text; });
+      const bool again = std::any_of(said.begin(), said.end(), [&row](const auto& one) {
+        return one.first == row[0].text && one.second == row[1].text;
+      });
       if (!again) facts.back().emplace_back(row[0].text, row[1].text);
     }
   }

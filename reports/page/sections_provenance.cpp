@@ -242,9 +242,7 @@ std::vector<std::string> leftOut(const reports::ReportCampaign& one) {
 bool hasLeftOut(const reports::ReportCampaign& one) { return !leftOut(one).empty(); }
 
 void writeLeftOut(Html& html, const reports::ReportContent& content) {
-  const auto write = [&](const reports::ReportCampaign& one) {
-    html.list(leftOut(one));
-  };
+  const auto write = [&](const reports::ReportCampaign& one) { html.list(leftOut(one)); };
   writeForEach(html, content, "left-out", "What was left out, and why", hasLeftOut, write);
 }
 

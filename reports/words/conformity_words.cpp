@@ -89,7 +89,8 @@ std::string limitName(Quantity quantity) {
 std::string limitAsked(const conformity::Limit& limit) {
   const ReadUnit unit = unitOf(limit.quantity);
   const auto number = [&unit](double value) { return asPrinted(value / unit.unit); };
-  if (limit.least && limit.most) return fmt::format("{} to {}\u00a0{}", number(*limit.least), number(*limit.most), unit.name);
+  if (limit.least && limit.most)
+    return fmt::format("{} to {}\u00a0{}", number(*limit.least), number(*limit.most), unit.name);
   if (limit.least) return fmt::format("at least {}\u00a0{}", number(*limit.least), unit.name);
   return fmt::format("at most {}\u00a0{}", number(*limit.most), unit.name);
 }
@@ -121,8 +122,10 @@ std::string verdictWords(const Decision& one) {
 }
 
 std::string decisionRuleWords() {
-  return "Decision rule: guarded acceptance with a guard band of U (JCGM 106:2012, ISO 14253-1). A limit passes where the "
-         "whole 95\u00a0% interval of the quantity, value\u00a0−\u00a0U to value\u00a0+\u00a0U, keeps it; so what lies at its "
+  return "Decision rule: guarded acceptance with a guard band of U (JCGM 106:2012, ISO 14253-1). A limit passes where "
+         "the "
+         "whole 95\u00a0% interval of the quantity, value\u00a0−\u00a0U to value\u00a0+\u00a0U, keeps it; so what lies "
+         "at its "
          "limit passes in 2.5\u00a0% of such measurements at most. Everything else fails.";
 }
 
@@ -141,8 +144,7 @@ std::string acceptanceSentence(const std::vector<std::vector<Decision>>& by_day)
   for (std::size_t i = 0; i < limits; ++i) {
     std::vector<std::vector<Decision>> alone;
     for (const std::vector<Decision>& day : by_day) alone.push_back({day[i]});
-    if (conformity::overall(alone) == Verdict::not_evaluated)
-      add(missing, limitName(by_day.front()[i].limit.quantity));
+    if (conformity::overall(alone) == Verdict::not_evaluated) add(missing, limitName(by_day.front()[i].limit.quantity));
   }
   std::string text;
   if (!failed.empty())

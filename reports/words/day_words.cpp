@@ -104,10 +104,12 @@ std::vector<std::string> scopeWords(DayKind kind, bool limits) {
           "Uncertainty: u of a parameter is its standard uncertainty by least squares, from the tracker's declared "
           "noise and what the model leaves beyond it, readings of one posture erring together. The tracker's own "
           "scale, of which no reading tells, is not in it.",
-          rule + "An effect is in the model where it "
-          "predicts postures that took no part better than the model without it; errors that are named held out are "
-          "of postures by which nothing was fitted or chosen. The errors are of these postures and reflectors: "
-          "elsewhere in the workspace they can be larger."};
+          rule +
+              "An effect is in the model where it "
+              "predicts postures that took no part better than the model without it; errors that are named held out "
+              "are "
+              "of postures by which nothing was fitted or chosen. The errors are of these postures and reflectors: "
+              "elsewhere in the workspace they can be larger."};
     case DayKind::sweeps:
       return {
           "Uncertainty: that of an axis is from the scatter of its reflectors about their circles, and where they "
@@ -124,10 +126,12 @@ std::vector<std::string> scopeWords(DayKind kind, bool limits) {
       "stiffness is u(c)/c², to first order. U = k u with Student's t for about 95\u00a0%. The scales of the load "
       "cell "
       "and of the tracker, of which no reading tells, are not in it.",
-      rule + "A joint counts as seen where the load "
-      "turns it by more than three times what wrench, frame and angle uncertainty alone would. A stiffness is "
-      "imprecise where u exceeds the value, and negative ones are shown as found; uncertainty is not used to move a "
-      "limit."};
+      rule +
+          "A joint counts as seen where the load "
+          "turns it by more than three times what wrench, frame and angle uncertainty alone would. A stiffness is "
+          "imprecise where u exceeds the value, and negative ones are shown as found; uncertainty is not used to move "
+          "a "
+          "limit."};
 }
 
 }  // namespace stiffscope::reports

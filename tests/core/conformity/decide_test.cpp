@@ -49,7 +49,8 @@ TEST(Decide, AMachineAtItsLimitIsSeldomAccepted) {
   constexpr int kDraws = 20000;
   for (int i = 0; i < kDraws; ++i) {
     const double value = noise(random), expanded = 0.5 * identification::kNormalFactor;
-    accepted += conformity::decide(atLeast(10.0), {value, {value - expanded, value + expanded}}).verdict == Verdict::pass;
+    accepted +=
+        conformity::decide(atLeast(10.0), {value, {value - expanded, value + expanded}}).verdict == Verdict::pass;
   }
   EXPECT_NEAR(static_cast<double>(accepted) / kDraws, 0.025, 0.0045);
 }
@@ -76,12 +77,14 @@ TEST(Decide, StiffnessesAreThoseOfTheMethodShownFirst) {
   const identification::Identification day = loadedDay();
   conformity::DayResult result;
   result.identification = &day;
-  const auto decisions = conformity::decide(limitsOn({Quantity::k2, Quantity::k1, Quantity::calibrated_rms, Quantity::compensated_at_reflectors}), result);
+  const auto decisions = conformity::decide(
+      limitsOn({Quantity::k2, Quantity::k1, Quantity::calibrated_rms, Quantity::compensated_at_reflectors}), result);
   ASSERT_EQ(decisions.size(), 4u);
   ASSERT_TRUE(decisions[0].measured);
   EXPECT_DOUBLE_EQ(decisions[0].measured->value, 5e6);
-  EXPECT_DOUBLE_EQ(decisions[0].measured->interval.low, 1 / 0.21e-6);
+  // U is the distance of the interval's farther end.
   EXPECT_DOUBLE_EQ(decisions[0].measured->interval.high, 1 / 0.19e-6);
+  EXPECT_DOUBLE_EQ(decisions[0].measured->interval.low, 5e6 - (1 / 0.19e-6 - 5e6));
   EXPECT_EQ(decisions[1].missing, Missing::not_identified);
   EXPECT_EQ(decisions[2].missing, Missing::not_of_such_a_day);
   EXPECT_EQ(decisions[3].missing, Missing::not_identified);
