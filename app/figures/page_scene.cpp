@@ -47,6 +47,9 @@ Json vectorKind(const char* key, const std::string& name, const char* colour, do
   return {{"key", key}, {"name", name}, {"colour", colour}, {"width", width}};
 }
 
+/// Bytes of names that are not UTF-8 become U+FFFD.
+std::string sceneText(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
 /// What all scenes have.
 Json emptyScene(const reports::ReportCampaign& one) {
   constexpr render::Colour kEffects = render::colours::kWrist;  // of the palettes' colours the one that no vector has
@@ -180,7 +183,7 @@ std::string loadedSceneJson(const reports::ReportCampaign& one, const campaign::
     made["points"] = loadedPoints(frame, i, methods, before ? &*before : nullptr);
     json["frames"].push_back(std::move(made));
   }
-  return json.dump();
+  return sceneText(json);
 }
 
 std::string accuracySceneJson(const reports::ReportCampaign& one) {
@@ -221,7 +224,7 @@ std::string accuracySceneJson(const reports::ReportCampaign& one) {
     }
     json["frames"].back()["points"].push_back(std::move(point));
   }
-  return json["frames"].empty() ? std::string() : json.dump();
+  return json["frames"].empty() ? std::string() : sceneText(json);
 }
 
 std::string sweepSceneJson(const reports::ReportCampaign& one) {
@@ -238,7 +241,7 @@ std::string sweepSceneJson(const reports::ReportCampaign& one) {
       json["traces"].push_back({{"axis", frame.posture}, {"points", std::move(points)}});
     }
   }
-  return json.dump();
+  return sceneText(json);
 }
 
 }  // namespace stiffscope::app

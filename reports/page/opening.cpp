@@ -166,6 +166,7 @@ std::vector<std::string> warningsOf(const reports::ReportCampaign& one) {
   if (one.audit != nullptr) {
     const std::string untested = reports::untestedWords(*one.audit, kindOf(one));
     if (!untested.empty()) items.push_back(untested);
+    for (std::string& mistake : suspectedWords(*one.audit)) items.push_back(std::move(mistake));
     addAuditWarnings(*one.audit, items);
   }
   if (one.preparation != nullptr && (one.preparation->drift.taken_off || !one.preparation->rejected.empty())) {
@@ -363,13 +364,19 @@ void writeJudgements(Html& html, const reports::ReportContent& content) {
   if (sentences.empty()) return;
   const bool same =
       std::all_of(sentences.begin(), sentences.end(), [&](const auto& one) { return one == sentences.front(); });
-  if (same)
-    return html.paragraph(sentences.size() > 1 ? "Of all days: " + sentences.front() : sentences.front(), "judgement");
+  const bool fails = std::any_of(content.campaigns.begin(), content.campaigns.end(), [](const auto& one) {
+    return one.audit != nullptr && one.audit->verdict == preparation::AuditVerdict::fail;
+  });
+  const char* css_class = fails ? "judgement bad" : "judgement";
+  if (same) {
+    html.paragraph(sentences.size() > 1 ? "Of all days: " + sentences.front() : sentences.front(), css_class);
+    return;
+  }
   const std::vector<std::string> names = columnNames(content);
   std::size_t next = 0;
   for (std::size_t i = 0; i < content.campaigns.size(); ++i) {
     if (content.campaigns[i].audit == nullptr || !isLoaded(content.campaigns[i])) continue;
-    html.paragraph(fmt::format("{}: {}", names[i], sentences[next++]), "judgement");
+    html.paragraph(fmt::format("{}: {}", names[i], sentences[next++]), css_class);
   }
 }
 
@@ -380,10 +387,10 @@ void writeOpening(Html& html, const reports::ReportContent& content) {
   html.leaf("h1", content.title);
   html.paragraph(fmt::format("Report {}", reports::reportId(content)), "faint");
   const bool loaded = reports::anyOfKind(content.campaigns, reports::DayKind::loaded);
-  // Of loads two sentences: what the diagnosis finds, what the audit says; the numbers are in the table below.
+  // Of loads two sentences: what the audit says, what the diagnosis finds; the numbers are in the table below.
+  writeJudgements(html, content);
   if (const std::string diagnosis = reports::diagnosisVerdict(content.campaigns); !diagnosis.empty())
     html.paragraph(diagnosis, "verdict");
-  writeJudgements(html, content);
   if (!loaded) html.paragraph(content.verdict, "verdict");
   if (content.campaigns.empty()) return;
   if (const std::vector<KeyNumber> numbers = keyNumbers(content); !numbers.empty()) {

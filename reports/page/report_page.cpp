@@ -113,7 +113,7 @@ std::string marksJson(const reports::Figure& figure) {
                        {"series", series},
                        {"categories", categories},
                        {"marks", std::move(marks)}}
-      .dump();
+      .dump(-1, ' ', false, reports::Json::error_handler_t::replace);
 }
 
 /// The values of a figure as a file beside the page.

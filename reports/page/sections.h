@@ -51,6 +51,8 @@ bool hasWorkspace(const reports::ReportCampaign& one);  ///< loaded, with stiffn
 bool hasActions(const reports::ReportCampaign& one);    ///< calibrated, with something to do
 bool hasStation(const reports::ReportCampaign& one);    ///< without a load, with something to say of its course
 bool hasAxes(const reports::ReportCampaign& one);       ///< loaded, or with circle sweeps
+/// Mistakes of the files that would explain what the audit finds, a sentence each.
+std::vector<std::string> suspectedWords(const audit::AuditReport& report);
 bool isAudited(const reports::ReportCampaign& one);
 bool hasLeftOut(const reports::ReportCampaign& one);  ///< with something left out
 bool hasWrist(const reports::ReportCampaign& one);    ///< loaded, or with a wrist sweep

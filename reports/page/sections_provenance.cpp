@@ -167,16 +167,6 @@ void writeUnanswered(Html& html, const audit::AuditReport& report) {
   html.list(items);
 }
 
-void writeSuspected(Html& html, const audit::AuditReport& report) {
-  std::vector<std::string> items;
-  for (const mistakes::Suspected& one : report.suspected) {
-    items.push_back(fmt::format("Suspected: {} of the {}; {}{}{}.", reports::auditName(one.mistake),
-                                reports::words(one.where), reports::words(one.remedy), one.shown.empty() ? "" : "; ",
-                                reports::words(one.shown)));
-  }
-  html.list(items);
-}
-
 void writeRejected(Html& html, const reports::ReportCampaign& one) {
   const auto& rejected = one.audit->rejected;
   if (rejected.empty()) {
@@ -195,6 +185,16 @@ void writeRejected(Html& html, const reports::ReportCampaign& one) {
 
 }  // namespace
 
+std::vector<std::string> suspectedWords(const audit::AuditReport& report) {
+  std::vector<std::string> items;
+  for (const mistakes::Suspected& one : report.suspected) {
+    items.push_back(fmt::format("Suspected: {} of the {}; {}{}{}.", reports::auditName(one.mistake),
+                                reports::words(one.where), reports::words(one.remedy), one.shown.empty() ? "" : "; ",
+                                reports::words(one.shown)));
+  }
+  return items;
+}
+
 bool isAudited(const reports::ReportCampaign& one) { return one.audit != nullptr; }
 
 void writeAudit(Html& html, const reports::ReportContent& content) {
@@ -203,7 +203,7 @@ void writeAudit(Html& html, const reports::ReportContent& content) {
                                one.audit->made, one.audit->of));
     if (isLoaded(one)) writeUnanswered(html, *one.audit);
     writeTable(html, findingsTable(*one.audit));
-    writeSuspected(html, *one.audit);
+    html.list(suspectedWords(*one.audit));
     writeTable(html, passedTable(*one.audit));
     writeFurther(html, one);
     if (anyByChance(*one.audit)) {

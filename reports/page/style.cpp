@@ -44,7 +44,7 @@ constexpr const char* kScreen =
     "sub,sup{line-height:0}"
     ".faint,small{color:var(--faint)}"
     ".verdict{font-size:1.12rem;line-height:1.42;max-width:none;margin:.7rem 0 .4rem}"
-    ".judgement{font-weight:600;margin:.3rem 0}"
+    ".judgement{font-weight:600;margin:.3rem 0}.bad{border-left:4px solid #c8382c;padding-left:.7rem}"
     // The first screen: result and facts beside the picture.
     ".first{display:grid;grid-template-columns:minmax(0,2fr) minmax(0,3fr);gap:0 2rem;align-items:start;margin:.8rem 0}"
     ".first .figures{margin:0;grid-template-columns:minmax(0,1fr)}"
