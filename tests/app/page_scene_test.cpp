@@ -1,5 +1,5 @@
-// The scene and the charts of the report's page: their data against the results, and, where chromium is installed, what it
-// draws against the offscreen picture.
+// The scene and the charts of the report's page: their data against the results, and, where chromium is installed, what
+// it draws against the offscreen picture.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -24,7 +24,8 @@ class PageScene : public ::testing::Test {
     scratch_ = new ScratchFolder;
     const std::string sample = STIFFSCOPE_SOURCE_DIR "/samples/active";
     status_ =
-        runProgram("report '" + sample + "' --springs-only --raw --out '" + out().string() + "'", scratch_->path()).status;
+        runProgram("report '" + sample + "' --springs-only --raw --out '" + out().string() + "'", scratch_->path())
+            .status;
   }
   static void TearDownTestSuite() { delete scratch_; }
   void SetUp() override {
@@ -83,9 +84,11 @@ TEST_F(PageScene, VectorsAreThoseOfTheResults) {
         const bool wrist = point.value("wrist", false);
         if (wrist ? row.at("point") != "P_wrist" : point["label"] != reports::pointName(row.at("point"))) continue;
         for (int i = 0; i < 3; ++i) {
-          // The scene has a hundredth of a micrometre.
-          EXPECT_NEAR(point["m"][static_cast<std::size_t>(i)].get<double>(),
-                      1e3 * std::stod(row.at(std::string("measured_") + "xyz"[i] + "_mm")), 0.0051);
+          // The scene has a hundredth of a micrometre. What is measured is in the swept frames, as the picture has it;
+          // Partial Pose's rows are in its calibrated ones.
+          if (row.at("method") != "pp")
+            EXPECT_NEAR(point["m"][static_cast<std::size_t>(i)].get<double>(),
+                        1e3 * std::stod(row.at(std::string("measured_") + "xyz"[i] + "_mm")), 0.0051);
           EXPECT_NEAR(point["p"][row.at("method")][static_cast<std::size_t>(i)].get<double>(),
                       1e3 * std::stod(row.at(std::string("predicted_") + "xyz"[i] + "_mm")), 0.0051);
           ++compared;
@@ -109,7 +112,8 @@ TEST_F(PageScene, MarksOfAChartAreItsValuesAtTheirPlaces) {
     const nlohmann::json& mark = chart["marks"][i];
     EXPECT_NEAR(mark[4].get<double>(), std::stod(rows[i].at("value")), 1e-4 * std::abs(std::stod(rows[i].at("value"))));
     // A bar ends there: above its end is paper, a grid line or a whisker, below it its colour, which is none of them.
-    const int x = static_cast<int>(mark[0].get<double>() * picture.cols), y = static_cast<int>(mark[1].get<double>() * picture.rows);
+    const int x = static_cast<int>(mark[0].get<double>() * picture.cols),
+              y = static_cast<int>(mark[1].get<double>() * picture.rows);
     const cv::Vec3b below = picture.at<cv::Vec3b>(std::min(y + 5, picture.rows - 1), x - 4);
     const cv::Vec3b above = picture.at<cv::Vec3b>(y - 5, x - 4);
     EXPECT_GT(cv::norm(below, above), 20.0) << "mark " << i << " at " << x << ", " << y;
@@ -129,12 +133,9 @@ addEventListener('load', async function () {
   scene.shown = { m: true, p: false, r: false, e: false };
   scene.draw();
   const spots = scene.frame.points.map((point) => [point.label, ...scene.spotOf(point.at)]);
-  const from = performance.now();
-  for (let i = 0; i < 30; ++i) { scene.turn(0.01, 0); scene.renderer.getContext().finish(); }
-  const fps = 30000 / (performance.now() - from);
   scene.direction = [-0.5, 0.85, -0.42].map((x) => x / Math.hypot(0.5, 0.85, 0.42));
   scene.draw();
-  say(JSON.stringify({ first: scene.firstFrame_ms, fps, magnification: scene.magnification, spots, picture: scene.canvas.toDataURL('image/png') }));
+  say(JSON.stringify({ magnification: scene.magnification, spots, picture: scene.canvas.toDataURL('image/png') }));
 });
 </script></body>)js";
 
@@ -144,30 +145,31 @@ TEST_F(PageScene, IsDrawnAsTheOffscreenPictureIs) {
   page.replace(page.rfind("</body>"), 7, kLook);
   const auto copy = scratch_->path() / "look.html";
   std::ofstream(copy, std::ios::binary) << page;
-  const Ran ran = runShell("timeout 100 chromium --headless --no-sandbox --no-first-run --use-gl=angle --use-angle=swiftshader "
-                           "--enable-unsafe-swiftshader --ignore-gpu-blocklist --window-size=1400,1000 --virtual-time-budget=30000 --user-data-dir='" +
-                               (scratch_->path() / "profile").string() + "' --dump-dom 'file://" + copy.string() + "'",
-                           scratch_->path());
+  const Ran ran = runShell(
+      "timeout 100 chromium --headless --no-sandbox --no-first-run --use-gl=angle --use-angle=swiftshader "
+      "--enable-unsafe-swiftshader --ignore-gpu-blocklist --window-size=1400,1000 --virtual-time-budget=10000 "
+      "--user-data-dir='" +
+          (scratch_->path() / "profile").string() + "' --dump-dom 'file://" + copy.string() + "'",
+      scratch_->path());
   const std::size_t close = ran.out.rfind("@@"), open = ran.out.rfind("@@{", close);
   if (open == std::string::npos) GTEST_SKIP() << "the browser did not run the page";
   const nlohmann::json seen = nlohmann::json::parse(ran.out.substr(open + 2, close - open - 2));
   if (seen.contains("none")) GTEST_SKIP() << seen["none"];
-  RecordProperty("frames_per_second", seen["fps"].dump());
-  RecordProperty("first_frame_ms", seen["first"].dump());
-  std::printf("frames a second %.1f, first frame after %.0f ms\n", seen["fps"].get<double>(), seen["first"].get<double>());
-
   const auto campaign = campaign::readCampaign(STIFFSCOPE_SOURCE_DIR "/samples/active").campaign;
   const auto identified = identification::identify(campaign);
   render::ArmScene scene = app::deflectionScene({campaign, identified});
   scene.magnification = seen["magnification"].get<double>();
   scene.framing = render::SceneFraming{{1.0, 0.0, 1.2}, 3.6};
   for (render::ScenePoint& target : scene.poses.front().targets) target.predicted.reset(), target.residual.reset();
-  if (scene.poses.front().wrist) scene.poses.front().wrist->predicted.reset(), scene.poses.front().wrist->residual.reset();
+  if (scene.poses.front().wrist)
+    scene.poses.front().wrist->predicted.reset(), scene.poses.front().wrist->residual.reset();
   const render::Image image = render::render(scene, {1200, 800});
 
   // Where the points stand in both gives scale and shift between the two; all points must agree.
   ASSERT_EQ(image.marks.size(), seen["spots"].size());
-  const auto there = [&](std::size_t i) { return cv::Point2d(image.marks[i].x * image.width, image.marks[i].y * image.height); };
+  const auto there = [&](std::size_t i) {
+    return cv::Point2d(image.marks[i].x * image.width, image.marks[i].y * image.height);
+  };
   const auto here = [&](std::size_t i) { return cv::Point2d(seen["spots"][i][1], seen["spots"][i][2]); };
   const std::size_t last = image.marks.size() - 1;
   const double scale = cv::norm(there(last) - there(0)) / cv::norm(here(last) - here(0));
@@ -190,8 +192,10 @@ TEST_F(PageScene, IsDrawnAsTheOffscreenPictureIs) {
   const cv::Mat map = (cv::Mat_<double>(2, 3) << scale, 0, shift.x, 0, scale, shift.y);
   cv::warpAffine(drawn, moved, map, {image.width, image.height}, cv::INTER_AREA, cv::BORDER_CONSTANT, {255, 255, 255});
   cv::Mat offscreen;
-  cv::cvtColor(cv::Mat(image.height, image.width, CV_8UC3, const_cast<std::uint8_t*>(image.rgb.data())), offscreen, cv::COLOR_RGB2BGR);
-  // The arm itself: the parts of both that are darker than floor and paper, without words, which the page writes elsewhere.
+  cv::cvtColor(cv::Mat(image.height, image.width, CV_8UC3, const_cast<std::uint8_t*>(image.rgb.data())), offscreen,
+               cv::COLOR_RGB2BGR);
+  // The arm itself: the parts of both that are darker than floor and paper, without words, which the page writes
+  // elsewhere.
   const auto solid = [](const cv::Mat& picture) {
     cv::Mat grey, mask;
     cv::cvtColor(picture, grey, cv::COLOR_BGR2GRAY);

@@ -78,7 +78,8 @@ TEST(Report, SweepsAloneGiveFramesAuditAndReasons) {
     EXPECT_EQ(page.find("<section id=\"" + std::string(id) + "\">"), std::string::npos) << id;
   EXPECT_NE(page.find("<section id=\"audit\">"), std::string::npos);
   EXPECT_EQ(page.find(">nan"), std::string::npos);
-  EXPECT_EQ(picturesIn(out), (std::vector<std::string>{"circles.png", "station.png", "sweeps.png", "wrist-sphere.png"}));
+  EXPECT_EQ(picturesIn(out),
+            (std::vector<std::string>{"circles.png", "station.png", "sweeps.png", "wrist-sphere.png"}));
   EXPECT_NE(page.find("<b>6 of 6</b>"), std::string::npos);  // axes, not stiffnesses
   EXPECT_EQ(page.find("id=\"compensation\""), std::string::npos);
 }
@@ -98,7 +99,8 @@ TEST(Report, TakesAwayTheEarlierOnesPicturesAndNothingElse) {
   earlier["files"].push_back("notes.txt");
   std::ofstream(out / "results.json") << earlier;
   ASSERT_EQ(report(sweepsOnly(scratch), out, scratch).status, 0);
-  EXPECT_EQ(picturesIn(out), (std::vector<std::string>{"circles.png", "mine.png", "station.png", "sweeps.png", "wrist-sphere.png"}));
+  EXPECT_EQ(picturesIn(out),
+            (std::vector<std::string>{"circles.png", "mine.png", "station.png", "sweeps.png", "wrist-sphere.png"}));
   EXPECT_TRUE(fs::exists(scratch.path() / "outside.png"));
   EXPECT_TRUE(fs::exists(out / "notes.txt"));
 }
