@@ -3,6 +3,9 @@
 #include <png.h>
 
 #include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 
@@ -27,15 +30,89 @@ struct Writer {
   ~Writer() { png_destroy_write_struct(&png, &info); }
 };
 
-}  // namespace
+/// A picture of few colours: an index a pixel.
+struct Palettised {
+  std::vector<png_color> palette;
+  std::vector<std::uint8_t> indices;
+};
 
-std::vector<std::uint8_t> encodePng(const Image& image) {
+constexpr unsigned kCells = 1u << 18;  // colours to six bits a channel
+
+unsigned cellOf(const std::uint8_t* rgb) {
+  return static_cast<unsigned>(rgb[0] >> 2) << 12 | static_cast<unsigned>(rgb[1] >> 2) << 6 | rgb[2] >> 2;
+}
+
+/// Colours that are near each other, by the one that came first; that of a flat area is its own.
+struct Cell {
+  png_color colour{};
+  std::uint32_t pixels = 0;
+};
+
+double distance(const png_color& a, const png_color& b) {
+  const int red = a.red - b.red, green = a.green - b.green, blue = a.blue - b.blue;
+  return std::sqrt(static_cast<double>(red * red + green * green + blue * blue));
+}
+
+/// Half of the palette are the most frequent colours; the other half, one by one, those that are farthest from all
+/// chosen ones, frequent ones first.
+std::vector<png_color> chosenColours(std::vector<Cell> cells) {
+  constexpr std::size_t kMost = 256;
+  std::stable_sort(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) { return a.pixels > b.pixels; });
+  const std::size_t frequent = cells.size() <= kMost ? cells.size() : kMost / 2;
+  std::vector<png_color> palette;
+  for (std::size_t i = 0; i < frequent; ++i) palette.push_back(cells[i].colour);
+  std::vector<double> away(cells.size(), 0.0);
+  for (std::size_t i = frequent; i < cells.size(); ++i) {
+    away[i] = distance(cells[i].colour, palette.front());
+    for (const png_color& one : palette) away[i] = std::min(away[i], distance(cells[i].colour, one));
+  }
+  while (palette.size() < std::min(kMost, cells.size())) {
+    std::size_t best = frequent;
+    double most = -1.0;
+    for (std::size_t i = frequent; i < cells.size(); ++i) {
+      const double gain = away[i] * std::sqrt(static_cast<double>(cells[i].pixels));
+      if (gain > most) best = i, most = gain;
+    }
+    palette.push_back(cells[best].colour);
+    for (std::size_t i = frequent; i < cells.size(); ++i)
+      away[i] = std::min(away[i], distance(cells[i].colour, palette.back()));
+  }
+  return palette;
+}
+
+Palettised palettisedOf(const Image& image) {
+  const std::size_t pixels = image.rgb.size() / 3;
+  std::vector<Cell> all(kCells);
+  for (std::size_t i = 0; i < pixels; ++i) {
+    const std::uint8_t* at = &image.rgb[3 * i];
+    Cell& cell = all[cellOf(at)];
+    if (cell.pixels++ == 0) cell.colour = {at[0], at[1], at[2]};
+  }
+  std::vector<Cell> cells;
+  std::vector<unsigned> keys;
+  for (unsigned key = 0; key < kCells; ++key) {
+    if (all[key].pixels == 0) continue;
+    cells.push_back(all[key]);
+    keys.push_back(key);
+  }
+  Palettised result{chosenColours(cells), std::vector<std::uint8_t>(pixels)};
+  std::vector<std::uint8_t> nearest(kCells);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const auto best =
+        std::min_element(result.palette.begin(), result.palette.end(), [&](const png_color& a, const png_color& b) {
+          return distance(a, cells[i].colour) < distance(b, cells[i].colour);
+        });
+    nearest[keys[i]] = static_cast<std::uint8_t>(best - result.palette.begin());
+  }
+  for (std::size_t i = 0; i < pixels; ++i) result.indices[i] = nearest[cellOf(&image.rgb[3 * i])];
+  return result;
+}
+
+/// Rows of `depth` bytes a pixel; with a palette where that is not empty.
+std::vector<std::uint8_t> encoded(const Image& image, const std::uint8_t* rows, std::size_t depth,
+                                  const std::vector<png_color>& palette) {
   const auto width = static_cast<std::size_t>(image.width);
   const auto height = static_cast<std::size_t>(image.height);
-  if (image.width <= 0 || image.height <= 0 || image.rgb.size() != 3 * width * height) {
-    throw std::invalid_argument(fmt::format("image of {} x {} pixels has {} bytes, expected 3 a pixel", image.width,
-                                            image.height, image.rgb.size()));
-  }
   Writer writer;
   if (writer.info == nullptr) throw std::runtime_error("cannot encode PNG: libpng did not start");
 
@@ -43,14 +120,38 @@ std::vector<std::uint8_t> encodePng(const Image& image) {
   bytes.reserve(image.rgb.size() / 16);
   png_set_write_fn(writer.png, &bytes, append, nullptr);
   png_set_IHDR(writer.png, writer.info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), 8,
-               PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+               palette.empty() ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_PALETTE, PNG_INTERLACE_NONE,
+               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   // Flat colours compress best unfiltered, and soonest.
   png_set_filter(writer.png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
   png_set_compression_level(writer.png, 6);
+  if (!palette.empty()) png_set_PLTE(writer.png, writer.info, palette.data(), static_cast<int>(palette.size()));
   png_write_info(writer.png, writer.info);
-  for (std::size_t y = 0; y < height; ++y) png_write_row(writer.png, &image.rgb[3 * width * y]);
+  for (std::size_t y = 0; y < height; ++y) png_write_row(writer.png, rows + depth * width * y);
   png_write_end(writer.png, nullptr);
   return bytes;
+}
+
+void requireWhole(const Image& image) {
+  const auto pixels =
+      static_cast<std::size_t>(std::max(image.width, 0)) * static_cast<std::size_t>(std::max(image.height, 0));
+  if (pixels == 0 || image.rgb.size() != 3 * pixels) {
+    throw std::invalid_argument(fmt::format("image of {} x {} pixels has {} bytes, expected 3 a pixel", image.width,
+                                            image.height, image.rgb.size()));
+  }
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> encodePng(const Image& image) {
+  requireWhole(image);
+  return encoded(image, image.rgb.data(), 3, {});
+}
+
+std::vector<std::uint8_t> encodeSmallPng(const Image& image) {
+  requireWhole(image);
+  const Palettised few = palettisedOf(image);
+  return encoded(image, few.indices.data(), 1, few.palette);
 }
 
 }  // namespace stiffscope::render

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace stiffscope::render {
@@ -10,6 +11,18 @@ namespace stiffscope::render {
 struct Size {
   int width = 1200;
   int height = 700;
+  /// Two pixels instead of each in both directions, for print and dense screens: the picture as it is rendered anyway,
+  /// not averaged down.
+  bool doubled = false;
+};
+
+/// Where something stands that has a value: a bar's end, a point, a box. For what is laid over a picture.
+struct Mark {
+  double x = 0, y = 0;     ///< shares of the picture's width from the left, of its height from the top
+  std::string series;      ///< as in the legend; a rich text
+  std::string category;    ///< the posture, the joint, the row; empty where the axis is one of numbers
+  double value = 0;        ///< in the unit of the axis
+  double category_at = 0;  ///< where there is no category: on the horizontal axis
 };
 
 /// A picture: rows from top to bottom, three bytes (red, green, blue) a pixel, no padding.
@@ -17,6 +30,7 @@ struct Image {
   int width = 0;
   int height = 0;
   std::vector<std::uint8_t> rgb;
+  std::vector<Mark> marks;  ///< of a chart in the order in which they are drawn; of a scene its points, without values
 
   /// The three bytes of the pixel `x` from the left, `y` from the top. Not checked.
   const std::uint8_t* at(int x, int y) const {
@@ -28,5 +42,9 @@ struct Image {
 /// Throws std::invalid_argument when the size and the number of bytes of `image` disagree, std::runtime_error
 /// when libpng fails.
 std::vector<std::uint8_t> encodePng(const Image& image);
+
+/// The same in 256 colours at most, a third as large and as long to make: for pictures of which a page carries dozens.
+/// Flat colours stay exact; of shades and of the edges of letters neighbours become one, a few of 255 steps apart.
+std::vector<std::uint8_t> encodeSmallPng(const Image& image);
 
 }  // namespace stiffscope::render

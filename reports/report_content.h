@@ -10,6 +10,7 @@
 #include "core/audit/audit.h"
 #include "core/campaign/campaign.h"
 #include "core/comparison/compare.h"
+#include "core/conformity/decide.h"
 #include "core/diagnosis/diagnosis.h"
 #include "core/extended_model/extended_model.h"
 #include "core/identification/identify.h"
@@ -31,9 +32,10 @@ struct ReportCampaign {
   const diagnosis::Diagnosis* diagnosis = nullptr;
   const extended_model::ExtendedModel* improved =
       nullptr;  ///< effects were asked for: `campaign` and `identification` are of it
-  const accuracy::AccuracyDiagnosis* accuracy = nullptr;     ///< of a day without a load; the calibration is in it
-  calibration::CalibrationOptions calibrated_by = {};        ///< how that was held out
-  const workspace::WorkspaceStiffness* workspace = nullptr;  ///< of a loaded day
+  const accuracy::AccuracyDiagnosis* accuracy = nullptr;         ///< of a day without a load; the calibration is in it
+  calibration::CalibrationOptions calibrated_by = {};            ///< how that was held out
+  const workspace::WorkspaceStiffness* workspace = nullptr;      ///< of a loaded day
+  const std::vector<conformity::Decision>* decisions = nullptr;  ///< on the acceptance limits, where there are any
 };
 
 /// What a day can say: stiffness under loads, accuracy in unloaded postures, or the geometry by sweeps alone.
@@ -66,6 +68,13 @@ std::string pointOf(const AvoidedByEncoders& avoided);
 /// "33.2 % (95 %: 31.0 to 35.1 %)"; without an interval the share alone.
 std::string shareWords(const AvoidedByEncoders& avoided);
 
+/// A value that stands in a picture, for what is laid over it: shares of its width and height; what it is of.
+struct FigureMark {
+  double x = 0, y = 0;
+  std::string series, category;  ///< rich texts; of an axis of numbers no category
+  double value = 0, at = 0;      ///< in the unit of the axes; `at` on the horizontal one
+};
+
 /// A finished picture with its words. In title and caption `x_{abc}` sets abc as a subscript; `alt` is plain.
 struct Figure {
   std::string id;  ///< unique in a report; letters, digits and hyphens: an anchor, and a file's name without ".png"
@@ -73,17 +82,26 @@ struct Figure {
   std::string caption;  ///< what to see in it, with the number
   std::string alt;      ///< what the picture shows, for those who do not see it
   std::vector<std::uint8_t> png;
-  int width = 0;                    ///< pixels
-  int height = 0;                   ///< pixels
-  std::string section = "figures";  ///< id of the section of the page that it stands in; see kFigureSections
+  int width = 0;                          ///< pixels
+  int height = 0;                         ///< pixels
+  std::vector<FigureMark> marks = {};     ///< empty: nothing is laid over it
+  std::string value_name, category_name;  ///< what the axes say: "Residual (µm)", "Posture"
+  std::string section = "figures";        ///< id of the section of the page that it stands in; see kFigureSections
 };
 
 /// The sections that have figures, in the order of the page: figures are counted in it.
-inline constexpr std::array kFigureSections{"accuracy", "station",   "accuracy-gap", "wrist", "links",   "stiffness",
-                                            "subsets",  "workspace", "compensation", "gap",   "figures", "audit"};
+inline constexpr std::array kFigureSections{"opening", "accuracy",  "station", "accuracy-gap", "wrist",
+                                            "links",   "stiffness", "subsets", "workspace",    "compensation",
+                                            "gap",     "figures",   "audit"};
 
 /// The name of its file in a report's folder.
 inline std::string pictureFile(const Figure& figure) { return figure.id + ".png"; }
+
+/// The data of a scene that stands for a figure where a browser can draw it (app/figures/page_scene.h).
+struct PageScene {
+  std::string figure;  ///< its id
+  std::string json;
+};
 
 /// A name with its value: a version, a setting.
 struct NamedText {
@@ -98,9 +116,11 @@ struct ReportContent {
   std::vector<ReportCampaign> campaigns;
   std::optional<AvoidedByEncoders> avoided;  ///< by the double encoders, where both states were measured
   std::vector<Figure> figures;
+  std::vector<PageScene> scenes;
   std::vector<NamedText> versions;  ///< stiffscope and its libraries
   std::vector<NamedText> settings;
   std::string command_line;         ///< empty: not shown
+  std::string limits_file;          ///< of the acceptance limits, its bare name; empty: none were given
   bool compare_with_paper = false;  ///< beside the figures of Ambiehl et al., IROS 2017
 };
 

@@ -18,6 +18,7 @@
 
 #include "app/command_line.h"
 #include "app/figures/figures.h"
+#include "app/figures/page_scene.h"
 #include "app/identified.h"
 #include "app/model.h"
 #include "app/options.h"
@@ -27,6 +28,7 @@
 #include "core/audit/audit.h"
 #include "core/audit/check_design.h"
 #include "core/campaign/state_points.h"
+#include "core/conformity/decide.h"
 #include "core/identification/load_case.h"
 #include "core/identification/warnings.h"
 #include "core/io/write_folder.h"
@@ -128,7 +130,7 @@ namespace {
 
 struct ReportArguments {
   std::vector<std::string> campaigns;
-  std::string out, step;
+  std::string out, step, limits;
   bool neglect_kc = false, paper = false, raw = false;
   ModelChoice model;
 };
@@ -153,6 +155,7 @@ struct Result {
   std::optional<accuracy::AccuracyDiagnosis> accuracy;     ///< of a day without a load
   identification::Identification own;                      ///< without any
   std::optional<workspace::WorkspaceStiffness> workspace;  ///< of a loaded day with stiffnesses
+  std::string scene;                                       ///< app/figures/page_scene.h; empty: none
   bool loaded = false;
 
   const campaign::Campaign& campaign() const { return improved ? improved->campaign : prepared.campaign; }
@@ -170,10 +173,24 @@ struct Result {
                    : identification::framesAlone(prepared.campaign);
     }
     addWorkspace();
+    addScene();
     audited = arguments.raw ? audit::audit(prepared.campaign) : audit::audit(prepared);
     if (diagnosis) audit::addSeparableEffects(*diagnosis, audited);
     withoutLoadReadings(prepared.campaign);
     if (improved) withoutLoadReadings(improved->campaign);
+  }
+
+  /// While the rows of the load states are there.
+  void addScene() {
+    reports::ReportCampaign one{campaign(), identification()};
+    one.improved = improved ? &*improved : nullptr;
+    one.accuracy = accuracy ? &*accuracy : nullptr;
+    if (accuracy)
+      scene = accuracySceneJson(one);
+    else if (loaded)
+      scene = loadedSceneJson(one, prepared.campaign);
+    else if (campaign().circle_sweeps)
+      scene = sweepSceneJson(one);
   }
 
   void addWorkspace() {
@@ -237,7 +254,42 @@ void addExtendedModel(const ModelChoice& choice, const std::list<Result>& result
   }
 }
 
+/// What came of the limits on each day; what active encoders avoid is judged on the day that has them.
+std::vector<std::vector<conformity::Decision>> decisionsOf(const conformity::Limits& limits,
+                                                           const std::list<Result>& results,
+                                                           const reports::ReportContent& content) {
+  std::vector<std::vector<conformity::Decision>> by_day;
+  for (const Result& one : results) {
+    conformity::DayResult day;
+    if (!one.identification().cases.empty() || one.loaded) day.identification = &one.identification();
+    if (one.campaign().circle_sweeps) day.swept = &one.identification().frames;
+    if (one.workspace) day.workspace = &*one.workspace;
+    if (one.accuracy) day.calibration = &one.accuracy->calibration;
+    by_day.push_back(conformity::decide(limits, day));
+    if (!content.avoided || one.campaign().double_encoder != campaign::DoubleEncoder::active) continue;
+    day.avoided = &*content.avoided;
+    by_day.back() = conformity::decide(limits, day);
+  }
+  return by_day;
+}
+
+/// Each scene stands for its campaign's figure on the first page.
+void addScenes(const std::list<Result>& results, reports::ReportContent& content) {
+  std::size_t i = 0;
+  for (const Result& one : results) {
+    ++i;
+    const std::string suffix = results.size() > 1 ? fmt::format("-{}", i) : std::string();
+    for (const char* id : {"deflection", "accuracy-before", "sweeps"}) {
+      const bool there = std::any_of(content.figures.begin(), content.figures.end(),
+                                     [&](const reports::Figure& figure) { return figure.id == id + suffix; });
+      if (there && !one.scene.empty()) content.scenes.push_back({id + suffix, one.scene});
+    }
+  }
+}
+
 int writeReport(const ReportArguments& arguments) {
+  std::optional<conformity::Limits> limits;  // read first: a mistake in them is not to cost the wait
+  if (!arguments.limits.empty()) limits = conformity::readLimits(arguments.limits);
   requireNoCampaign(arguments.out, "expected a folder of the report's own");
   identification::IdentifyOptions options;
   options.step = loadStepNamed(arguments.step);
@@ -265,14 +317,25 @@ int writeReport(const ReportArguments& arguments) {
   content.title = reports::reportTitle(content.campaigns);
   content.verdict = reports::verdictOf(content.campaigns, content.avoided);
   addExtendedModel(arguments.model, results, content);
-  content.figures = makeFigures(content.campaigns, {arguments.paper});
+  std::vector<std::vector<conformity::Decision>> decisions;
+  if (limits) {
+    decisions = decisionsOf(*limits, results, content);
+    content.limits_file = limits->file;
+    content.settings.push_back(
+        {"acceptance limits", reports::asIs(limits->file) + ", SHA-256 `" + limits->sha256 + "`"});
+  }
+  for (std::size_t i = 0; i < decisions.size(); ++i) content.campaigns[i].decisions = &decisions[i];
+  content.figures = makeFigures(content.campaigns, {arguments.paper}, content.avoided);
+
+  addScenes(results, content);
 
   // Everything is made before the first file is written, and appears at once.
   const page::ReportPage page = page::makeReportPage(content);
   writeReportFiles(arguments.out, content, page);
   printText((std::filesystem::path(arguments.out) / "report.html").string() + '\n');
   const bool usable = std::any_of(results.begin(), results.end(), [](const Result& one) { return one.usable(); });
-  return usable ? kDone : kNotUsable;
+  const bool accepted = !limits || conformity::overall(decisions) == conformity::Verdict::pass;
+  return usable && accepted ? kDone : kNotUsable;
 }
 
 }  // namespace
@@ -287,6 +350,8 @@ void addReport(CLI::App& app, Run& run) {
       ->add_option("--out", arguments->out, "folder for report.html, results.json, the pictures and the tables as CSV")
       ->required();
   command->add_option("--step", arguments->step, "load step to identify from");
+  command->add_option("--limits", arguments->limits,
+                      "acceptance limits (CSV: name, least, most, reason); status 1 where one is not passed");
   command->add_flag("--neglect-kc", arguments->neglect_kc, "neglect K_c, as the paper does");
   addModelOptions(*command, arguments->model);
   addRawOption(*command, arguments->raw);

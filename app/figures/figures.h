@@ -24,9 +24,11 @@ struct FigureOptions {
 /// is left by direction, the sweeps' circles and spheres, the station by the floor nests; what the model
 /// misses, on the arm, by posture and by effect; then the double encoders where both states are there. What
 /// the data does not have is left out. With several campaigns ids end in "-1", "-2", in their order, and
-/// titles say which campaign. Throws std::runtime_error when offscreen rendering is not to be had.
+/// titles say which campaign. `avoided`: by the double encoders, of these campaigns. Throws std::runtime_error when
+/// offscreen rendering is not to be had.
 std::vector<reports::Figure> makeFigures(const std::vector<reports::ReportCampaign>& campaigns,
-                                         const FigureOptions& options = {});
+                                         const FigureOptions& options = {},
+                                         const std::optional<reports::AvoidedByEncoders>& avoided = {});
 
 /// Joint stiffnesses from all postures by method, value +- expanded uncertainty (page::coverageOf), Nm/rad,
 /// logarithmic axis. A joint that is not identifiable leaves a gap; negative and imprecise values are hollow. No series

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <type_traits>
+
 #include "app/figures/accuracy_figures.h"
 #include "app/figures/arm_scenes.h"
+#include "app/view/view_material.h"
 #include "render/image.h"
 #include "reports/page/html.h"
 #include "reports/report_content.h"
@@ -18,10 +21,38 @@ constexpr render::Size kChart{1200, 700};
 constexpr render::Size kScene{1200, 800};
 constexpr std::size_t kMostGhosts = 60;  // more postures in one picture hide each other
 
+// What the axes of a chart say; of a scene nothing.
+template <class Picture>
+void nameAxes(const Picture& picture, reports::Figure& figure) {
+  if constexpr (requires { picture.category_title; }) {
+    figure.value_name = picture.y_title;
+    figure.category_name = picture.category_title;
+  } else if constexpr (requires { picture.diagrams; }) {
+    if (picture.diagrams.empty()) return;
+    figure.value_name = picture.diagrams.front().y_title;
+    figure.category_name = picture.diagrams.back().x_title;
+  } else if constexpr (requires { picture.rows; }) {
+    figure.value_name = picture.x_title;
+  } else if constexpr (requires {
+                         picture.panels;
+                         picture.methods;
+                       }) {
+    figure.value_name = picture.y_title;
+    figure.category_name = "Joint";
+  }
+}
+
 template <class Picture>
 reports::Figure drawn(reports::Figure figure, const Picture& picture, render::Size size) {
-  const render::Image image = render::render(picture, size);
-  figure.png = render::encodePng(image);
+  size.doubled = true;
+  render::Image image = render::render(picture, size);
+  nameAxes(picture, figure);
+  if constexpr (!std::is_same_v<Picture, render::ArmScene>) {  // that has no values
+    for (render::Mark& mark : image.marks)
+      figure.marks.push_back(
+          {mark.x, mark.y, std::move(mark.series), std::move(mark.category), mark.value, mark.category_at});
+  }
+  figure.png = render::encodeSmallPng(image);
   figure.width = image.width;
   figure.height = image.height;
   return figure;
@@ -52,7 +83,7 @@ class FigureList {
 
   void addDeflection() {
     const render::ArmScene scene = deflectionScene(one_);
-    add("compensation", describeDeflectionScene(one_, render::automaticMagnification(scene)), scene, kScene);
+    add("opening", describeDeflectionScene(one_, render::automaticMagnification(scene)), scene, kScene);
     if (one_.identification.cases.size() <= kMostGhosts) {
       const render::ArmScene all = allPosturesScene(one_);
       add("compensation", describeAllPostures(one_, render::automaticMagnification(all)), all, kScene);
@@ -81,7 +112,7 @@ class FigureList {
     add("accuracy", describeAccuracyCurves(one_), accuracyCurves(one_));
     add("accuracy", describeAccuracyMap(one_), accuracyMap(one_), kScene);
     if (const auto scenes = accuracyScenes(one_)) {
-      add("accuracy-gap", describeAccuracyBefore(one_, *scenes), scenes->before, kScene);
+      add("opening", describeAccuracyBefore(one_, *scenes), scenes->before, kScene);
       if (!one_.accuracy->calibration.best().fit.parts.empty())
         add("accuracy-gap", describeAccuracyAfter(one_, *scenes), scenes->after, kScene);
     }
@@ -100,6 +131,24 @@ class FigureList {
     if (const auto classes = effectClasses(one_)) add("gap", describeEffectClasses(one_), *classes);
   }
 
+  /// The arm with the readings of its sweeps; nothing where these do not place R0.
+  void addSweeps() {
+    const ViewMaterial sweeps = sweepMaterial(one_.campaign, one_.identification.frames);
+    if (sweeps.frames.empty()) return;
+    render::ArmScene scene = sweeps.frames.front().scene;
+    scene.title = "Circle sweeps";
+    scene.subtitle = reports::asIs(one_.campaign.name);
+    for (render::SceneTrace& trace : scene.traces) trace.faint = false, trace.label.clear();
+    scene.trace_name = "tracker readings of all sweeps";
+    reports::Figure figure;
+    figure.id = "sweeps";
+    figure.title = "Circle sweeps";
+    figure.caption = fmt::format("The arm in the middle of the sweep of axis {}, and the readings of all sweeps.",
+                                 sweeps.frames.front().posture + 1);
+    figure.alt = "The arm with the tracker's readings of every axis' sweep as dots around it.";
+    add("opening", figure, scene, kScene);
+  }
+
   std::vector<reports::Figure> take() { return std::move(figures_); }
 
  private:
@@ -116,6 +165,7 @@ std::vector<reports::Figure> figuresOf(const reports::ReportCampaign& one, const
   if (one.accuracy != nullptr) list.addAccuracy();
   list.addReadings();
   if (loaded) list.addGap();
+  if (reports::kindOf(one) == reports::DayKind::sweeps) list.addSweeps();
   return list.take();
 }
 
@@ -128,7 +178,8 @@ std::string labelOf(const campaign::Campaign& campaign) {
 }  // namespace
 
 std::vector<reports::Figure> makeFigures(const std::vector<reports::ReportCampaign>& campaigns,
-                                         const FigureOptions& options) {
+                                         const FigureOptions& options,
+                                         const std::optional<reports::AvoidedByEncoders>& avoided) {
   std::vector<reports::Figure> figures;
   for (std::size_t i = 0; i < campaigns.size(); ++i) {
     for (reports::Figure& figure : figuresOf(campaigns[i], options)) {
@@ -139,7 +190,7 @@ std::vector<reports::Figure> makeFigures(const std::vector<reports::ReportCampai
       figures.push_back(std::move(figure));
     }
   }
-  if (const auto avoided = reports::avoidedByEncoders(campaigns); avoided && avoided->available) {
+  if (avoided && avoided->available) {
     figures.push_back(drawn(describeEncoderBars(*avoided), encoderBars(*avoided), kChart));
     figures.back().section = "compensation";
   }

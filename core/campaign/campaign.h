@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <array>
 #include <filesystem>
 #include <limits>
 #include <optional>
@@ -173,7 +174,33 @@ struct InputFile {
 /// Texts for the report; empty where the campaign does not have them.
 struct CampaignTexts {
   std::string laboratory, customer, operator_name, item, conditions;
+  std::string robot_serial, controller, tracker_serial, tracker_certificate, load_cell_certificate;
+  std::string environment, place, date_of_issue, approved_by, note;
 };
+
+/// A text with the name of its element in campaign.xml.
+struct NamedCampaignText {
+  const char* element;
+  std::string CampaignTexts::*text;
+};
+
+/// All of them, in the order in which they are written.
+inline constexpr std::array kCampaignTexts{
+    NamedCampaignText{"laboratory", &CampaignTexts::laboratory},
+    NamedCampaignText{"customer", &CampaignTexts::customer},
+    NamedCampaignText{"operator", &CampaignTexts::operator_name},
+    NamedCampaignText{"item", &CampaignTexts::item},
+    NamedCampaignText{"conditions", &CampaignTexts::conditions},
+    NamedCampaignText{"robot_serial", &CampaignTexts::robot_serial},
+    NamedCampaignText{"controller", &CampaignTexts::controller},
+    NamedCampaignText{"tracker_serial", &CampaignTexts::tracker_serial},
+    NamedCampaignText{"tracker_certificate", &CampaignTexts::tracker_certificate},
+    NamedCampaignText{"load_cell_certificate", &CampaignTexts::load_cell_certificate},
+    NamedCampaignText{"environment", &CampaignTexts::environment},
+    NamedCampaignText{"place", &CampaignTexts::place},
+    NamedCampaignText{"date_of_issue", &CampaignTexts::date_of_issue},
+    NamedCampaignText{"approved_by", &CampaignTexts::approved_by},
+    NamedCampaignText{"note", &CampaignTexts::note}};
 
 /// One machine in one condition, measured once: what `campaign.xml` and its tables say, in SI and radians.
 /// A section that the day did not produce is absent (nullopt).

@@ -230,21 +230,11 @@ TableReference readTableReference(const io::XmlNode& node, std::vector<std::stri
 
 namespace {
 
-const std::vector<std::pair<std::string, std::string CampaignTexts::*>>& textElements() {
-  static const std::vector<std::pair<std::string, std::string CampaignTexts::*>> elements{
-      {"laboratory", &CampaignTexts::laboratory},
-      {"customer", &CampaignTexts::customer},
-      {"operator", &CampaignTexts::operator_name},
-      {"item", &CampaignTexts::item},
-      {"conditions", &CampaignTexts::conditions}};
-  return elements;
-}
-
 std::vector<std::string> knownElements(const std::vector<std::string>& also) {
-  std::vector<std::string> known{"robot",           "tracker",       "targets",     "load_cell",   "tool",
-                                 "known_stiffness", "joint_reading", "certificate", "robot_serial"};
+  std::vector<std::string> known{"robot", "tracker",         "targets",       "load_cell",
+                                 "tool",  "known_stiffness", "joint_reading", "certificate"};
   known.insert(known.end(), also.begin(), also.end());
-  for (const auto& [name, member] : textElements()) known.push_back(name);
+  for (const NamedCampaignText& one : kCampaignTexts) known.emplace_back(one.element);
   return known;
 }
 
@@ -327,8 +317,8 @@ void readSections(const io::XmlNode& root, CampaignXml& xml, std::vector<std::st
       node.refuse("joint", node.requiredAttribute("joint"), "expected a joint that does not repeat");
   }
   readJointReadings(root, campaign, warnings);
-  for (const auto& [name, member] : textElements()) {
-    if (const auto node = root.child(name)) campaign.texts.*member = node->text();
+  for (const NamedCampaignText& one : kCampaignTexts) {
+    if (const auto node = root.child(one.element)) campaign.texts.*one.text = node->text();
   }
 }
 

@@ -125,15 +125,10 @@ class Element {
 };
 
 void writeTexts(tinyxml2::XMLPrinter& printer, const CampaignTexts& texts) {
-  const std::pair<const char*, const std::string&> elements[] = {{"laboratory", texts.laboratory},
-                                                                 {"customer", texts.customer},
-                                                                 {"operator", texts.operator_name},
-                                                                 {"item", texts.item},
-                                                                 {"conditions", texts.conditions}};
-  for (const auto& [name, text] : elements) {
-    if (text.empty()) continue;
-    const Element element(printer, name);
-    printer.PushText(text.c_str());
+  for (const NamedCampaignText& one : kCampaignTexts) {
+    if ((texts.*one.text).empty()) continue;
+    const Element element(printer, one.element);
+    printer.PushText((texts.*one.text).c_str());
   }
 }
 

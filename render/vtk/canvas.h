@@ -97,6 +97,10 @@ class Canvas {
   /// `text` broken between words into lines no wider than `width`; a single longer word is cut.
   std::vector<std::string> wrapped(const std::string& text, double width, const TextStyle& style) const;
 
+  /// Notes that a value stands there; draws nothing. Spots that are not finite are left out.
+  void mark(Spot at, const std::string& series, const std::string& category, double value, double category_at = 0);
+  std::vector<Mark> takeMarks() { return std::move(marks_); }
+
  private:
   void setStyle(double size, bool bold, Colour colour, Direction direction) const;
   double runWidth(const std::string& run, double size, bool bold) const;
@@ -105,6 +109,7 @@ class Canvas {
   Surface surface_;
   Fonts fonts_;
   double unit_;
+  std::vector<Mark> marks_;
   mutable std::map<std::tuple<std::string, double, bool>, double> widths_;  ///< of runs measured so far
 };
 

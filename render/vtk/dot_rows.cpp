@@ -132,6 +132,7 @@ void drawRow(Canvas& canvas, const RowFrame& frame, const DotRow& row, double y,
   }
   const double x = frame.xOf(row.size);
   const Colour colour = row.marked ? kMarkedDot : kDot;
+  canvas.mark({x, y}, "", row.name, row.size);
   canvas.line({frame.plot.left, y}, {x, y}, colour, 2 * u);
   if (row.marked)
     drawDiamond(canvas, {x, y}, 1.35 * radius, colour);

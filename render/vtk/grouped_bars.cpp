@@ -63,6 +63,7 @@ void drawBars(Canvas& canvas, const Box& plot, const YAxis& axis, const GroupedB
           std::max(left + 1, Canvas::snapped(start + bar * static_cast<double>(s + 1)) - (bar > 8 * u ? u : 0));
       const double end = Canvas::snapped(axis.at(value));
       canvas.fill({left, std::min(zero, end), right, std::max(zero, end)}, series.colour);
+      canvas.mark({(left + right) / 2, end}, series.name, chart.categories[i], value);
       if (const double error = errorAt(series, i); error > 0) {
         drawWhisker(canvas, (left + right) / 2, axis.at(value - error), axis.at(value + error),
                     std::min(0.25 * bar, 7 * u), colours::kInk, true, true);

@@ -101,6 +101,9 @@ void drawSeries(Canvas& canvas, const Box& plot, const YAxis& axis, const Interv
       if (!std::isfinite(interval.value)) continue;
       const double x = middle + (static_cast<double>(s) - 0.5 * static_cast<double>(chart.series.size() - 1)) * step;
       drawInterval(canvas, x, axis, interval, chart.series[s].colour, radius);
+      const bool placed = placeable(interval.value, axis.logarithmic);
+      canvas.mark({x, placed ? axis.at(interval.value) : axis.bottom}, chart.series[s].name, chart.categories[i],
+                  interval.value);
     }
   }
 }

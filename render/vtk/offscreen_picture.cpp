@@ -15,6 +15,7 @@
 #include "render/vtk/canvas.h"
 #include "render/vtk/gl_window.h"
 #include "render/vtk/painting.h"
+#include "render/vtk/scene_stage.h"
 
 class vtkRenderer;
 
@@ -31,6 +32,14 @@ Image drawArmScene(const ArmScene& scene, Size size) {
   const ArmLayers layers(scene, {size});
   Image image = renderOffscreen(layers.renderers(), size);
   layers.rethrow();
+  const auto mark = [&](const ScenePoint& point) {
+    const Spot at = layers.stage().projection.spotOf(point.position);
+    image.marks.push_back({at.x / size.width, at.y / size.height, point.label, "", 0.0, 0.0});
+  };
+  for (const ArmPose& pose : scene.poses) {
+    for (const ScenePoint& target : pose.targets) mark(target);
+    if (pose.wrist) mark(*pose.wrist);
+  }
   return image;
 }
 
@@ -45,9 +54,14 @@ Image drawFlat(Size size, const std::function<void(Canvas&)>& paint) {
   requireUsable(size);
   const auto layer = vtkSmartPointer<vtkRenderer>::New();
   layer->SetBackground(1, 1, 1);
-  const Painting painting(*layer, {size}, paint);
+  std::vector<Mark> marks;
+  const Painting painting(*layer, {size}, [&](Canvas& canvas) {
+    paint(canvas);
+    marks = canvas.takeMarks();
+  });
   Image image = renderOffscreen({layer}, size);
   painting.rethrow();
+  image.marks = std::move(marks);
   return image;
 }
 
@@ -103,11 +117,21 @@ void averageDown(const std::uint8_t* rendered, int rows, int y, Image& image) {
   }
 }
 
+/// Rendered rows as they are, from `y` upwards.
+void takeOver(const std::uint8_t* rendered, int rows, int y, Image& image) {
+  for (int up = 0; up < rows; ++up) {
+    const std::uint8_t* in = rendered + kChannels * static_cast<std::ptrdiff_t>(image.width) * up;
+    std::uint8_t* out = image.rgb.data() + 3 * static_cast<std::ptrdiff_t>(image.width) * (y - up);
+    for (int x = 0; x < image.width; ++x, in += kChannels, out += 3) std::copy_n(in, 3, out);
+  }
+}
+
 /// What the window shows, band by band: rendered it is four times the picture.
 Image readDown(vtkRenderWindow& window, Size size) {
   constexpr int kBand = 64, front = 0;  // rows of the picture
-  Image image{size.width, size.height, {}};
-  image.rgb.resize(3 * static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height));
+  const int density = size.doubled ? kSupersampling : 1;
+  Image image{density * size.width, density * size.height, {}, {}};
+  image.rgb.resize(3 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
   const vtkNew<vtkUnsignedCharArray> pixels;
   for (int low = 0; low < size.height; low += kBand) {
     const int rows = std::min(kBand, size.height - low);
@@ -116,7 +140,10 @@ Image readDown(vtkRenderWindow& window, Size size) {
     if (pixels->GetNumberOfValues() != vtkIdType{kChannels} * width * height) {
       throw std::runtime_error(fmt::format("cannot draw pictures: no pixels came back for {} x {}", width, height));
     }
-    averageDown(pixels->GetPointer(0), rows, size.height - 1 - low, image);
+    if (size.doubled)
+      takeOver(pixels->GetPointer(0), height, image.height - 1 - first, image);
+    else
+      averageDown(pixels->GetPointer(0), rows, size.height - 1 - low, image);
   }
   return image;
 }

@@ -85,7 +85,8 @@ void drawNumbers(Canvas& canvas, const Box& plot, const Range& range, const std:
               title_style);
 }
 
-void drawSeries(Canvas& canvas, const Box& plot, const Range& x_range, const YAxis& axis, const PointSeries& series) {
+void drawSeries(Canvas& canvas, const Box& plot, const Range& x_range, const YAxis& axis, const PointPanel& panel,
+                const PointSeries& series) {
   const double u = canvas.unit();
   const double apart = plot.width() / std::max<double>(1.0, static_cast<double>(series.points.size()));
   const double radius = std::clamp(0.3 * apart, 2.2 * u, 5 * u);
@@ -100,6 +101,13 @@ void drawSeries(Canvas& canvas, const Box& plot, const Range& x_range, const YAx
     drawWhisker(canvas, spots[i].x, axis.at(y - error), axis.at(y + error), 0.8 * radius, series.colour, true, true);
   }
   drawMarks(canvas, series, spots, radius);
+  for (std::size_t i = 0; i < spots.size() && series.mark != PointMark::none; ++i) {
+    const double x = series.points[i].x;
+    const auto category = static_cast<std::size_t>(std::lround(std::max(x, 0.0)));
+    const bool named = !panel.categories.empty() && category < panel.categories.size();
+    const std::string what = panel.title.empty() ? series.name : panel.title + ": " + series.name;
+    canvas.mark(spots[i], what, named ? panel.categories[category] : "", series.points[i].y, x);
+  }
 }
 
 }  // namespace
@@ -135,7 +143,7 @@ void drawDiagram(Canvas& canvas, const Box& cell, const PointPanel& panel) {
   canvas.fill({plot.left, plot.bottom - 0.5 * u, plot.right, plot.bottom + 0.5 * u}, colours::kAxis);
   if (axis.lower < 0 && axis.upper > 0)
     canvas.fill({plot.left, axis.at(0) - 0.5 * u, plot.right, axis.at(0) + 0.5 * u}, colours::kAxis);
-  for (const PointSeries& series : panel.series) drawSeries(canvas, plot, x_range, axis, series);
+  for (const PointSeries& series : panel.series) drawSeries(canvas, plot, x_range, axis, panel, series);
   if (panel.categories.empty()) {
     drawNumbers(canvas, plot, x_range, panel.x_title);
   } else {

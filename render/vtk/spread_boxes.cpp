@@ -196,6 +196,8 @@ void drawPanel(Canvas& canvas, Box cell, const SpreadChart& chart, std::size_t i
     const Column column{plot.left + (static_cast<double>(m) + 0.5) * band, std::min(0.3 * band, 36 * u)};
     if (panel.spreads[m]) {
       drawBox(canvas, column, axis, *panel.spreads[m], chart.methods[m].colour);
+      const double median = std::clamp(panel.spreads[m]->p50, axis.lower, axis.upper);
+      canvas.mark({column.x, axis.at(median)}, chart.methods[m].name + ", median", panel.title, panel.spreads[m]->p50);
     } else {
       canvas.text("none", {column.x, plot.bottom - 3 * u}, AlignX::centre, AlignY::bottom, noteStyle(canvas));
     }

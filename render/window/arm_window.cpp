@@ -95,7 +95,7 @@ void ShownLayers::show(const ArmScene& scene) {
 
 Image ShownLayers::picture() const {
   const int* size = window_.GetSize();
-  Image image{size[0], size[1], {}};
+  Image image{size[0], size[1], {}, {}};
   vtkNew<vtkUnsignedCharArray> pixels;
   const int front = 0;
   window_.GetPixelData(0, 0, image.width - 1, image.height - 1, front, pixels);

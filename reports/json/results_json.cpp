@@ -13,6 +13,7 @@
 #include "core/io/units.h"
 #include "reports/json/campaign_json.h"
 #include "reports/json/identification_json.h"
+#include "reports/words/conformity_words.h"
 #include "reports/words/names.h"
 #include "reports/words/verdict.h"
 
@@ -37,6 +38,36 @@ Json avoidedJson(const AvoidedByEncoders& avoided) {
                                                 : Json::array()}};
 }
 
+/// Values in the unit that the name ends in.
+Json limitsJson(const std::vector<conformity::Decision>& decisions) {
+  Json limits = Json::array();
+  for (const conformity::Decision& one : decisions) {
+    const conformity::QuantityName& name = conformity::nameOf(one.limit.quantity);
+    const auto optional = [&name](const std::optional<double>& value) {
+      return value ? number(*value / name.unit) : Json(nullptr);
+    };
+    Json json{{"name", name.name},
+              {"least", optional(one.limit.least)},
+              {"most", optional(one.limit.most)},
+              {"reason", one.limit.reason},
+              {"verdict", nameOf(one.verdict)},
+              {"in_guard_band", one.in_guard_band},
+              {"value", nullptr},
+              {"low", nullptr},
+              {"high", nullptr},
+              {"missing", nullptr}};
+    if (one.measured) {
+      json["value"] = number(one.measured->value / name.unit);
+      json["low"] = number(one.measured->interval.low / name.unit);
+      json["high"] = number(one.measured->interval.high / name.unit);
+    } else {
+      json["missing"] = nameOf(one.missing);
+    }
+    limits.push_back(std::move(json));
+  }
+  return limits;
+}
+
 JsonDocument campaignResults(const ReportCampaign& one) {
   JsonDocument document(Json::object());
   Json& json = document.json;
@@ -51,6 +82,7 @@ JsonDocument campaignResults(const ReportCampaign& one) {
     json["identify"]["with"] = extendedModelJson(*one.improved, methods);
     json["identify"] = withSupport(std::move(json["identify"]), *one.improved, methods);
   }
+  if (one.decisions != nullptr) json["limits"] = limitsJson(*one.decisions);
   if (one.workspace != nullptr) json["stiffness"] = workspaceJson(*one.workspace, SlicePlaces::left_out);
   if (one.diagnosis != nullptr) json["diagnose"] = diagnosisJson(one.campaign, *one.diagnosis);
   if (one.accuracy != nullptr) {

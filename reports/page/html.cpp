@@ -70,7 +70,7 @@ void writeTable(Html& html, const reports::Table& table) {
   std::string kind = table.words ? "words" : grouped ? "grouped" : "numeric";
   if (rows > kMostOnAPage || table.words) kind += " long";     // rows of words are high
   if (!grouped && !table.words && rows > 2) kind += " sorts";  // a group's header spans its rows in their order
-  html.keepTable(table.id, reports::csvTable(table));
+  if (!table.on_page_alone) html.keepTable(table.id, reports::csvTable(table));
   const auto element = html.element("table", {{"class", kind}});
   html.leaf("caption", table.caption);
   {
@@ -156,6 +156,16 @@ void Html::list(const std::vector<std::string>& rich_items) {
   if (rich_items.empty()) return;
   const Element list = element("ul");
   for (const std::string& item : rich_items) leaf("li", item);
+}
+
+void Html::script(std::string_view code, const Attributes& attributes) {
+  if (code.find("</script") != std::string_view::npos || code.find("]]>") != std::string_view::npos)
+    throw std::invalid_argument("a script that would end its element");
+  const Element script = element("script", attributes);
+  // Without what XML would take for markup it stands as it is; else in CDATA, whose marks are comments to a script.
+  if (code.find_first_of("<>&") == std::string_view::npos) return printer_->PushText(std::string(code).c_str());
+  printer_->PushText("//");
+  printer_->PushText(fmt::format("\n{}\n//", code).c_str(), true);
 }
 
 std::string Html::bytes() const { return printer_->CStr(); }

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "reports/csv/csv_table.h"
@@ -55,6 +56,9 @@ class Html {
   void leaf(const char* name, const std::string& rich_text, const Attributes& attributes = {});
   void paragraph(const std::string& rich_text, const char* css_class = "");
   void list(const std::vector<std::string>& rich_items);  ///< nothing where there is none
+  /// A <script> with this text to the letter, that is code or data to HTML and to XML alike. Throws
+  /// std::invalid_argument where it holds "</script" or "]]>".
+  void script(std::string_view code, const Attributes& attributes = {});
 
   std::string bytes() const;
 

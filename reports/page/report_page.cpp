@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <cmath>
 
+#include "reports/json/json_document.h"
+#include "reports/page/embedded.h"
 #include "reports/page/html.h"
 #include "reports/page/sections.h"
 #include "reports/page/style.h"
@@ -58,7 +61,8 @@ std::vector<Section> sectionsOf(const reports::ReportContent& content) {
           {"audit", "Audit", writeAudit, any(isAudited)},
           {"left-out", "Left out", writeLeftOut, any(hasLeftOut)},
           {"scope", "Uncertainty and scope", writeScope, true},
-          {"provenance", "Inputs", writeProvenance, true}};
+          {"provenance", "Inputs", writeProvenance, true},
+          {"versions", "How this page was made", writeVersions, hasVersions(content)}};
 }
 
 void writeContents(Html& html, const std::vector<Section>& sections) {
@@ -69,6 +73,76 @@ void writeContents(Html& html, const std::vector<Section>& sections) {
     const auto item = html.element("li");
     html.leaf("a", section.entry, {{"href", std::string("#") + section.id}});
   }
+}
+
+/// JSON in a script: nothing in it is markup to HTML or XML, and JSON reads the same.
+std::string withoutMarkup(const std::string& json) {
+  std::string text;
+  text.reserve(json.size());
+  for (const char c : json) {
+    if (c == '<' || c == '>' || c == '&')
+      text += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+    else
+      text += c;
+  }
+  return text;
+}
+
+/// What charts.js lays over a figure; of very many marks every so many, which lie on each other anyway.
+std::string marksJson(const reports::Figure& figure) {
+  constexpr std::size_t kMostMarks = 3000;
+  const std::size_t every = (figure.marks.size() + kMostMarks - 1) / kMostMarks;
+  std::vector<std::string> series, categories;
+  const auto indexOf = [](std::vector<std::string>& names, const std::string& name) {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found != names.end()) return static_cast<int>(found - names.begin());
+    names.push_back(name);
+    return static_cast<int>(names.size()) - 1;
+  };
+  const auto rounded = [](double value, double digits) { return std::round(value * digits) / digits; };
+  reports::Json marks = reports::Json::array();
+  for (std::size_t i = 0; i < figure.marks.size(); i += every) {
+    const reports::FigureMark& mark = figure.marks[i];
+    const double digits = std::pow(10.0, 5.0 - std::ceil(std::log10(std::max(std::abs(mark.value), 1e-12))));
+    marks.push_back({rounded(mark.x, 1e4), rounded(mark.y, 1e4), indexOf(series, mark.series),
+                     mark.category.empty() ? -1 : indexOf(categories, mark.category), rounded(mark.value, digits),
+                     rounded(mark.at, 1e4)});
+  }
+  return reports::Json{{"value", figure.value_name},
+                       {"category", figure.category_name},
+                       {"series", series},
+                       {"categories", categories},
+                       {"marks", std::move(marks)}}
+      .dump(-1, ' ', false, reports::Json::error_handler_t::replace);
+}
+
+/// The values of a figure as a file beside the page.
+void keepMarks(Html& html, const reports::Figure& figure) {
+  if (figure.marks.empty()) return;
+  reports::DataTable data{{"series", "category", "at", "value"}, {}};
+  for (const reports::FigureMark& mark : figure.marks)
+    data.rows.push_back({reports::plain(mark.series), reports::plain(mark.category),
+                         mark.category.empty() ? reports::DataCell(mark.at) : reports::DataCell(), mark.value});
+  html.keepTable("figure-" + figure.id, reports::csvTable(data));
+}
+
+void writeScripts(Html& html, const reports::ReportContent& content) {
+  html.script(kTablesScript);
+  bool any = false;
+  for (const reports::Figure& figure : content.figures) {
+    if (figure.marks.empty()) continue;
+    any = true;
+    html.script(withoutMarkup(marksJson(figure)),
+                {{"type", "application/json"}, {"class", "marks"}, {"data-figure", figure.id}});
+  }
+  if (any) html.script(kChartsScript);
+  if (content.scenes.empty() || kThreeGzip.empty()) return;
+  for (const reports::PageScene& scene : content.scenes)
+    html.script(withoutMarkup(scene.json),
+                {{"type", "application/json"}, {"class", "scene"}, {"data-figure", scene.figure}});
+  const std::vector<std::uint8_t> three(kThreeGzip.begin(), kThreeGzip.end());
+  html.script(base64(three), {{"type", "text/plain"}, {"id", "three"}});
+  html.script(kSceneScript);
 }
 
 void writeEnd(Html& html, const reports::ReportContent& content) {
@@ -93,7 +167,8 @@ ReportPage makeReportPage(const reports::ReportContent& content) {
       if (section.shown) section.write(html, content);
     }
     writeEnd(html, content);
-    html.leaf("script", kSortScript);
+    for (const reports::Figure& figure : content.figures) keepMarks(html, figure);
+    writeScripts(html, content);
   }
   return {html.bytes(), html.tables()};
 }

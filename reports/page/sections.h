@@ -38,7 +38,9 @@ void writeAudit(Html& html, const reports::ReportContent& content);  ///< checks
 void writeScope(Html& html,
                 const reports::ReportContent& content);  ///< uncertainty, decision rule, what results relate to
 void writeLeftOut(Html& html, const reports::ReportContent& content);     ///< what was not used or not found, and why
-void writeProvenance(Html& html, const reports::ReportContent& content);  ///< inputs, versions, settings
+void writeProvenance(Html& html, const reports::ReportContent& content);  ///< files read
+bool hasVersions(const reports::ReportContent& content);
+void writeVersions(Html& html, const reports::ReportContent& content);  ///< versions, settings
 
 /// Which campaigns a section is about.
 using About = bool (*)(const reports::ReportCampaign&);
@@ -49,8 +51,10 @@ bool hasWorkspace(const reports::ReportCampaign& one);  ///< loaded, with stiffn
 bool hasActions(const reports::ReportCampaign& one);    ///< calibrated, with something to do
 bool hasStation(const reports::ReportCampaign& one);    ///< without a load, with something to say of its course
 bool hasAxes(const reports::ReportCampaign& one);       ///< loaded, or with circle sweeps
+/// Mistakes of the files that would explain what the audit finds, a sentence each.
+std::vector<std::string> suspectedWords(const audit::AuditReport& report);
 bool isAudited(const reports::ReportCampaign& one);
-bool hasLeftOut(const reports::ReportCampaign& one);  ///< loaded, or with something left out
+bool hasLeftOut(const reports::ReportCampaign& one);  ///< with something left out
 bool hasWrist(const reports::ReportCampaign& one);    ///< loaded, or with a wrist sweep
 
 /// A section with its heading; `write` is called for each campaign that it is `about`, under an h3 with its name where

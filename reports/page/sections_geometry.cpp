@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "core/io/units.h"
+#include "reports/csv/csv_table.h"
+#include "reports/page/facts.h"
 #include "reports/page/html.h"
 #include "reports/page/sections.h"
 #include "reports/words/day_words.h"
@@ -111,9 +113,24 @@ void writeConditions(Html& html, const reports::ReportContent& content) {
   for (const DayKind kind : {DayKind::unloaded, DayKind::loaded, DayKind::sweeps}) {
     if (reports::anyOfKind(content.campaigns, kind)) html.paragraph(reports::methodWords(kind));
   }
-  writeEach(html, content, "conditions", isAny, [&](const reports::ReportCampaign& one) {
-    writeTable(html, {"Conditions of the measurement", {"What", "As measured"}, {conditions(one)}, true, "conditions"});
-  });
+  std::vector<Facts> facts;
+  for (std::size_t i = 0; i < content.campaigns.size(); ++i) {
+    const reports::RowGroup rows = conditions(content.campaigns[i]);
+    if (content.campaigns.size() > 1) html.setTableSuffix(fmt::format("-{}", i + 1));
+    html.keepTable("conditions", reports::csvTable(reports::Table{"", {"What", "As measured"}, {rows}, true}));
+    // What the first page says is not said again.
+    const Facts said = whoAndWhat(content.campaigns[i]);
+    facts.emplace_back();
+    for (const reports::Row& row : rows.rows) {
+      const bool again = std::any_of(said.begin(), said.end(), [&row](const auto& one) {
+        return one.first == row[0].text && one.second == row[1].text;
+      });
+      if (!again) facts.back().emplace_back(row[0].text, row[1].text);
+    }
+  }
+  html.setTableSuffix("");
+  writeFacts(html, "Conditions of the measurement", columnNames(content), sideBySide(facts));
+  writeFiguresOf(html, content, "conditions");
 }
 
 namespace {

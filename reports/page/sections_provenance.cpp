@@ -9,6 +9,7 @@
 #include "reports/page/html.h"
 #include "reports/page/sections.h"
 #include "reports/words/audit_figures.h"
+#include "reports/words/conformity_words.h"
 #include "reports/words/day_words.h"
 #include "reports/words/listed.h"
 #include "reports/words/names.h"
@@ -166,16 +167,6 @@ void writeUnanswered(Html& html, const audit::AuditReport& report) {
   html.list(items);
 }
 
-void writeSuspected(Html& html, const audit::AuditReport& report) {
-  std::vector<std::string> items;
-  for (const mistakes::Suspected& one : report.suspected) {
-    items.push_back(fmt::format("Suspected: {} of the {}; {}{}{}.", reports::auditName(one.mistake),
-                                reports::words(one.where), reports::words(one.remedy), one.shown.empty() ? "" : "; ",
-                                reports::words(one.shown)));
-  }
-  html.list(items);
-}
-
 void writeRejected(Html& html, const reports::ReportCampaign& one) {
   const auto& rejected = one.audit->rejected;
   if (rejected.empty()) {
@@ -194,6 +185,16 @@ void writeRejected(Html& html, const reports::ReportCampaign& one) {
 
 }  // namespace
 
+std::vector<std::string> suspectedWords(const audit::AuditReport& report) {
+  std::vector<std::string> items;
+  for (const mistakes::Suspected& one : report.suspected) {
+    items.push_back(fmt::format("Suspected: {} of the {}; {}{}{}.", reports::auditName(one.mistake),
+                                reports::words(one.where), reports::words(one.remedy), one.shown.empty() ? "" : "; ",
+                                reports::words(one.shown)));
+  }
+  return items;
+}
+
 bool isAudited(const reports::ReportCampaign& one) { return one.audit != nullptr; }
 
 void writeAudit(Html& html, const reports::ReportContent& content) {
@@ -202,7 +203,7 @@ void writeAudit(Html& html, const reports::ReportContent& content) {
                                one.audit->made, one.audit->of));
     if (isLoaded(one)) writeUnanswered(html, *one.audit);
     writeTable(html, findingsTable(*one.audit));
-    writeSuspected(html, *one.audit);
+    html.list(suspectedWords(*one.audit));
     writeTable(html, passedTable(*one.audit));
     writeFurther(html, one);
     if (anyByChance(*one.audit)) {
@@ -238,14 +239,10 @@ std::vector<std::string> leftOut(const reports::ReportCampaign& one) {
 
 }  // namespace
 
-bool hasLeftOut(const reports::ReportCampaign& one) { return isLoaded(one) || !leftOut(one).empty(); }
+bool hasLeftOut(const reports::ReportCampaign& one) { return !leftOut(one).empty(); }
 
 void writeLeftOut(Html& html, const reports::ReportContent& content) {
-  const auto write = [&](const reports::ReportCampaign& one) {
-    const std::vector<std::string> items = leftOut(one);
-    if (isLoaded(one) && one.identification.left_out.empty()) html.paragraph("No posture was left out.");
-    html.list(items);
-  };
+  const auto write = [&](const reports::ReportCampaign& one) { html.list(leftOut(one)); };
   writeForEach(html, content, "left-out", "What was left out, and why", hasLeftOut, write);
 }
 
@@ -268,7 +265,13 @@ void writeProvenance(Html& html, const reports::ReportContent& content) {
       table.groups.front().rows.push_back({reports::asIs(file.name), "`" + file.sha256 + "`"});
     writeTable(html, table);
   });
-  if (content.versions.empty() && content.settings.empty() && content.command_line.empty()) return;
+}
+
+bool hasVersions(const reports::ReportContent& content) {
+  return !content.versions.empty() || !content.settings.empty() || !content.command_line.empty();
+}
+
+void writeVersions(Html& html, const reports::ReportContent& content) {
   const auto section = html.element("section", {{"id", "versions"}});
   html.leaf("h2", "How this page was made");
   if (!content.command_line.empty()) {
@@ -286,10 +289,11 @@ void writeScope(Html& html, const reports::ReportContent& content) {
   const auto section = html.element("section", {{"id", "scope"}});
   html.leaf("h2", "Uncertainty, decision rule and scope");
   std::vector<std::string> items;
+  if (!content.limits_file.empty()) items.push_back(reports::decisionRuleWords());
   using reports::DayKind;
   for (const DayKind kind : {DayKind::unloaded, DayKind::loaded, DayKind::sweeps}) {
     if (!reports::anyOfKind(content.campaigns, kind)) continue;
-    for (const std::string& item : reports::scopeWords(kind)) {
+    for (const std::string& item : reports::scopeWords(kind, !content.limits_file.empty())) {
       if (std::find(items.begin(), items.end(), item) == items.end()) items.push_back(item);
     }
   }

@@ -6,19 +6,33 @@ namespace stiffscope::page {
 
 namespace {
 
-// Pictures are drawn on white paper; in the dark they keep it, with a little room around.
+// Pictures are drawn on white paper; in the dark their lightness is turned over, hues stay.
 constexpr const char* kScreen =
     ":root{--paper:#fff;--ink:#202024;--faint:#55575e;--line:#dcdfe4;--band:#f4f6f8;--accent:#1c4a96}"
     "@media (prefers-color-scheme:dark){:root{--paper:#17181b;--ink:#e6e7ea;--faint:#a9acb3;--line:#3a3d43;"
     "--band:#212328;--accent:#8fb4f0}}"
     "*{box-sizing:border-box}"
     "body{margin:0;background:var(--paper);color:var(--ink);font:16px/1.5 system-ui,sans-serif}"
-    "main,header,nav{max-width:104rem;margin:0 auto;padding:0 1.25rem}"
-    "header{padding-top:1.6rem}main{padding-bottom:3rem}main:focus{outline:none}"
+    "main,header,nav{min-width:0;padding:0 1.25rem}"
+    "header{padding-top:1.2rem}main{padding-bottom:3rem}main:focus{outline:none}"
     ".skip{position:absolute;left:-99rem}.skip:focus{left:1rem;top:.5rem;background:var(--paper);padding:.4rem .8rem}"
     "a{color:var(--accent)}:focus-visible{outline:3px solid var(--accent);outline-offset:2px}"
-    "nav ul{display:flex;flex-wrap:wrap;gap:.3rem 1.2rem;list-style:none;padding:0;margin:1rem 0 0;max-width:none;"
-    "font-size:.92rem}"
+    // The contents stay in view: a line at the top of a narrow screen, a column at the left of a wide one. Sections and
+    // entries are counted alike, each section having one h2 and one entry.
+    "nav{position:sticky;top:0;z-index:5;background:var(--paper);border-bottom:1px solid var(--line)}"
+    "nav ul{display:flex;gap:.3rem 1.1rem;overflow-x:auto;list-style:none;padding:.45rem 0;margin:0;max-width:none;"
+    "font-size:.9rem;counter-reset:entry}nav li{counter-increment:entry;white-space:nowrap}"
+    "nav li::before{content:counter(entry) '\\00a0';color:var(--faint)}nav a{text-decoration:none}nav a:hover{"
+    "text-decoration:underline}"
+    "main{counter-reset:section}section{scroll-margin-top:3rem}h2{counter-increment:section}"
+    "h2::before{content:counter(section) '\\00a0\\00a0';color:var(--faint)}"
+    "@media screen and (min-width:75rem){body{display:grid;grid-template-columns:13.5rem "
+    "minmax(0,1fr);max-width:118rem;"
+    "margin:0 auto}header{grid-column:2;grid-row:1}main{grid-column:2;grid-row:2}"
+    "nav{grid-column:1;grid-row:1 / span 2;align-self:start;height:100vh;overflow-y:auto;border-bottom:0;"
+    "border-right:1px solid var(--line);padding:1.4rem .8rem 1rem 1.25rem}nav ul{display:block}"
+    "nav li{white-space:normal;padding:.2rem 0 .2rem 1.6rem;text-indent:-1.6rem}"
+    "section{scroll-margin-top:0}}"
     "h1{font-size:1.9rem;line-height:1.2;margin:0 0 .3rem}"
     "h2{font-size:1.3rem;margin:2.4rem 0 .6rem;padding-top:.7rem;border-top:1px solid var(--line)}"
     "h3{font-size:1.05rem;margin:1.2rem 0 .5rem}"
@@ -29,11 +43,17 @@ constexpr const char* kScreen =
     "header .cautions ul,header .several ul{margin:0}.name{font-weight:600;margin:.3rem 0}"
     "sub,sup{line-height:0}"
     ".faint,small{color:var(--faint)}"
-    ".verdict{font-size:1.2rem;line-height:1.45;max-width:none;margin:1rem 0}"
-    ".numbers{display:grid;grid-template-columns:repeat(auto-fit,minmax(14rem,1fr));gap:1rem;margin:1.2rem 0;"
+    ".verdict{font-size:1.12rem;line-height:1.42;max-width:none;margin:.7rem 0 .4rem}"
+    ".judgement{font-weight:600;margin:.3rem 0}.bad{border-left:4px solid #c8382c;padding-left:.7rem}"
+    // The first screen: result and facts beside the picture.
+    ".first{display:grid;grid-template-columns:minmax(0,2fr) minmax(0,3fr);gap:0 2rem;align-items:start;margin:.8rem 0}"
+    ".first .figures{margin:0;grid-template-columns:minmax(0,1fr)}"
+    "@media (max-width:60rem){.first{grid-template-columns:minmax(0,1fr)}}"
+    ".first table{min-width:0;width:100%;font-size:.88rem}.facts td{overflow-wrap:anywhere}"
+    ".numbers{display:grid;grid-template-columns:repeat(auto-fit,minmax(14rem,1fr));gap:.8rem;margin:.8rem 0;"
     "padding:0;list-style:none;max-width:none}"
-    ".numbers li{background:var(--band);border-left:4px solid var(--accent);padding:.8rem 1rem}"
-    ".numbers b{display:block;font-size:1.9rem;line-height:1.25;font-weight:600;"
+    ".numbers li{background:var(--band);border-left:4px solid var(--accent);padding:.5rem .9rem}"
+    ".numbers b{display:block;font-size:1.6rem;line-height:1.25;font-weight:600;"
     "font-variant-numeric:tabular-nums}"
     ".numbers span{display:block;color:var(--faint);font-size:.9rem;line-height:1.4}"
     // Campaigns side by side where there is room; the tables of a single one in columns.
@@ -68,13 +88,41 @@ constexpr const char* kScreen =
     "align-items:start;margin-top:1rem}"
     "figure{margin:0;padding:0}"
     "figure img{display:block;width:100%;height:auto;background:#fff;border:1px solid var(--line)}"
+    "@media screen and (prefers-color-scheme:dark){figure img{filter:invert(.905) hue-rotate(180deg)}}"
     "figcaption{font-size:.92rem;margin-top:.5rem;max-width:56rem;overflow-wrap:anywhere}"
     "code{font-family:ui-monospace,monospace;font-size:.85em;overflow-wrap:anywhere}";
+
+// What scripts add: scenes, what is laid over charts, the filter.
+constexpr const char* kScripted =
+    ".chart{position:relative}canvas.marks{position:absolute;inset:0;width:100%;height:100%;cursor:crosshair}"
+    ".tip{position:absolute;pointer-events:none;white-space:pre;background:var(--paper);color:var(--ink);border:1px "
+    "solid "
+    "var(--faint);padding:.3rem .5rem;font-size:.82rem;margin:.6rem;z-index:3;max-width:20rem;overflow:hidden}"
+    ".csv,.offer{font:inherit;font-size:.85rem;color:var(--accent);background:var(--band);border:1px solid var(--line);"
+    "cursor:pointer;padding:.05rem .45rem}.filter{display:block;font-size:.85rem;color:var(--faint);margin:.4rem 0}"
+    "tr.marked th,tr.marked td{background:#e8a82044}tr.filtered{display:none}"
+    "figure.live img,figure.live .chart{display:none}.scene-live{border:1px solid var(--line)}"
+    ".bar{display:flex;flex-wrap:wrap;gap:.25rem .5rem;align-items:center;padding:.3rem .5rem;font-size:.82rem;"
+    "background:var(--band)}.bar button,.bar select{font:inherit;color:var(--ink);background:var(--paper);border:1px "
+    "solid "
+    "var(--line);padding:.05rem .45rem;max-width:12rem}.bar label{display:inline-flex;align-items:center;gap:.25rem}"
+    ".bar i{width:.8em;height:.8em;display:inline-block}"
+    ".room{position:relative;overflow:hidden;touch-action:pan-y}.room canvas{display:block}"
+    ".room canvas.labels{position:absolute;left:0;top:0;pointer-events:none}"
+    ".keys,.numbers-of-point{position:absolute;right:.4rem;top:.4rem;font-size:.8rem;background:var(--paper);opacity:."
+    "93;"
+    "min-width:0;width:auto;max-width:95%}.first .keys,.first .numbers-of-point "
+    "table{font-size:.78rem;width:auto}.keys "
+    "th,.keys td{padding:.05rem .5rem;border:0;text-align:left}"
+    ".status{font-size:.82rem;color:var(--faint);padding:.25rem .5rem;background:var(--band);min-height:1.7rem;"
+    "white-space:pre-wrap}";
 
 constexpr const char* kPrint =
     "@media print{"
     ":root{--paper:#fff;--ink:#000;--faint:#444;--line:#bbb;--band:#f4f6f8;--accent:#1c4a96}"
-    "body{font-size:9.5pt}nav,.skip,details{display:none}"
+    "body{font-size:9.5pt}nav,.skip,details,.scene-live,.csv,.offer,canvas.marks,.tip{display:none}"
+    "figure.live img,figure.live .chart{display:block}.first{grid-template-columns:9fr 11fr;gap:0 6mm}.first "
+    ".figures{display:block}.first table{font-size:7.5pt}tr.filtered{display:table-row}"
     "main,header{max-width:none;padding:0}"
     "h1{font-size:18pt}h2{font-size:13pt;margin-top:5mm}h3{font-size:10.5pt;margin:3mm 0 1mm}"
     "h2,h3,caption,thead{break-after:avoid}"
@@ -83,7 +131,7 @@ constexpr const char* kPrint =
     ".several,.figures{display:block}.one .each,header .cautions{columns:auto}.scroll{break-inside:auto}"
     "figcaption,.notes,p.faint{font-size:8.5pt}.verdict{font-size:12pt}"
     "table,.each table{font-size:7.5pt}th,td{padding:.15rem .36rem}"
-    ".figures{margin:0}figure{margin:3mm 0}figure img{width:auto;max-width:100%;max-height:90mm}"
+    ".figures{margin:0}figure{margin:3mm 0}figure img{width:auto;max-width:100%;max-height:82mm}"
     ".scroll{overflow:visible;margin-bottom:3mm}caption{max-width:none}"
     "p,ul,ol,figcaption{max-width:none}"
     ".numbers{grid-template-columns:repeat(3,1fr)}.numbers b{font-size:16pt}"
@@ -92,7 +140,7 @@ constexpr const char* kPrint =
 }  // namespace
 
 std::string pageStyle(const std::string& report_id) {
-  return kScreen +
+  return std::string(kScreen) + kScripted +
          fmt::format(
              "@page{{size:A4;margin:15mm 15mm 17mm;@bottom-left{{content:'Report {}';font:8pt sans-serif}}"
              "@bottom-right{{content:'Page ' counter(page) ' of ' counter(pages);font:8pt sans-serif}}}}",

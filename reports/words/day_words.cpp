@@ -95,23 +95,27 @@ std::string untestedWords(const audit::AuditReport& audit, DayKind kind) {
                      audit.made, audit.of, purposeOf(kind));
 }
 
-std::vector<std::string> scopeWords(DayKind kind) {
+std::vector<std::string> scopeWords(DayKind kind, bool limits) {
+  const std::string rule =
+      limits ? "What counts: " : "Decision rule: no statement of conformity to a specification is made. ";
   switch (kind) {
     case DayKind::unloaded:
       return {
           "Uncertainty: u of a parameter is its standard uncertainty by least squares, from the tracker's declared "
           "noise and what the model leaves beyond it, readings of one posture erring together. The tracker's own "
           "scale, of which no reading tells, is not in it.",
-          "Decision rule: no statement of conformity to a specification is made. An effect is in the model where it "
-          "predicts postures that took no part better than the model without it; errors that are named held out are "
-          "of postures by which nothing was fitted or chosen. The errors are of these postures and reflectors: "
-          "elsewhere in the workspace they can be larger."};
+          rule +
+              "An effect is in the model where it "
+              "predicts postures that took no part better than the model without it; errors that are named held out "
+              "are "
+              "of postures by which nothing was fitted or chosen. The errors are of these postures and reflectors: "
+              "elsewhere in the workspace they can be larger."};
     case DayKind::sweeps:
       return {
           "Uncertainty: that of an axis is from the scatter of its reflectors about their circles, and where they "
           "leave them by more than the declared noise widened by that. The tracker's own scale, of which no reading "
           "tells, is not in it.",
-          "Decision rule: no statement of conformity to a specification is made."};
+          limits ? std::string("What counts: the limits of the first page.") : rule};
     case DayKind::loaded:
       break;
   }
@@ -122,10 +126,12 @@ std::vector<std::string> scopeWords(DayKind kind) {
       "stiffness is u(c)/c², to first order. U = k u with Student's t for about 95\u00a0%. The scales of the load "
       "cell "
       "and of the tracker, of which no reading tells, are not in it.",
-      "Decision rule: no statement of conformity to a specification is made. A joint counts as seen where the load "
-      "turns it by more than three times what wrench, frame and angle uncertainty alone would. A stiffness is "
-      "imprecise where u exceeds the value, and negative ones are shown as found; uncertainty is not used to move a "
-      "limit."};
+      rule +
+          "A joint counts as seen where the load "
+          "turns it by more than three times what wrench, frame and angle uncertainty alone would. A stiffness is "
+          "imprecise where u exceeds the value, and negative ones are shown as found; uncertainty is not used to move "
+          "a "
+          "limit."};
 }
 
 }  // namespace stiffscope::reports

@@ -21,7 +21,7 @@ std::string auditMeaning(const audit::AuditReport& audit, DayKind kind);
 /// That too few checks could be made to trust the readings for what such a day is for.
 std::string untestedWords(const audit::AuditReport& audit, DayKind kind);
 
-/// Uncertainty and decision rule, an item each.
-std::vector<std::string> scopeWords(DayKind kind);
+/// Uncertainty and decision rule, an item each. `limits`: acceptance limits were given, whose rule stands with them.
+std::vector<std::string> scopeWords(DayKind kind, bool limits = false);
 
 }  // namespace stiffscope::reports

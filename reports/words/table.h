@@ -42,6 +42,7 @@ struct Table {
   bool words = false;                  ///< cells hold words, set flush left, not numbers
   std::string id = {};                 ///< of its file beside the page, without ".csv"; empty: by its number
   std::optional<DataTable> data = {};  ///< of its file, where cells for people are more than a number each
+  bool on_page_alone = false;          ///< has no file: its numbers are in those of other tables
 };
 
 }  // namespace stiffscope::reports

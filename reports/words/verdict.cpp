@@ -140,11 +140,17 @@ std::string stiffnessVerdict(const std::vector<ReportCampaign>& campaigns,
     text += fmt::format(" The double encoders avoid {} of the deflection at {}.", percent(avoided->share, 0),
                         pointOf(*avoided));
   }
-  text += gapSentences(campaigns);
   return text;
 }
 
 }  // namespace
+
+std::string diagnosisVerdict(const std::vector<ReportCampaign>& campaigns) {
+  const std::vector<ReportCampaign> loaded = ofKind(campaigns, DayKind::loaded);
+  if (loaded.empty()) return {};
+  const std::string text = gapSentences(loaded);
+  return text.empty() ? text : text.substr(1);
+}
 
 std::string verdictOf(const std::vector<ReportCampaign>& campaigns, const std::optional<AvoidedByEncoders>& avoided) {
   std::string text;

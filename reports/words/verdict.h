@@ -14,8 +14,11 @@ namespace stiffscope::reports {
 std::vector<std::string> doubtsOfTheMachine(const std::vector<ReportCampaign>& campaigns);
 
 /// The result in plain words, one or two sentences a campaign: which joint stiffnesses are known, by which
-/// method, what share of the deflection they compensate at which point; then what the double encoders avoid, and what
-/// the diagnosis finds besides joint springs. For days without a load their accuracy, for sweeps alone the axes.
+/// method, what share of the deflection they compensate at which point; then what the double encoders avoid. For days
+/// without a load their accuracy, for sweeps alone the axes.
 std::string verdictOf(const std::vector<ReportCampaign>& campaigns, const std::optional<AvoidedByEncoders>& avoided);
+
+/// What the diagnosis finds besides joint springs, of the days with a load; empty without a diagnosis.
+std::string diagnosisVerdict(const std::vector<ReportCampaign>& campaigns);
 
 }  // namespace stiffscope::reports

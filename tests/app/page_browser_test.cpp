@@ -34,7 +34,7 @@ addEventListener('load',function(){
               if(sb){var q=sb.getBoundingClientRect();if(a.l>=q.right-1)continue;}}
    out.overlaps.push(a.e.tagName+':'+a.e.textContent.slice(0,40)+' / '+b.e.tagName+':'+b.e.textContent.slice(0,40));}
  }
- boxes.forEach(function(a){if(!a.e.closest('.scroll')&&a.r>document.documentElement.clientWidth+1)
+ boxes.forEach(function(a){if(!a.e.closest('.scroll,nav')&&a.r>document.documentElement.clientWidth+1)
   out.clipped.push(a.e.tagName+':'+a.e.textContent.slice(0,40));});
  performance.getEntriesByType('resource').forEach(function(e){if(!e.name.startsWith('data:'))out.requests.push(e.name);});
  document.querySelectorAll('[src],[href],[srcset],[data]').forEach(function(e){

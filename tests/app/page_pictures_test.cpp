@@ -36,7 +36,7 @@ TEST(WholeFigures, LookAsTheyDid) {
         std::find_if(figures.begin(), figures.end(), [id](const reports::Figure& f) { return f.id == id; });
     ASSERT_NE(figure, figures.end());
     cv::Mat drawn = cv::imdecode(figure->png, cv::IMREAD_GRAYSCALE);
-    cv::resize(drawn, drawn, {}, 0.5, 0.5, cv::INTER_AREA);
+    cv::resize(drawn, drawn, {}, 0.25, 0.25, cv::INTER_AREA);  // of twice the pixels
     const cv::Mat baseline = cv::imread((kept / (std::string(id) + ".png")).string(), cv::IMREAD_GRAYSCALE);
     const bool same_size = baseline.size() == drawn.size();
     cv::Mat map;

@@ -113,7 +113,8 @@ TEST(Page, EveryTableIsAFileToo) {
   // Every posture is too long for the page, and in a file of its own.
   const auto beside =
       std::count_if(names.begin(), names.end(), [](const std::string& name) { return name.starts_with("postures"); });
-  EXPECT_EQ(names.size(), on_page + static_cast<std::size_t>(beside));
+  // The first page's two tables have no files of their own, and the conditions of both campaigns are one table there.
+  EXPECT_EQ(names.size(), on_page - 1 + static_cast<std::size_t>(beside));
   std::sort(names.begin(), names.end());
   EXPECT_EQ(std::adjacent_find(names.begin(), names.end()), names.end());
   EXPECT_TRUE(std::binary_search(names.begin(), names.end(), "stiffness-2"));

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/extended_model/extended_model.h"
+#include "reports/report_content.h"
+
+namespace stiffscope::app {
+
+/// The arm in the page, to be turned: what reports/page/scene.js draws, as JSON. Lengths in mm (to 0.01), vectors in µm
+/// (to 0.01), axes of R0, its origin lifted to the floor as in the pictures; colours those of the pictures.
+///   campaign, origin, palette {light, dark: name -> [r, g, b]}, corrected (whether `m` is corrected for `e`),
+///   magnification, residual_factor, first (index of the frame to start with), methods [{key, name}],
+///   vectors [{key, name, colour, width}]: the kinds there are, m (measured), p (predicted), r (residual), e (effects);
+///   frames [{id, where, load, posture, step, joints, axes, force, points [{label, at, wrist, m, p {method}, r, e}]}],
+///   traces [{axis, points}] of circle sweeps.
+/// A residual that is not stated is m - p.
+///
+/// Of a loaded day every posture under every load step, as the desktop's viewer has it. `raw`: the day as it was before
+/// it was corrected for the effects of `one.improved`; what these took away is vector e. The rows of the load states
+/// must still be there. At most kMostScenePostures postures, evenly chosen.
+std::string loadedSceneJson(const reports::ReportCampaign& one, const campaign::Campaign& raw);
+
+/// Of an unloaded day what the calibrated geometry leaves at each reflector (m), what the effects explain of it (e) and
+/// what is left (r). Empty where the day could not be calibrated.
+std::string accuracySceneJson(const reports::ReportCampaign& one);
+
+/// Of a day of sweeps the arm in the middle of each sweep with the readings. Empty where these do not place R0.
+std::string sweepSceneJson(const reports::ReportCampaign& one);
+
+inline constexpr std::size_t kMostScenePostures = 60;
+
+}  // namespace stiffscope::app

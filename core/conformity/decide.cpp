@@ -1,0 +1,162 @@
+#include "core/conformity/decide.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stiffscope::conformity {
+
+namespace {
+
+using identification::CoverageInterval;
+
+/// A quantity, or why there is none.
+struct Sought {
+  std::optional<Measured> measured;
+  Missing missing = Missing::nothing;
+};
+
+Sought found(double value, const CoverageInterval& interval) {
+  if (!std::isfinite(value)) return {std::nullopt, Missing::not_identified};
+  if (std::isnan(interval.low) || std::isnan(interval.high)) return {std::nullopt, Missing::no_uncertainty};
+  return {Measured{value, interval}, Missing::nothing};
+}
+
+/// value -+ 1.96 u.
+Sought foundNormal(double value, double sd) {
+  const double expanded = identification::kNormalFactor * sd;
+  return found(value, {value - expanded, value + expanded});
+}
+
+Sought stiffness(const DayResult& day, int joint) {
+  if (day.identification == nullptr) return {std::nullopt, Missing::not_of_such_a_day};
+  const identification::MethodResult& shown = day.identification->of(identification::bestMethod(*day.identification));
+  if (!shown.available || !shown.estimate.identifiable[static_cast<std::size_t>(joint)])
+    return {std::nullopt, Missing::not_identified};
+  const double k = shown.estimate.stiffness(joint), u = identification::expandedUncertainty(shown.estimate, joint);
+  // The U that is stated; one that is open above still has a lower end.
+  return found(
+      k, std::isfinite(u) ? CoverageInterval{k - u, k + u} : identification::stiffnessInterval(shown.estimate, joint));
+}
+
+Sought compensated(const DayResult& day, bool at_wrist) {
+  if (day.identification == nullptr) return {std::nullopt, Missing::not_of_such_a_day};
+  const identification::MethodResult& shown = day.identification->of(identification::bestMethod(*day.identification));
+  const auto& at = at_wrist ? shown.at_wrist : shown.at_targets;
+  if (!shown.available || !at) return {std::nullopt, Missing::not_identified};
+  if (shown.subsets.compliances.empty()) return {std::nullopt, Missing::no_uncertainty};
+  return foundNormal(at->subsets.held_out, at->held_out_sd);
+}
+
+/// Where the softest direction is least stiff; its interval's lower end is the least over all postures.
+Sought softest(const DayResult& day) {
+  if (day.identification == nullptr) return {std::nullopt, Missing::not_of_such_a_day};
+  if (day.workspace == nullptr) return {std::nullopt, Missing::not_identified};
+  std::optional<Measured> least;
+  for (const workspace::PointStiffness& posture : day.workspace->postures) {
+    if (posture.of_model.empty()) continue;
+    const workspace::DirectionalCompliance& soft = posture.of_model.front();
+    const CoverageInterval interval = soft.stiffnessInterval();
+    if (!least) least = Measured{soft.stiffness(), interval};
+    least->value = std::min(least->value, soft.stiffness());
+    least->interval.low = std::min(least->interval.low, interval.low);
+    least->interval.high = std::min(least->interval.high, interval.high);
+  }
+  if (!least) return {std::nullopt, Missing::not_identified};
+  return found(least->value, least->interval);
+}
+
+Sought avoided(const DayResult& day) {
+  if (day.avoided == nullptr) return {std::nullopt, Missing::not_of_such_a_day};
+  if (!day.avoided->available) return {std::nullopt, Missing::not_identified};
+  return found(day.avoided->share, {day.avoided->low, day.avoided->high});
+}
+
+/// Of one reading the tracker's noise along the error; of the rms over n readings its n-th root.
+Sought positionError(const DayResult& day, bool calibrated, bool largest) {
+  if (day.calibration == nullptr) return {std::nullopt, Missing::not_of_such_a_day};
+  const calibration::Calibration& calibration = *day.calibration;
+  if (!calibration.reason.empty() || calibration.models.empty()) return {std::nullopt, Missing::not_identified};
+  const calibration::ModelResult& model =
+      calibrated ? calibration.best() : calibration.of(calibration::CalibratedModel::nominal);
+  if (model.held_out.readings == 0) return {std::nullopt, Missing::not_identified};
+  if (!(calibration.noise > 0.0)) return {std::nullopt, Missing::no_uncertainty};
+  if (largest) return foundNormal(model.held_out.largest, calibration.noise);
+  return foundNormal(model.held_out.rms, calibration.noise / std::sqrt(static_cast<double>(model.held_out.readings)));
+}
+
+/// The largest |distance - nominal| of axes that were measured, by the upper end of its interval.
+Sought linkDifference(const DayResult& day) {
+  if (day.swept == nullptr) return {std::nullopt, Missing::not_of_such_a_day};
+  std::optional<Sought> largest;
+  for (const frames::LinkGeometry& link : day.swept->links) {
+    if (!link.distance_sd) continue;
+    const Sought one = foundNormal(std::abs(link.distance - link.nominal_distance), *link.distance_sd);
+    if (!one.measured) continue;
+    if (!largest || one.measured->interval.high > largest->measured->interval.high) largest = one;
+  }
+  return largest ? *largest : Sought{std::nullopt, Missing::not_identified};
+}
+
+Sought sought(Quantity quantity, const DayResult& day) {
+  switch (quantity) {
+    case Quantity::compensated_at_reflectors:
+      return compensated(day, false);
+    case Quantity::compensated_at_wrist:
+      return compensated(day, true);
+    case Quantity::softest:
+      return softest(day);
+    case Quantity::avoided:
+      return avoided(day);
+    case Quantity::nominal_rms:
+      return positionError(day, false, false);
+    case Quantity::nominal_largest:
+      return positionError(day, false, true);
+    case Quantity::calibrated_rms:
+      return positionError(day, true, false);
+    case Quantity::calibrated_largest:
+      return positionError(day, true, true);
+    case Quantity::link_difference:
+      return linkDifference(day);
+    default:
+      return stiffness(day, static_cast<int>(quantity));
+  }
+}
+
+}  // namespace
+
+Decision decide(const Limit& limit, const Measured& measured) {
+  const auto keeps = [&limit](double low, double high) {
+    return (!limit.least || low >= *limit.least) && (!limit.most || high <= *limit.most);
+  };
+  Decision decision{limit, measured, Verdict::fail, false, Missing::nothing};
+  if (keeps(measured.interval.low, measured.interval.high)) decision.verdict = Verdict::pass;
+  decision.in_guard_band = decision.verdict == Verdict::fail && keeps(measured.value, measured.value);
+  return decision;
+}
+
+std::vector<Decision> decide(const Limits& limits, const DayResult& day) {
+  std::vector<Decision> decisions;
+  for (const Limit& limit : limits.limits) {
+    const Sought one = sought(limit.quantity, day);
+    decisions.push_back(one.measured ? decide(limit, *one.measured)
+                                     : Decision{limit, std::nullopt, Verdict::not_evaluated, false, one.missing});
+  }
+  return decisions;
+}
+
+Verdict overall(const std::vector<std::vector<Decision>>& by_day) {
+  Verdict verdict = Verdict::pass;
+  const std::size_t limits = by_day.empty() ? 0 : by_day.front().size();
+  for (std::size_t i = 0; i < limits; ++i) {
+    bool evaluated = false, lacking = false;
+    for (const std::vector<Decision>& day : by_day) {
+      if (day[i].verdict == Verdict::fail) return Verdict::fail;
+      evaluated = evaluated || day[i].verdict == Verdict::pass;
+      lacking = lacking || (day[i].verdict == Verdict::not_evaluated && day[i].missing != Missing::not_of_such_a_day);
+    }
+    if (!evaluated || lacking) verdict = Verdict::not_evaluated;
+  }
+  return limits == 0 ? Verdict::not_evaluated : verdict;
+}
+
+}  // namespace stiffscope::conformity

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/calibration/calibrate.h"
+#include "core/comparison/deflection_avoided.h"
+#include "core/conformity/limits.h"
+#include "core/identification/identification.h"
+#include "core/workspace/workspace_stiffness.h"
+
+namespace stiffscope::conformity {
+
+enum class Verdict { pass, fail, not_evaluated };
+
+/// Why a limit was not evaluated.
+enum class Missing {
+  nothing,
+  not_of_such_a_day,  ///< the day measures something else
+  not_identified,     ///< of such a day, but not found on this one
+  no_uncertainty      ///< too little was measured to say how far it is to be trusted
+};
+
+/// A quantity as measured, SI, with its 95 % interval.
+struct Measured {
+  double value = 0.0;
+  identification::CoverageInterval interval;
+};
+
+/// What came of one limit.
+struct Decision {
+  Limit limit;
+  std::optional<Measured> measured;
+  Verdict verdict = Verdict::not_evaluated;
+  bool in_guard_band = false;  ///< fails although the value itself keeps the limit
+  Missing missing = Missing::nothing;
+};
+
+/// What a day measured; what it has not is null.
+struct DayResult {
+  const identification::Identification* identification = nullptr;  ///< of a loaded day
+  const frames::Frames* swept = nullptr;                           ///< where circles were swept
+  const workspace::WorkspaceStiffness* workspace = nullptr;
+  const calibration::Calibration* calibration = nullptr;   ///< of an unloaded day
+  const comparison::DeflectionAvoided* avoided = nullptr;  ///< by this day's encoders, against another day
+};
+
+/// Guarded acceptance with the guard band w = U (JCGM 106:2012, 8.3.2; ISO 14253-1): a limit is kept where the whole 95
+/// % interval of the quantity keeps it, value - U >= least and value + U <= most, U to each side the distance of the
+/// interval's end. The chance of accepting what is outside is then 2.5 % at most for one limit. Everything else fails,
+/// `in_guard_band` where the value itself keeps the limit.
+Decision decide(const Limit& limit, const Measured& measured);
+
+/// Each limit by what the day measured. U of a share compensated is from its spread over the subsets of postures, of an
+/// error of position from the tracker's declared noise, of a distance between axes from their fit; the others state an
+/// interval of their own.
+std::vector<Decision> decide(const Limits& limits, const DayResult& day);
+
+/// Over the days of a report, whose decisions are of the same limits in one order: fail where one fails; pass where
+/// each limit passes on some day and was evaluated on all days that measure what it is on; else not evaluated.
+Verdict overall(const std::vector<std::vector<Decision>>& by_day);
+
+}  // namespace stiffscope::conformity

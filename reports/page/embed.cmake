@@ -1,0 +1,21 @@
+# Writes the bytes of FILES into OUT, a C++ source: cmake -DOUT=... "-DFILES=name=path;..." -P embed.cmake. Without a
+# path it is empty.
+set(text "// Made by reports/page/embed.cmake.\n#include \"reports/page/embedded.h\"\n\nnamespace stiffscope::page {\n\n")
+foreach(entry ${FILES})
+  string(REGEX MATCH "^([A-Za-z]+)=(.*)$" matched "${entry}")
+  set(name ${CMAKE_MATCH_1})
+  set(path ${CMAKE_MATCH_2})
+  set(hex "")
+  if(path)
+    file(READ ${path} hex HEX)
+  endif()
+  string(LENGTH "${hex}" digits)
+  math(EXPR bytes "${digits} / 2")
+  # Lines of 64 bytes, each a literal of its own: a hexadecimal escape does not end by itself.
+  string(REGEX REPLACE "([0-9a-f][0-9a-f])" "\\\\x\\1" escaped "${hex}")
+  string(REPEAT "." 256 line)
+  string(REGEX REPLACE "(${line})" "\\1\"\n\"" escaped "${escaped}")
+  string(APPEND text "const std::string_view ${name}(\n\"${escaped}\", ${bytes});\n\n")
+endforeach()
+string(APPEND text "}  // namespace stiffscope::page\n")
+file(WRITE ${OUT} "${text}")

@@ -1,0 +1,116 @@
+#include "reports/page/facts.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <set>
+
+#include "reports/page/sections.h"
+#include "reports/words/names.h"
+#include "reports/words/numbers.h"
+
+namespace stiffscope::page {
+
+std::vector<Fact> sideBySide(const std::vector<Facts>& by_campaign) {
+  std::vector<Fact> facts;
+  for (std::size_t i = 0; i < by_campaign.size(); ++i) {
+    for (const auto& said : by_campaign[i]) {
+      const std::string& name = said.first;
+      auto found = std::find_if(facts.begin(), facts.end(), [&](const Fact& fact) { return fact.name == name; });
+      if (found == facts.end()) found = facts.insert(facts.end(), {name, std::vector<std::string>(by_campaign.size())});
+      found->of[i] = said.second;
+    }
+  }
+  return facts;
+}
+
+void writeFacts(Html& html, const std::string& caption, const std::vector<std::string>& names,
+                const std::vector<Fact>& facts) {
+  if (facts.empty()) return;
+  const auto scroll = html.element(
+      "div", {{"class", "scroll"}, {"role", "region"}, {"aria-label", reports::plain(caption)}, {"tabindex", "0"}});
+  const auto table = html.element("table", {{"class", facts.size() > 10 ? "words facts long" : "words facts"}});
+  html.leaf("caption", caption);
+  if (names.size() > 1) {
+    const auto head = html.element("thead");
+    const auto line = html.element("tr");
+    html.leaf("th", "What", {{"scope", "col"}});
+    for (const std::string& name : names) html.leaf("th", name, {{"scope", "col"}});
+  }
+  const auto body = html.element("tbody");
+  for (const Fact& fact : facts) {
+    const auto line = html.element("tr");
+    html.leaf("th", fact.name, {{"scope", "row"}});
+    const bool same =
+        std::all_of(fact.of.begin(), fact.of.end(), [&](const auto& words) { return words == fact.of.front(); });
+    if (same && fact.of.size() > 1) {
+      html.leaf("td", fact.of.front(), {{"colspan", std::to_string(fact.of.size())}});
+      continue;
+    }
+    for (const std::string& words : fact.of) html.leaf("td", words.empty() ? "–" : words);
+  }
+}
+
+std::vector<std::string> columnNames(const reports::ReportContent& content) {
+  std::vector<std::string> names;
+  std::set<std::string> states;
+  for (const reports::ReportCampaign& one : content.campaigns)
+    states.insert(reports::encoderWords(one.campaign.double_encoder));
+  const bool told_apart = states.size() == content.campaigns.size() && !states.contains("");
+  for (const reports::ReportCampaign& one : content.campaigns)
+    names.push_back(told_apart ? reports::capitalised(reports::encoderWords(one.campaign.double_encoder))
+                               : reports::asIs(one.campaign.name));
+  return names;
+}
+
+namespace {
+
+/// What a campaign says of an instrument, "not stated" where it does not.
+std::string instrument(const std::string& model, const std::string& serial, const std::string& certificate) {
+  std::string words = reports::asIs(model.empty() ? std::string("model not stated") : model);
+  words += serial.empty() ? "" : fmt::format(", serial number {}", reports::asIs(serial));
+  return words + (certificate.empty() ? "; certificate not stated"
+                                      : fmt::format("; certificate {}", reports::asIs(certificate)));
+}
+
+}  // namespace
+
+Facts whoAndWhat(const reports::ReportCampaign& one) {
+  const campaign::Campaign& campaign = one.campaign;
+  const campaign::CampaignTexts& texts = campaign.texts;
+  Facts facts;
+  const auto add = [&facts](const char* name, const std::string& words) {
+    if (!words.empty()) facts.emplace_back(name, words);
+  };
+  const auto own = [&add](const char* name, const std::string& words) {
+    if (!words.empty()) add(name, reports::asIs(words));
+  };
+  own("Campaign", campaign.name);
+  own("Measured on", campaign.date);
+  own("Machine", campaign.robot.name);
+  own("Serial number", texts.robot_serial);
+  own("Controller", texts.controller);
+  own("Item", texts.item);
+  if (isLoaded(one)) add("Double encoders", reports::encoderState(campaign.double_encoder));
+  own("Customer", texts.customer);
+  own("Laboratory", texts.laboratory);
+  own("Place", texts.place);
+  own("Operator", texts.operator_name);
+  own("Approved by", texts.approved_by);
+  own("Date of issue", texts.date_of_issue);
+  own("Environment", texts.environment);
+  own("Conditions", texts.conditions);
+  add("Tracker", campaign.tracker ? instrument(campaign.tracker->model, texts.tracker_serial, texts.tracker_certificate)
+                                  : "not declared: no noise is known");
+  if (campaign.load_cell)
+    add("Load cell", texts.load_cell_certificate.empty()
+                         ? "certificate not stated"
+                         : fmt::format("certificate {}", reports::asIs(texts.load_cell_certificate)));
+  if (!one.identification.cases.empty())
+    add("Load", fmt::format("{}\u00a0kN in {} postures (load step {})",
+                            reports::fixed(1e-3 * reports::meanForce(one.identification), 2),
+                            one.identification.cases.size(), one.identification.step));
+  own("Note", texts.note);
+  return facts;
+}
+
+}  // namespace stiffscope::page

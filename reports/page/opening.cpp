@@ -1,0 +1,420 @@
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+#include "core/io/units.h"
+#include "reports/page/facts.h"
+#include "reports/page/html.h"
+#include "reports/page/sections.h"
+#include "reports/report_content.h"
+#include "reports/words/accuracy_words.h"
+#include "reports/words/conformity_words.h"
+#include "reports/words/day_words.h"
+#include "reports/words/names.h"
+#include "reports/words/numbers.h"
+#include "reports/words/preparation_words.h"
+#include "reports/words/remark_words.h"
+#include "reports/words/verdict.h"
+
+// The first screen and the first printed page: what was found, whether it is to be believed, of what it is.
+
+namespace stiffscope::page {
+
+namespace {
+
+struct KeyNumber {
+  std::string value, words;
+};
+
+/// The campaign the first numbers are of: a loaded one before others, and of these the one with active double encoders
+/// where there are several, as in the paper.
+const reports::ReportCampaign& leading(const reports::ReportContent& content) {
+  const auto& campaigns = content.campaigns;
+  const bool loaded = reports::anyOfKind(campaigns, reports::DayKind::loaded);
+  const auto first = std::find_if(campaigns.begin(), campaigns.end(),
+                                  [loaded](const reports::ReportCampaign& one) { return !loaded || isLoaded(one); });
+  const auto active = std::find_if(first, campaigns.end(), [loaded](const reports::ReportCampaign& one) {
+    return (!loaded || isLoaded(one)) && one.campaign.double_encoder == campaign::DoubleEncoder::active;
+  });
+  return active == campaigns.end() ? *first : *active;
+}
+
+/// ", double encoders active", where that is declared.
+std::string stateOf(const reports::ReportCampaign& one) {
+  const std::string words = reports::encoderWords(one.campaign.double_encoder);
+  return words.empty() ? words : ", " + words;
+}
+
+KeyNumber deflection(const reports::ReportCampaign& one, const reports::JudgedPoint& point) {
+  const auto& displacement = reports::displacementAt(one.identification, point.at_wrist);
+  if (displacement.empty()) return {"–", "deflection: no posture could be used"};
+  return {
+      fmt::format("{}\u00a0mm", reports::fixed(reports::kMmPerM * reports::mean(displacement), 2)),
+      fmt::format("mean deflection at {} under {}\u00a0kN, {} postures{}", point.name,
+                  reports::fixed(1e-3 * reports::meanForce(one.identification), 2), displacement.size(), stateOf(one))};
+}
+
+/// At the reflectors, by which the method was chosen, and at P_wrist; beside the paper in the paper's order.
+KeyNumber compensated(const reports::ReportCampaign& one, bool paper) {
+  const auto shown = reports::shownMethod(one.identification);
+  if (!shown) return {"–", "compensated: no method is available, see the stiffnesses"};
+  const identification::MethodResult& method = one.identification.of(*shown);
+  const bool wrist = reports::compensationAt(method, true).has_value(), first_at_wrist = wrist && paper;
+  const auto share = [&](bool at_wrist) {
+    const auto held_out = reports::heldOut(method, at_wrist);
+    const auto& all = reports::compensationAt(method, at_wrist);
+    return reports::percent(held_out ? *held_out : all ? all->all_postures : std::nan(""), 0);
+  };
+  const auto point = [](bool at_wrist) { return at_wrist ? "P_{wrist}" : "the reflectors"; };
+  std::string words =
+      fmt::format("of the deflection at {} compensated by {} in postures {}", point(first_at_wrist),
+                  reports::shortName(*shown), reports::heldOut(method, first_at_wrist) ? "held out" : "used");
+  if (wrist) words += fmt::format("; {} at {}", share(!first_at_wrist), point(!first_at_wrist));
+  return {share(first_at_wrist), words};
+}
+
+/// The joints that the verdict does not doubt.
+KeyNumber trusted(const identification::Identification& identification) {
+  const auto shown = reports::shownMethod(identification);
+  if (!shown) return {"0 of 6", "joint stiffnesses: no method is available, see the stiffnesses"};
+  const identification::StiffnessEstimate& estimate = identification.of(*shown).estimate;
+  int count = 0;
+  std::vector<std::string> doubtful;
+  for (int joint = 0; joint < 6; ++joint) {
+    if (!estimate.identifiable[static_cast<std::size_t>(joint)]) continue;
+    if (estimate.mark(joint).empty()) {
+      ++count;
+    } else {
+      doubtful.push_back(reports::jointName(joint));
+    }
+  }
+  std::string words = fmt::format("joint stiffnesses found by {}", reports::shortName(*shown));
+  if (!doubtful.empty()) {
+    words += fmt::format("; {} {} not to be trusted and not counted", fmt::join(doubtful, ", "),
+                         doubtful.size() == 1 ? "is" : "are");
+  }
+  return {fmt::format("{} of 6", count), words};
+}
+
+KeyNumber third(const reports::ReportContent& content, const reports::ReportCampaign& one) {
+  if (content.avoided && content.avoided->available) {
+    return {reports::percent(content.avoided->share, 0),
+            fmt::format("of the deflection at {} with double encoders inactive is avoided by active ones",
+                        reports::pointOf(*content.avoided))};
+  }
+  return trusted(one.identification);
+}
+
+/// What a day of sweeps alone gives: axes and the lengths between them.
+std::vector<KeyNumber> sweepNumbers(const frames::Frames& frames) {
+  const auto measured =
+      std::count_if(frames.axes.begin(), frames.axes.end(), [](const auto& axis) { return axis.measured; });
+  double rms = 0.0;
+  for (const frames::MeasuredAxis& axis : frames.axes) rms = std::max(rms, axis.measured ? axis.fit.rms : 0.0);
+  const double off = reports::largestLinkDifference(frames);
+  return {{fmt::format("{} of 6", measured), "joint axes found from their sweeps"},
+          {fmt::format("{}\u00a0mm", reports::significant(reports::kMmPerM * off, 2)),
+           "largest difference of a distance between axes from the nominal one"},
+          {fmt::format("{}\u00a0µm", reports::significant(1e6 * rms, 2)),
+           "rms by which readings leave their circles, of the worst axis"}};
+}
+
+/// What a day without a load gives: position errors by model.
+std::vector<KeyNumber> accuracyNumbers(const reports::ReportCampaign& one) {
+  using calibration::CalibratedModel;
+  std::vector<KeyNumber> numbers;
+  for (const calibration::ModelResult& model : one.accuracy->calibration.models) {
+    if (model.model == CalibratedModel::gravity) continue;
+    if (model.model == CalibratedModel::effects && model.fit.parts.empty()) continue;
+    const bool held_out = model.held_out.readings > 0;
+    const calibration::PositionErrors& errors = held_out ? model.held_out : model.fitted;
+    numbers.push_back({reports::millimetres(errors.rms),
+                       fmt::format("rms position error, {}, {}; largest {}", reports::modelWords(model.model),
+                                   held_out ? "held out" : "fitted", reports::millimetres(errors.largest))});
+  }
+  return numbers;
+}
+
+std::vector<KeyNumber> keyNumbers(const reports::ReportContent& content) {
+  const reports::ReportCampaign& one = leading(content);
+  if (one.accuracy != nullptr) return accuracyNumbers(one);
+  const reports::JudgedPoint point = reports::judgedPoint(one);
+  const bool sweeps_alone = one.identification.cases.empty() && one.identification.frames.axes.front().measured;
+  if (sweeps_alone) return sweepNumbers(one.identification.frames);
+  return {deflection(one, point), compensated(one, content.compare_with_paper), third(content, one)};
+}
+
+/// The checks of the audit that found something, by name; the audit's own section explains them.
+void addAuditWarnings(const audit::AuditReport& audit, std::vector<std::string>& items) {
+  for (const preparation::AuditVerdict verdict : {preparation::AuditVerdict::fail, preparation::AuditVerdict::warn}) {
+    std::vector<std::string> names;
+    for (const preparation::AuditCheck& check : audit.checks) {
+      if (check.verdict != verdict) continue;
+      names.push_back(reports::auditName(check.id));
+      if (!check.where.empty() && check.id == "circle_arc") names.back() += " of " + reports::words(check.where);
+    }
+    if (!names.empty()) {
+      items.push_back(
+          fmt::format("The audit of the readings {} on: {}.", reports::auditWord(verdict), fmt::join(names, ", ")));
+    }
+  }
+}
+
+/// What a reader must know before believing the numbers of a campaign.
+std::vector<std::string> warningsOf(const reports::ReportCampaign& one) {
+  std::vector<std::string> items;
+  if (one.audit != nullptr) {
+    const std::string untested = reports::untestedWords(*one.audit, kindOf(one));
+    if (!untested.empty()) items.push_back(untested);
+    for (std::string& mistake : suspectedWords(*one.audit)) items.push_back(std::move(mistake));
+    addAuditWarnings(*one.audit, items);
+  }
+  if (one.preparation != nullptr && (one.preparation->drift.taken_off || !one.preparation->rejected.empty())) {
+    items.push_back(fmt::format("Readings: {}.", reports::withMicro(reports::preparationWords(*one.preparation))));
+  }
+  for (const Remark& caution : one.identification.cautions)
+    items.push_back(reports::capitalised(reports::withMicro(reports::words(caution))) + ".");
+  return items;
+}
+
+void writeWarnings(Html& html, const reports::ReportContent& content) {
+  const auto& campaigns = content.campaigns;
+  std::vector<std::string> of_all;
+  for (const std::string& doubt : reports::doubtsOfTheMachine(campaigns)) of_all.push_back(reports::asIs(doubt) + ".");
+  const bool any = std::any_of(campaigns.begin(), campaigns.end(),
+                               [](const reports::ReportCampaign& one) { return !warningsOf(one).empty(); });
+  if (!any && of_all.empty()) return;
+  html.paragraph("Before you believe these numbers:");
+  html.list(of_all);
+  const auto cautions = html.element("div", {{"class", campaigns.size() > 1 ? "several" : "cautions"}});
+  for (const reports::ReportCampaign& one : campaigns) {
+    const auto column = html.element("div");
+    if (campaigns.size() > 1) html.paragraph(reports::asIs(one.campaign.name), "name");
+    html.list(warningsOf(one));
+  }
+}
+
+/// Column heads for campaigns of a kind: their names, or `alone` where there is one.
+std::vector<std::string> headsOf(const reports::ReportContent& content, const About& about, const std::string& alone) {
+  if (content.campaigns.size() == 1) return {alone};
+  const std::vector<std::string> names = columnNames(content);
+  std::vector<std::string> heads;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (about(content.campaigns[i])) heads.push_back(names[i]);
+  }
+  return heads;
+}
+
+std::string stiffnessWords(const reports::ReportCampaign& one, int joint) {
+  const auto shown = reports::shownMethod(one.identification);
+  if (!shown) return "–";
+  const identification::StiffnessEstimate& estimate = one.identification.of(*shown).estimate;
+  if (!estimate.identifiable[static_cast<std::size_t>(joint)]) return "not seen";
+  const double u = identification::expandedUncertainty(estimate, joint);
+  const double k = estimate.stiffness(joint) / reports::kMega;
+  const std::string mark = reports::words(estimate.mark(joint));
+  const std::string words = std::isfinite(u) ? reports::withUncertainty(k, u / reports::kMega)
+                                             : fmt::format("{} (U open)", reports::significant(k, 3));
+  return mark.empty() ? words : fmt::format("{} ({})", words, mark);
+}
+
+void addStiffnesses(const reports::ReportContent& content, reports::Table& table) {
+  std::vector<std::string> methods;
+  for (const reports::ReportCampaign& one : content.campaigns) {
+    const auto shown = reports::shownMethod(one.identification);
+    if (!isLoaded(one) || !shown) continue;
+    if (const std::string name = reports::shortName(*shown);
+        std::find(methods.begin(), methods.end(), name) == methods.end())
+      methods.push_back(name);
+  }
+  const bool one_method = methods.size() == 1;
+  table.caption = fmt::format("Joint stiffness k ± U, 10⁶\u00a0Nm/rad{}", one_method ? ", by " + methods.front() : "");
+  table.columns = {"Joint"};
+  for (const std::string& head : headsOf(content, isLoaded, "k ± U")) table.columns.push_back(head);
+  if (methods.size() > 1) {
+    std::size_t column = 1;
+    for (const reports::ReportCampaign& one : content.campaigns) {
+      const auto shown = reports::shownMethod(one.identification);
+      if (isLoaded(one) && shown) table.columns[column] += " (" + reports::shortName(*shown) + ")";
+      if (isLoaded(one)) ++column;
+    }
+  }
+  for (int joint = 0; joint < 6; ++joint) {
+    reports::Row row{reports::jointName(joint)};
+    for (const reports::ReportCampaign& one : content.campaigns) {
+      if (isLoaded(one)) row.emplace_back(stiffnessWords(one, joint));
+    }
+    table.groups.front().rows.push_back(std::move(row));
+  }
+}
+
+bool isUnloaded(const reports::ReportCampaign& one) { return one.accuracy != nullptr; }
+
+void addErrors(const reports::ReportContent& content, reports::Table& table) {
+  table.caption = "Position error in postures that took no part, mm";
+  table.columns = {"Model"};
+  const bool several = content.campaigns.size() > 1;
+  for (const std::string& head : headsOf(content, isUnloaded, "")) {
+    table.columns.push_back(several ? head + ": rms" : "rms");
+    table.columns.push_back("largest");
+  }
+  using calibration::CalibratedModel;
+  for (const CalibratedModel model : {CalibratedModel::nominal, CalibratedModel::geometry, CalibratedModel::effects}) {
+    reports::Row row{reports::capitalised(reports::modelWords(model))};
+    bool any = false;
+    for (const reports::ReportCampaign& one : content.campaigns) {
+      if (!isUnloaded(one)) continue;
+      const auto& models = one.accuracy->calibration.models;
+      const auto found =
+          std::find_if(models.begin(), models.end(), [model](const auto& m) { return m.model == model; });
+      any = any || found != models.end();
+      const bool there = found != models.end();
+      const calibration::PositionErrors errors =
+          there ? (found->held_out.readings > 0 ? found->held_out : found->fitted) : calibration::PositionErrors{};
+      row.emplace_back(there ? reports::significant(errors.rms / io::kMillimetre, 3) : "–");
+      row.emplace_back(there ? reports::significant(errors.largest / io::kMillimetre, 3) : "–");
+    }
+    if (any) table.groups.front().rows.push_back(std::move(row));
+  }
+}
+
+void addDistances(const reports::ReportContent& content, reports::Table& table) {
+  table.caption = "Distance of axes from the URDF's ± U, mm";
+  table.columns = {"Axes"};
+  for (const std::string& head : headsOf(content, isAny, "Difference")) table.columns.push_back(head);
+  for (std::size_t i = 0; i < 5; ++i) {
+    reports::Row row{fmt::format("{} and {}", i + 1, i + 2)};
+    bool any = false;
+    for (const reports::ReportCampaign& one : content.campaigns) {
+      const frames::LinkGeometry& link = one.identification.frames.links[i];
+      any = any || link.distance_sd.has_value();
+      row.emplace_back(link.distance_sd
+                           ? reports::withUncertainty((link.distance - link.nominal_distance) / io::kMillimetre,
+                                                      reports::expanded(*link.distance_sd) / io::kMillimetre)
+                           : "–");
+    }
+    if (any) table.groups.front().rows.push_back(std::move(row));
+  }
+}
+
+/// The result in a small table: of loads the stiffnesses by the method shown first, of an unloaded day its errors, of
+/// sweeps the distances between axes.
+reports::Table resultTable(const reports::ReportContent& content) {
+  reports::Table table;
+  table.on_page_alone = true;
+  table.groups.emplace_back();
+  const bool loaded = reports::anyOfKind(content.campaigns, reports::DayKind::loaded);
+  const bool unloaded = reports::anyOfKind(content.campaigns, reports::DayKind::unloaded);
+  if (loaded)
+    addStiffnesses(content, table);
+  else if (unloaded)
+    addErrors(content, table);
+  else
+    addDistances(content, table);
+  return table;
+}
+
+/// The limits with what came of them, of one campaign.
+void writeLimits(Html& html, const reports::ReportCampaign& one) {
+  reports::Table table{
+      "Acceptance limits", {"Limit on", "Asked for", "Found (95\u00a0%)", "Verdict", "Reason"}, {{}}, true, "limits"};
+  reports::DataTable& data = table.data.emplace();
+  data.columns = {"name", "least", "most", "value", "low", "high", "verdict", "in_guard_band", "missing", "reason"};
+  for (const conformity::Decision& decision : *one.decisions) {
+    const conformity::Limit& limit = decision.limit;
+    table.groups.front().rows.push_back({reports::limitName(limit.quantity), reports::limitAsked(limit),
+                                         reports::foundWords(decision), reports::verdictWords(decision),
+                                         reports::asIs(limit.reason)});
+    const double unit = conformity::nameOf(limit.quantity).unit;
+    const auto number = [unit](const std::optional<double>& value) {
+      return value ? reports::DataCell(*value / unit) : reports::DataCell();
+    };
+    const auto& found = decision.measured;
+    data.rows.push_back(
+        {std::string(conformity::nameOf(limit.quantity).name), number(limit.least), number(limit.most),
+         found ? number(found->value) : reports::DataCell(), found ? number(found->interval.low) : reports::DataCell(),
+         found ? number(found->interval.high) : reports::DataCell(), std::string(reports::nameOf(decision.verdict)),
+         decision.in_guard_band ? 1.0 : 0.0, std::string(reports::nameOf(decision.missing)), limit.reason});
+  }
+  writeTable(html, table);
+}
+
+bool hasDecisions(const reports::ReportCampaign& one) { return one.decisions != nullptr && !one.decisions->empty(); }
+
+void writeAcceptance(Html& html, const reports::ReportContent& content) {
+  if (content.limits_file.empty()) return;
+  std::vector<std::vector<conformity::Decision>> by_day;
+  for (const reports::ReportCampaign& one : content.campaigns) {
+    if (hasDecisions(one)) by_day.push_back(*one.decisions);
+  }
+  if (by_day.empty()) return;
+  const auto part = html.element("div", {{"id", "limits"}});
+  html.paragraph(reports::acceptanceSentence(by_day), "finding");
+  writeEach(html, content, "limits", hasDecisions, [&](const reports::ReportCampaign& one) { writeLimits(html, one); });
+  html.paragraph(reports::decisionRuleWords(), "faint");
+}
+
+/// What the audit says of the readings, once where it says the same of all; an unloaded day's verdict has it already.
+void writeJudgements(Html& html, const reports::ReportContent& content) {
+  std::vector<std::string> sentences;
+  for (const reports::ReportCampaign& one : content.campaigns) {
+    if (one.audit == nullptr || !isLoaded(one)) continue;
+    sentences.push_back(reports::auditMeaning(*one.audit, kindOf(one)));
+  }
+  if (sentences.empty()) return;
+  const bool same =
+      std::all_of(sentences.begin(), sentences.end(), [&](const auto& one) { return one == sentences.front(); });
+  const bool fails = std::any_of(content.campaigns.begin(), content.campaigns.end(), [](const auto& one) {
+    return one.audit != nullptr && one.audit->verdict == preparation::AuditVerdict::fail;
+  });
+  const char* css_class = fails ? "judgement bad" : "judgement";
+  if (same) {
+    html.paragraph(sentences.size() > 1 ? "Of all days: " + sentences.front() : sentences.front(), css_class);
+    return;
+  }
+  const std::vector<std::string> names = columnNames(content);
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < content.campaigns.size(); ++i) {
+    if (content.campaigns[i].audit == nullptr || !isLoaded(content.campaigns[i])) continue;
+    html.paragraph(fmt::format("{}: {}", names[i], sentences[next++]), css_class);
+  }
+}
+
+}  // namespace
+
+void writeOpening(Html& html, const reports::ReportContent& content) {
+  const auto header = html.element("header");
+  html.leaf("h1", content.title);
+  html.paragraph(fmt::format("Report {}", reports::reportId(content)), "faint");
+  const bool loaded = reports::anyOfKind(content.campaigns, reports::DayKind::loaded);
+  // Of loads two sentences: what the audit says, what the diagnosis finds; the numbers are in the table below.
+  writeJudgements(html, content);
+  if (const std::string diagnosis = reports::diagnosisVerdict(content.campaigns); !diagnosis.empty())
+    html.paragraph(diagnosis, "verdict");
+  if (!loaded) html.paragraph(content.verdict, "verdict");
+  if (content.campaigns.empty()) return;
+  if (const std::vector<KeyNumber> numbers = keyNumbers(content); !numbers.empty()) {
+    const auto list = html.element("ul", {{"class", "numbers"}});
+    for (const KeyNumber& number : numbers) {
+      const auto item = html.element("li");
+      html.leaf("b", number.value);
+      html.leaf("span", number.words);
+    }
+  }
+  {
+    const auto first = html.element("div", {{"class", "first"}});
+    {
+      const auto result = html.element("div", {{"class", "result"}});
+      writeTable(html, resultTable(content));
+      std::vector<Facts> facts;
+      for (const reports::ReportCampaign& one : content.campaigns) facts.push_back(whoAndWhat(one));
+      writeFacts(html, "What was measured, by whom and with what", columnNames(content), sideBySide(facts));
+    }
+    writeFiguresOf(html, content, "opening");
+  }
+  writeAcceptance(html, content);
+  if (loaded) html.paragraph(content.verdict);
+  writeWarnings(html, content);
+}
+
+}  // namespace stiffscope::page

@@ -1,0 +1,218 @@
+// The scene and the charts of the report's page: their data against the results, and, where chromium is installed, what
+// it draws against the offscreen picture.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <sstream>
+
+#include "app/figures/arm_scenes.h"
+#include "core/campaign/read_campaign.h"
+#include "core/identification/identify.h"
+#include "reports/words/names.h"
+#include "tests/app/browser.h"
+
+namespace stiffscope {
+namespace page_scene_test {
+
+/// A report of the sample with joint springs alone, so that what is drawn is what identify computes.
+class PageScene : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    scratch_ = new ScratchFolder;
+    const std::string sample = STIFFSCOPE_SOURCE_DIR "/samples/active";
+    status_ =
+        runProgram("report '" + sample + "' --springs-only --raw --out '" + out().string() + "'", scratch_->path())
+            .status;
+  }
+  static void TearDownTestSuite() { delete scratch_; }
+  void SetUp() override {
+    ASSERT_EQ(status_, 0);
+    page_ = contentsOf(out() / "report.html");
+  }
+
+  static std::filesystem::path out() { return scratch_->path() / "out"; }
+
+  /// The text of the script of this class for this figure.
+  nlohmann::json dataOf(const std::string& css_class, const std::string& figure) const {
+    const std::string head = "class=\"" + css_class + "\" data-figure=\"" + figure + "\">";
+    const std::size_t begin = page_.find(head);
+    if (begin == std::string::npos) return {};
+    const std::size_t end = page_.find("</script>", begin);
+    return nlohmann::json::parse(page_.substr(begin + head.size(), end - begin - head.size()));
+  }
+
+  static inline ScratchFolder* scratch_ = nullptr;
+  static inline int status_ = -1;
+  std::string page_;
+};
+
+/// Cells of a CSV file without quotes that hold commas, a row each.
+std::vector<std::map<std::string, std::string>> rowsOf(const std::filesystem::path& file) {
+  std::istringstream lines(contentsOf(file));
+  const auto cells = [](std::string line) {
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    std::vector<std::string> all;
+    std::istringstream parts(line);
+    for (std::string cell; std::getline(parts, cell, ',');) all.push_back(cell);
+    return all;
+  };
+  std::string line;
+  std::getline(lines, line);
+  const std::vector<std::string> head = cells(line);
+  std::vector<std::map<std::string, std::string>> rows;
+  while (std::getline(lines, line)) {
+    const std::vector<std::string> row = cells(line);
+    for (std::size_t i = 0; i < std::min(head.size(), row.size()); ++i) {
+      if (i == 0) rows.emplace_back();
+      rows.back()[head[i]] = row[i];
+    }
+  }
+  return rows;
+}
+
+TEST_F(PageScene, VectorsAreThoseOfTheResults) {
+  const nlohmann::json scene = dataOf("scene", "deflection");
+  if (scene.is_null()) GTEST_SKIP() << "built without libjs-three";
+  int compared = 0;
+  for (const auto& row : rowsOf(out() / "postures.csv")) {
+    for (const nlohmann::json& frame : scene["frames"]) {
+      if (frame["id"] != row.at("pose") || std::to_string(frame["step"].get<int>()) != row.at("step")) continue;
+      for (const nlohmann::json& point : frame["points"]) {
+        const bool wrist = point.value("wrist", false);
+        if (wrist ? row.at("point") != "P_wrist" : point["label"] != reports::pointName(row.at("point"))) continue;
+        for (int i = 0; i < 3; ++i) {
+          // The scene has a hundredth of a micrometre. What is measured is in the swept frames, as the picture has it;
+          // Partial Pose's rows are in its calibrated ones.
+          if (row.at("method") != "pp")
+            EXPECT_NEAR(point["m"][static_cast<std::size_t>(i)].get<double>(),
+                        1e3 * std::stod(row.at(std::string("measured_") + "xyz"[i] + "_mm")), 0.0051);
+          EXPECT_NEAR(point["p"][row.at("method")][static_cast<std::size_t>(i)].get<double>(),
+                      1e3 * std::stod(row.at(std::string("predicted_") + "xyz"[i] + "_mm")), 0.0051);
+          ++compared;
+        }
+      }
+    }
+  }
+  EXPECT_GE(compared, 3 * 19 * 4 * 2);  // coordinates, postures, points, two methods at least
+}
+
+TEST_F(PageScene, MarksOfAChartAreItsValuesAtTheirPlaces) {
+  const nlohmann::json chart = dataOf("marks", "compensation");
+  ASSERT_FALSE(chart.is_null());
+  EXPECT_EQ(chart["categories"].size(), 19u);
+  EXPECT_EQ(chart["marks"].size(), 19u * 4u);
+  const auto rows = rowsOf(out() / "figure-compensation.csv");
+  ASSERT_EQ(rows.size(), chart["marks"].size());
+  const cv::Mat picture = cv::imread((out() / "compensation.png").string());
+  ASSERT_EQ(picture.cols, 2400);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const nlohmann::json& mark = chart["marks"][i];
+    EXPECT_NEAR(mark[4].get<double>(), std::stod(rows[i].at("value")), 1e-4 * std::abs(std::stod(rows[i].at("value"))));
+    // A bar ends there: above its end is paper, a grid line or a whisker, below it its colour, which is none of them.
+    const int x = static_cast<int>(mark[0].get<double>() * picture.cols),
+              y = static_cast<int>(mark[1].get<double>() * picture.rows);
+    const cv::Vec3b below = picture.at<cv::Vec3b>(std::min(y + 5, picture.rows - 1), x - 4);
+    const cv::Vec3b above = picture.at<cv::Vec3b>(y - 5, x - 4);
+    EXPECT_GT(cv::norm(below, above), 20.0) << "mark " << i << " at " << x << ", " << y;
+  }
+}
+
+/// What the browser says of the scene, and its picture.
+constexpr const char* kLook = R"js(<script>
+addEventListener('load', async function () {
+  const wait = (ms) => new Promise((done) => setTimeout(done, ms));
+  for (let i = 0; i < 400 && !(window.stiffscopeScenes || []).length; ++i) await wait(25);
+  const say = (text) => { const pre = document.createElement('pre'); pre.textContent = '@@' + text + '@@'; document.body.appendChild(pre); };
+  const scene = window.stiffscopeScenes[0];
+  if (!scene) return say(JSON.stringify({ none: document.getElementById('deflection').dataset.scene || 'no scene' }));
+  scene.fixedWidth = 900; scene.fixedHeight = 600; scene.dark = false;
+  scene.held = { centre: [1000, 0, 1200], high_mm: 3600 };
+  scene.shown = { m: true, p: false, r: false, e: false };
+  scene.draw();
+  const spots = scene.frame.points.map((point) => [point.label, ...scene.spotOf(point.at)]);
+  scene.direction = [-0.5, 0.85, -0.42].map((x) => x / Math.hypot(0.5, 0.85, 0.42));
+  scene.draw();
+  say(JSON.stringify({ magnification: scene.magnification, spots, picture: scene.canvas.toDataURL('image/png') }));
+});
+</script></body>)js";
+
+TEST_F(PageScene, IsDrawnAsTheOffscreenPictureIs) {
+  if (!installed("chromium")) GTEST_SKIP() << "chromium is not installed";
+  std::string page = page_;
+  page.replace(page.rfind("</body>"), 7, kLook);
+  const auto copy = scratch_->path() / "look.html";
+  std::ofstream(copy, std::ios::binary) << page;
+  const Ran ran = runShell(
+      "timeout 100 chromium --headless --no-sandbox --no-first-run --use-gl=angle --use-angle=swiftshader "
+      "--enable-unsafe-swiftshader --ignore-gpu-blocklist --window-size=1400,1000 --virtual-time-budget=10000 "
+      "--user-data-dir='" +
+          (scratch_->path() / "profile").string() + "' --dump-dom 'file://" + copy.string() + "'",
+      scratch_->path());
+  const std::size_t close = ran.out.rfind("@@"), open = ran.out.rfind("@@{", close);
+  if (open == std::string::npos) GTEST_SKIP() << "the browser did not run the page";
+  const nlohmann::json seen = nlohmann::json::parse(ran.out.substr(open + 2, close - open - 2));
+  if (seen.contains("none")) GTEST_SKIP() << seen["none"];
+  const auto campaign = campaign::readCampaign(STIFFSCOPE_SOURCE_DIR "/samples/active").campaign;
+  const auto identified = identification::identify(campaign);
+  render::ArmScene scene = app::deflectionScene({campaign, identified});
+  scene.magnification = seen["magnification"].get<double>();
+  scene.framing = render::SceneFraming{{1.0, 0.0, 1.2}, 3.6};
+  for (render::ScenePoint& target : scene.poses.front().targets) target.predicted.reset(), target.residual.reset();
+  if (scene.poses.front().wrist)
+    scene.poses.front().wrist->predicted.reset(), scene.poses.front().wrist->residual.reset();
+  const render::Image image = render::render(scene, {1200, 800});
+
+  // Where the points stand in both gives scale and shift between the two; all points must agree.
+  ASSERT_EQ(image.marks.size(), seen["spots"].size());
+  const auto there = [&](std::size_t i) {
+    return cv::Point2d(image.marks[i].x * image.width, image.marks[i].y * image.height);
+  };
+  const auto here = [&](std::size_t i) { return cv::Point2d(seen["spots"][i][1], seen["spots"][i][2]); };
+  const std::size_t last = image.marks.size() - 1;
+  const double scale = cv::norm(there(last) - there(0)) / cv::norm(here(last) - here(0));
+  const cv::Point2d shift = there(0) - scale * here(0);
+  for (std::size_t i = 0; i <= last; ++i)
+    EXPECT_LT(cv::norm(there(i) - scale * here(i) - shift), 0.5) << seen["spots"][i][0];  // half a pixel
+
+  const std::string url = seen["picture"];
+  std::vector<std::uint8_t> png;
+  unsigned bits = 0, count = 0;
+  for (const char c : url.substr(url.find(',') + 1)) {
+    const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    const std::size_t value = digits.find(c);
+    if (value == std::string::npos) break;
+    bits = bits << 6 | static_cast<unsigned>(value);
+    if ((count += 6) >= 8) png.push_back(static_cast<std::uint8_t>(bits >> (count -= 8)));
+  }
+  cv::Mat drawn = cv::imdecode(png, cv::IMREAD_COLOR), moved;
+  ASSERT_FALSE(drawn.empty());
+  const cv::Mat map = (cv::Mat_<double>(2, 3) << scale, 0, shift.x, 0, scale, shift.y);
+  cv::warpAffine(drawn, moved, map, {image.width, image.height}, cv::INTER_AREA, cv::BORDER_CONSTANT, {255, 255, 255});
+  cv::Mat offscreen;
+  cv::cvtColor(cv::Mat(image.height, image.width, CV_8UC3, const_cast<std::uint8_t*>(image.rgb.data())), offscreen,
+               cv::COLOR_RGB2BGR);
+  // The arm itself: the parts of both that are darker than floor and paper, without words, which the page writes
+  // elsewhere.
+  const auto solid = [](const cv::Mat& picture) {
+    cv::Mat grey, mask;
+    cv::cvtColor(picture, grey, cv::COLOR_BGR2GRAY);
+    mask = grey < 222;
+    cv::morphologyEx(mask, mask, cv::MORPH_OPEN, cv::Mat::ones(7, 7, CV_8U));  // letters and lines are thinner
+    return mask;
+  };
+  const cv::Mat a = solid(moved), b = solid(offscreen);
+  const double both = cv::countNonZero(a & b), either = cv::countNonZero(a | b);
+  EXPECT_GT(either, 20000.0);      // it looked at an arm
+  EXPECT_GT(both / either, 0.93);  // edges of 900 against 1200 pixels, labels' rims and the axes' arrows on the arm
+  // And in the same colours where both have it, to the rounding of light at corners.
+  cv::Mat difference;
+  cv::absdiff(moved, offscreen, difference);
+  const cv::Scalar mean = cv::mean(difference, a & b);
+  EXPECT_LT((mean[0] + mean[1] + mean[2]) / 3.0, 8.0);
+}
+
+}  // namespace page_scene_test
+}  // namespace stiffscope

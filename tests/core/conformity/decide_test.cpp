@@ -1,0 +1,128 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "core/conformity/decide.h"
+
+namespace stiffscope {
+namespace decide_test {
+
+using conformity::Decision;
+using conformity::Limit;
+using conformity::Measured;
+using conformity::Missing;
+using conformity::Quantity;
+using conformity::Verdict;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+Limit atLeast(double least) { return {Quantity::k2, least, std::nullopt, "a reason", 2}; }
+Limit atMost(double most) { return {Quantity::k2, std::nullopt, most, "a reason", 2}; }
+
+TEST(Decide, TheWholeIntervalMustKeepTheLimit) {
+  const Measured measured{5.0, {4.0, 6.0}};
+  EXPECT_EQ(conformity::decide(atLeast(4.0), measured).verdict, Verdict::pass);  // its end may lie on the limit
+  EXPECT_EQ(conformity::decide(atMost(6.0), measured).verdict, Verdict::pass);
+  EXPECT_EQ(conformity::decide(atLeast(4.5), measured).verdict, Verdict::fail);
+  EXPECT_TRUE(conformity::decide(atLeast(4.5), measured).in_guard_band);
+  EXPECT_EQ(conformity::decide(atLeast(5.5), measured).verdict, Verdict::fail);
+  EXPECT_FALSE(conformity::decide(atLeast(5.5), measured).in_guard_band);
+  EXPECT_TRUE(conformity::decide(atMost(5.5), measured).in_guard_band);
+  EXPECT_EQ(conformity::decide({Quantity::k2, 3.0, 7.0, "", 2}, measured).verdict, Verdict::pass);
+  EXPECT_EQ(conformity::decide({Quantity::k2, 3.0, 5.5, "", 2}, measured).verdict, Verdict::fail);
+}
+
+TEST(Decide, AnIntervalThatIsOpenAboveKeepsALowerLimitAlone) {
+  const Measured open{5.0, {4.0, kInfinity}};
+  EXPECT_EQ(conformity::decide(atLeast(3.9), open).verdict, Verdict::pass);
+  EXPECT_EQ(conformity::decide(atMost(1e9), open).verdict, Verdict::fail);
+}
+
+TEST(Decide, AMachineAtItsLimitIsSeldomAccepted) {
+  // The reason for the guard band: by JCGM 106 at most 2.5 % where the true value is at the limit. 20000 draws have a
+  // standard deviation of 0.11 %; four of them.
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> noise(10.0, 0.5);
+  int accepted = 0;
+  constexpr int kDraws = 20000;
+  for (int i = 0; i < kDraws; ++i) {
+    const double value = noise(random), expanded = 0.5 * identification::kNormalFactor;
+    accepted +=
+        conformity::decide(atLeast(10.0), {value, {value - expanded, value + expanded}}).verdict == Verdict::pass;
+  }
+  EXPECT_NEAR(static_cast<double>(accepted) / kDraws, 0.025, 0.0045);
+}
+
+/// A loaded day with k2 = 5e6, u(c) = 1 % at many degrees of freedom; k1 not identified.
+identification::Identification loadedDay() {
+  identification::Identification day;
+  identification::MethodResult& method = day.methods[static_cast<std::size_t>(identification::Method::complete_pose)];
+  method.available = true;
+  method.estimate.compliance[1] = 0.2e-6;
+  method.estimate.identifiable[1] = true;
+  method.estimate.stated.resize(6);
+  method.estimate.stated[1] = {0.19e-6, 0.21e-6};
+  return day;
+}
+
+conformity::Limits limitsOn(const std::vector<Quantity>& quantities) {
+  conformity::Limits limits;
+  for (const Quantity quantity : quantities) limits.limits.push_back({quantity, 1.0, std::nullopt, "", 2});
+  return limits;
+}
+
+TEST(Decide, StiffnessesAreThoseOfTheMethodShownFirst) {
+  const identification::Identification day = loadedDay();
+  conformity::DayResult result;
+  result.identification = &day;
+  const auto decisions = conformity::decide(
+      limitsOn({Quantity::k2, Quantity::k1, Quantity::calibrated_rms, Quantity::compensated_at_reflectors}), result);
+  ASSERT_EQ(decisions.size(), 4u);
+  ASSERT_TRUE(decisions[0].measured);
+  EXPECT_DOUBLE_EQ(decisions[0].measured->value, 5e6);
+  // U is the distance of the interval's farther end.
+  EXPECT_DOUBLE_EQ(decisions[0].measured->interval.high, 1 / 0.19e-6);
+  EXPECT_DOUBLE_EQ(decisions[0].measured->interval.low, 5e6 - (1 / 0.19e-6 - 5e6));
+  EXPECT_EQ(decisions[1].missing, Missing::not_identified);
+  EXPECT_EQ(decisions[2].missing, Missing::not_of_such_a_day);
+  EXPECT_EQ(decisions[3].missing, Missing::not_identified);
+}
+
+TEST(Decide, ErrorsOfPositionByTheTrackersNoise) {
+  calibration::Calibration calibration;
+  calibration.models.resize(2);
+  calibration.models[0].model = calibration::CalibratedModel::nominal;
+  calibration.models[0].held_out = {1e-3, 3e-3, 100};
+  calibration.models[1].model = calibration::CalibratedModel::geometry;
+  calibration.models[1].held_out = {0.1e-3, 0.3e-3, 100};
+  calibration.noise = 0.01e-3;
+  conformity::DayResult day;
+  day.calibration = &calibration;
+  const auto decisions = conformity::decide(limitsOn({Quantity::nominal_largest, Quantity::calibrated_rms}), day);
+  EXPECT_NEAR(decisions[0].measured->interval.high, 3e-3 + 1.96 * 0.01e-3, 1e-9);
+  EXPECT_NEAR(decisions[1].measured->interval.high, 0.1e-3 + 1.96 * 0.01e-3 / 10, 1e-9);
+  calibration.noise = 0.0;
+  EXPECT_EQ(conformity::decide(limitsOn({Quantity::calibrated_rms}), day)[0].missing, Missing::no_uncertainty);
+}
+
+TEST(Overall, EveryLimitHasToPassSomewhereAndFailNowhere) {
+  const auto one = [](Verdict verdict, Missing missing = Missing::nothing) {
+    return Decision{{}, std::nullopt, verdict, false, missing};
+  };
+  const Decision pass = one(Verdict::pass), fail = one(Verdict::fail);
+  const Decision other_day = one(Verdict::not_evaluated, Missing::not_of_such_a_day);
+  const Decision unknown = one(Verdict::not_evaluated, Missing::not_identified);
+  EXPECT_EQ(conformity::overall({{pass, pass}}), Verdict::pass);
+  EXPECT_EQ(conformity::overall({{pass, fail}}), Verdict::fail);
+  EXPECT_EQ(conformity::overall({{pass, unknown}}), Verdict::not_evaluated);
+  EXPECT_EQ(conformity::overall({{pass, other_day}, {other_day, pass}}), Verdict::pass);
+  EXPECT_EQ(conformity::overall({{pass}, {unknown}}), Verdict::not_evaluated);
+  EXPECT_EQ(conformity::overall({{other_day}}), Verdict::not_evaluated);
+  EXPECT_EQ(conformity::overall({{unknown, fail}}), Verdict::fail);
+  EXPECT_EQ(conformity::overall({}), Verdict::not_evaluated);
+}
+
+}  // namespace decide_test
+}  // namespace stiffscope
