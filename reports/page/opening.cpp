@@ -369,7 +369,7 @@ void writeJudgements(Html& html, const reports::ReportContent& content) {
   });
   const char* css_class = fails ? "judgement bad" : "judgement";
   if (same) {
-    html.paragraph(sentences.size() > 1 ? "Of all days: " + sentences.front() : sentences.front(), css_class);
+    html.paragraph(sentences.size() > 1 ? "Both days: " + sentences.front() : sentences.front(), css_class);
     return;
   }
   const std::vector<std::string> names = columnNames(content);
