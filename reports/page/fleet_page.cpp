@@ -64,7 +64,7 @@ void writeNeeds(Html& html, const Fleet& fleet) {
   {
     const auto head = html.element("thead");
     const auto row = html.element("tr");
-    for (const char* column : {"machine", "need", "reason", "next step", "report"})
+    for (const char* column : {"machine", "need", "day", "next step", "reason"})
       html.leaf("th", column, {{"scope", "col"}});
   }
   std::size_t shown = 0;
@@ -77,11 +77,17 @@ void writeNeeds(Html& html, const Fleet& fleet) {
       html.leaf("th", first ? asIs(machine.name) : "", {{"scope", "row"}});
       first = false;
       html.leaf("td", reports::needName(need.id));
-      html.leaf("td", reports::words(need.reason));
+      {
+        const auto cell = html.element("td");
+        const fleet::FleetCampaign& campaign = fleet.campaigns[need.campaign];
+        if (campaign.report.empty()) {
+          html.leaf("span", asIs(campaign.date));
+        } else {
+          html.leaf("a", asIs(campaign.date), {{"href", campaign.report}});
+        }
+      }
       html.leaf("td", reports::words(need.next));
-      const auto cell = html.element("td");
-      const fleet::FleetCampaign& campaign = fleet.campaigns[need.campaign];
-      if (!campaign.report.empty()) html.leaf("a", asIs(campaign.date), {{"href", campaign.report}});
+      html.leaf("td", reports::words(need.reason));
     }
   }
   if (fleet.machines.size() > kMostMachinesShown)
