@@ -122,7 +122,7 @@ TEST(Png, IsSmallAndTrue) {
 }
 
 TEST(Png, RefusesBytesThatDoNotFit) {
-  EXPECT_THROW(render::encodePng({2, 2, std::vector<std::uint8_t>(11)}), std::invalid_argument);
+  EXPECT_THROW(render::encodePng({2, 2, std::vector<std::uint8_t>(11), {}}), std::invalid_argument);
   EXPECT_THROW(render::encodePng({}), std::invalid_argument);
 }
 
