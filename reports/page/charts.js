@@ -103,9 +103,9 @@
 
     save() {
       const field = (text) => (/[",\n]/.test(text) ? '"' + text.replace(/"/g, '""') + '"' : text);
-      const lines = ['series,category,at,value'];
+      const lines = ['series,category,at,value,quantity'];
       for (const mark of this.data.marks)
-        lines.push([field(this.series[mark[2]] || ''), field(mark[3] >= 0 ? this.categories[mark[3]] : ''), mark[3] >= 0 ? '' : mark[5], mark[4]].join(','));
+        lines.push([field(this.series[mark[2]] || ''), field(mark[3] >= 0 ? this.categories[mark[3]] : ''), mark[3] >= 0 ? '' : mark[5], mark[4], field(this.data.value || '')].join(','));
       const link = element('a', { download: 'figure-' + this.figure.id + '.csv',
         href: URL.createObjectURL(new Blob([lines.join('\r\n') + '\r\n'], { type: 'text/csv' })) });
       link.click();

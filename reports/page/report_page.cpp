@@ -116,13 +116,14 @@ std::string marksJson(const reports::Figure& figure) {
       .dump(-1, ' ', false, reports::Json::error_handler_t::replace);
 }
 
-/// The values of a figure as a file beside the page.
+/// The values of a figure as a file beside the page; `quantity` is the axis's title, which has the unit.
 void keepMarks(Html& html, const reports::Figure& figure) {
   if (figure.marks.empty()) return;
-  reports::DataTable data{{"series", "category", "at", "value"}, {}};
+  reports::DataTable data{{"series", "category", "at", "value", "quantity"}, {}};
   for (const reports::FigureMark& mark : figure.marks)
     data.rows.push_back({reports::plain(mark.series), reports::plain(mark.category),
-                         mark.category.empty() ? reports::DataCell(mark.at) : reports::DataCell(), mark.value});
+                         mark.category.empty() ? reports::DataCell(mark.at) : reports::DataCell(), mark.value,
+                         reports::plain(figure.value_name)});
   html.keepTable("figure-" + figure.id, reports::csvTable(data));
 }
 

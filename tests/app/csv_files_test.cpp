@@ -61,7 +61,8 @@ const std::set<std::string> kTexts{"method",    "mark",           "reason",
                                    "place",     "unknown_joints", "held_under_load",
                                    "agreement", "Effect",         "Method",
                                    "Reflector", "Point",          "Axes",
-                                   "Remark"};
+                                   "Remark",    "series",         "category",
+                                   "quantity"};
 
 /// Numbers without a unit: counts, indices, ratios and components of unit vectors.
 const std::set<std::string> kPure{"joint",

@@ -55,6 +55,40 @@ struct Bench {
   Eigen::Vector3d momentAt(const Eigen::Vector3d& x) const { return load.moment + (load.point - x).cross(load.force); }
 };
 
+/// The small form of a posture gives back every number that drives an effect.
+TEST(CompactPosture, GivesItsStatesBack) {
+  const Bench bench;
+  effects::PostureStates states = bench.outAndBack();
+  for (std::size_t s = 0; s < states.size(); ++s) {
+    states[s].pose = 7, states[s].step = static_cast<int>(s), states[s].time_s = 10.0 * static_cast<double>(s);
+  }
+  const effects::CompactPosture compact(states);
+  EXPECT_EQ(compact.pose(), 7);
+  const effects::PostureStates back = compact.states(bench.geometry);
+  ASSERT_EQ(back.size(), states.size());
+  for (std::size_t s = 0; s < states.size(); ++s) {
+    const effects::ArmState &was = states[s], &is = back[s];
+    EXPECT_EQ(is.pose, was.pose);
+    EXPECT_EQ(is.step, was.step);
+    EXPECT_EQ(is.time_s, was.time_s);
+    EXPECT_EQ(is.loaded, was.loaded);
+    EXPECT_EQ(is.q, was.q);
+    EXPECT_EQ(is.turned, was.turned);
+    EXPECT_EQ(is.load.point, was.load.point);
+    EXPECT_EQ(is.load.force, was.load.force);
+    EXPECT_EQ(is.load.moment, was.load.moment);
+    EXPECT_EQ(is.load_torque, was.load_torque);
+    EXPECT_EQ(is.weight_torque, was.weight_torque);
+    EXPECT_EQ(is.targets, was.targets);
+    EXPECT_EQ(is.points, was.points);
+    EXPECT_EQ(is.flange.matrix(), was.flange.matrix());
+    for (std::size_t j = 0; j < 6; ++j) {
+      EXPECT_EQ(is.axes[j].point, was.axes[j].point);
+      EXPECT_EQ(is.axes[j].direction, was.axes[j].direction);
+    }
+  }
+}
+
 TEST(BearingTilt, TurnsAcrossTheAxisByTheMomentThere) {
   const Bench bench;
   const Eigen::MatrixXd field = modelOf(effects::bearingTilt()).columns(bench.at, bench.outAndBack(), 2);

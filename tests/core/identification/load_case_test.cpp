@@ -1,0 +1,60 @@
+#include "core/identification/load_case.h"
+
+#include <gtest/gtest.h>
+
+#include "core/campaign/read_campaign.h"
+#include "core/identification/identify.h"
+
+namespace stiffscope {
+namespace load_case_test {
+
+campaign::Campaign sample() {
+  return campaign::readCampaign(std::string(STIFFSCOPE_SOURCE_DIR) + "/samples/active").campaign;
+}
+
+/// A posture's cases, of which all steps share the unloaded arm, are those of the steps one by one.
+TEST(LoadCaseMaker, APosturesCasesAreThoseOfItsSteps) {
+  const campaign::Campaign day = sample();
+  const frames::LoadingGeometry geometry = identification::identify(day).geometry;
+  const std::vector<int> steps{1, 2, 3};
+  const identification::LoadReadings readings(day, steps);
+  const identification::LoadCaseMaker maker(day, readings, geometry);
+  ASSERT_TRUE(maker.any());
+  std::vector<identification::LoadCase> by_posture;
+  for (std::size_t pose = 0; pose < day.pose_ids.size(); ++pose) {
+    for (identification::LoadCase& one : maker.ofPose(pose)) by_posture.push_back(std::move(one));
+  }
+  std::size_t compared = 0;
+  for (const int step : steps) {
+    for (const identification::LoadCase& one : identification::loadCases(day, readings, geometry, step)) {
+      const auto same = std::find_if(by_posture.begin(), by_posture.end(), [&](const identification::LoadCase& other) {
+        return other.pose == one.pose && other.step == one.step;
+      });
+      ASSERT_NE(same, by_posture.end()) << one.pose << ", step " << one.step;
+      EXPECT_EQ(same->q_sagged, one.q_sagged);
+      EXPECT_EQ(same->wrench.force, one.wrench.force);
+      EXPECT_EQ(same->wrench.moment, one.wrench.moment);
+      ASSERT_EQ(same->targets.size(), one.targets.size());
+      ASSERT_EQ(same->flange_loaded.has_value(), one.flange_loaded.has_value());
+      if (one.flange_loaded) EXPECT_EQ(same->flange_loaded->matrix(), one.flange_loaded->matrix());
+      ++compared;
+    }
+  }
+  EXPECT_EQ(compared, by_posture.size());
+  EXPECT_EQ(compared, 57u);  // 19 postures, three steps
+}
+
+/// Leaving out what judges the estimates does not change them.
+TEST(EstimatesOnly, AreTheEstimates) {
+  const campaign::Campaign day = sample();
+  const identification::Identification all = identification::identify(day, identification::valuesOnly());
+  const identification::Identification quick = identification::identify(day, identification::estimatesOnly());
+  ASSERT_EQ(all.methods.size(), quick.methods.size());
+  for (std::size_t m = 0; m < all.methods.size(); ++m) {
+    ASSERT_TRUE(quick.methods[m].available);
+    EXPECT_EQ(all.methods[m].estimate.compliance, quick.methods[m].estimate.compliance);
+  }
+}
+
+}  // namespace load_case_test
+}  // namespace stiffscope
