@@ -26,7 +26,7 @@ constexpr const char* kScreen =
     "text-decoration:underline}"
     "main{counter-reset:section}section{scroll-margin-top:3rem}h2{counter-increment:section}"
     "h2::before{content:counter(section) '\\00a0\\00a0';color:var(--faint)}"
-    "@media screen and (min-width:75rem){body{display:grid;grid-template-columns:13.5rem "
+    "@media screen and (min-width:75rem){body:has(nav){display:grid;grid-template-columns:13.5rem "
     "minmax(0,1fr);max-width:118rem;"
     "margin:0 auto}header{grid-column:2;grid-row:1}main{grid-column:2;grid-row:2}"
     "nav{grid-column:1;grid-row:1 / span 2;align-self:start;height:100vh;overflow-y:auto;border-bottom:0;"
