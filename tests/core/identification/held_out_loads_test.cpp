@@ -102,7 +102,9 @@ TEST(HeldOutLoads, ALevelIsPredictedByTheStepsThatIdentify) {
   SimulatedLab soft = lab;
   soft.compliance *= 1.25;
   const auto pull = [](double force) {
-    return [force](int pose) { return force * Eigen::Vector3d(0.1 * (pose % 3), 0.2, -1.0).normalized(); };
+    return [force](int pose) -> Eigen::Vector3d {
+      return force * Eigen::Vector3d(0.1 * (pose % 3), 0.2, -1.0).normalized();
+    };
   };
   for (const SimulatedLab* light : {&lab, static_cast<const SimulatedLab*>(&soft)}) {
     campaign::Campaign campaign = fullDay(lab, pull(200.0), 12);
