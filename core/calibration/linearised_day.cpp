@@ -192,7 +192,8 @@ std::vector<Eigen::VectorXd> solvedByOthers(const std::vector<Normal>& folds, co
 Eigen::MatrixXd LinearisedDay::allColumns(const LinearModel& model, Eigen::Index from, Eigen::Index rows) const {
   Eigen::MatrixXd columns(rows, basis_.cols() + model.directions.cols());
   columns.leftCols(basis_.cols()) = basis_.middleRows(from, rows);
-  columns.rightCols(model.directions.cols()) = model.directions.middleRows(from, rows);
+  if (model.directions.cols() > 0)  // of a matrix without columns Eigen moves a null pointer
+    columns.rightCols(model.directions.cols()) = model.directions.middleRows(from, rows);
   return columns;
 }
 
