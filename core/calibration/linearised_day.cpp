@@ -280,9 +280,10 @@ std::vector<double> LinearisedDay::heldOutByDivision(const LinearModel& model, i
     double sum = 0.0;
     for (const Run& run : runs) {
       const Eigen::VectorXd& found = sizes[static_cast<std::size_t>(run.fold)];
-      const Eigen::VectorXd left = residual_.segment(run.row, run.rows) -
-                                   basis_.middleRows(run.row, run.rows) * found.head(basis_.cols()) -
-                                   model.directions.middleRows(run.row, run.rows) * found.tail(model.directions.cols());
+      Eigen::VectorXd left =
+          residual_.segment(run.row, run.rows) - basis_.middleRows(run.row, run.rows) * found.head(basis_.cols());
+      if (model.directions.cols() > 0)
+        left -= model.directions.middleRows(run.row, run.rows) * found.tail(model.directions.cols());
       for (std::size_t p = run.first; p < run.end; ++p)
         sum += plainSquares(p, left.segment(first_row_[p] - run.row, equations_[p].residual.size()));
     }
