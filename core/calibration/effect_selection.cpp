@@ -47,15 +47,15 @@ class Search {
     for (EffectSet& start : singles) {
       if (predicts(nothing, start)) ends.push_back(improved(std::move(start)));
     }
-    EffectSet& least = *std::min_element(ends.begin(), ends.end(), [&](const EffectSet& a, const EffectSet& b) {
-      return a.model.squares() < b.model.squares();
-    });
-    setEquations(least.model);
-    if (auto other = beforePeriodic(least)) ends.push_back(improved(std::move(*other)));
     // The least scatter of all says what the equations are worth.
-    setEquations(std::min_element(ends.begin(), ends.end(), [](const EffectSet& a, const EffectSet& b) {
-                   return a.model.squares() < b.model.squares();
-                 })->model);
+    const auto leastScatter = [&]() -> const EffectSet& {
+      return *std::min_element(ends.begin(), ends.end(), [](const EffectSet& a, const EffectSet& b) {
+        return a.model.squares() < b.model.squares();
+      });
+    };
+    setEquations(leastScatter().model);
+    if (auto other = beforePeriodic(leastScatter())) ends.push_back(improved(std::move(*other)));
+    setEquations(leastScatter().model);
     return *std::min_element(ends.begin(), ends.end(),
                              [&](const EffectSet& a, const EffectSet& b) { return cost(a) < cost(b); });
   }
@@ -120,26 +120,28 @@ class Search {
                        [&](std::size_t family) { return effectOf(family) == part.effect; });
   }
 
-  /// Effects that do as well in the place of what is slow of one joint's periodic errors: over the angles at which a
-  /// joint stands a wave of a turn or half a turn may be what a ratio does, or its own weight.
-  std::vector<Rival> rivalsOfSlow(const EffectSet& set) const {
+  /// Effects that the set lacks and that do as well in the place of what `rest` has less.
+  void addRivals(const EffectSet& set, const EffectSet& rest, std::vector<Rival>& rivals) const {
+    for (const auto& instead : withEach(rest, others(set))) {
+      if (!instead || cost(*instead) - cost(set) > kAsGood) continue;
+      rivals.push_back(
+          {effectOf(instead->families.back()), instead->model.parts.back().detail, cost(*instead) - cost(set)});
+    }
+  }
+
+  /// Those in the place of what is slow of one joint's periodic errors: over the angles at which a joint stands a wave
+  /// of a turn or half a turn may be what a ratio does, or its own weight.
+  void addRivalsOfSlow(const EffectSet& set, std::vector<Rival>& rivals) const {
     constexpr double kSlow = 2.0;  // waves a turn
     const auto isSlow = [](const EffectPart& part) { return part.order && *part.order <= kSlow; };
     std::set<std::string> joints;
     for (const EffectPart& part : set.model.parts) {
       if (isSlow(part)) joints.insert(part.detail);
     }
-    std::vector<Rival> rivals;
     for (const std::string& joint : joints) {
-      const auto slow = [&](const EffectPart& part) { return isSlow(part) && part.detail == joint; };
-      const EffectSet rest{set.families, day_.keeping(set.model, [&](const EffectPart& part) { return !slow(part); })};
-      for (const auto& instead : withEach(rest, others(set))) {
-        if (!instead || cost(*instead) - cost(set) > kAsGood) continue;
-        rivals.push_back(
-            {effectOf(instead->families.back()), instead->model.parts.back().detail, cost(*instead) - cost(set)});
-      }
+      const auto stays = [&](const EffectPart& part) { return !isSlow(part) || part.detail != joint; };
+      addRivals(set, {set.families, day_.keeping(set.model, stays)}, rivals);
     }
-    return rivals;
   }
 
   /// The set's families, those together that explain the same, of which the one is first that is missed most.
@@ -183,14 +185,8 @@ class Search {
     one.score = cost(others) - cost(set);
     const double rows = static_cast<double>(day_.rows());
     one.size = day_.noise() * std::sqrt(std::max(0.0, others.model.squares() - set.model.squares()) / rows);
-    for (const auto& instead : withEach(others, this->others(set))) {
-      if (!instead || cost(*instead) - cost(set) > kAsGood) continue;
-      one.rivals.push_back({fits_.families()[instead->families.back()].effect, instead->model.parts.back().detail,
-                            cost(*instead) - cost(set)});
-    }
-    if (one.effect == UnloadedEffect::transmission_error) {
-      for (Rival& rival : rivalsOfSlow(set)) one.rivals.push_back(std::move(rival));
-    }
+    addRivals(set, others, one.rivals);
+    if (one.effect == UnloadedEffect::transmission_error) addRivalsOfSlow(set, one.rivals);
     std::sort(one.rivals.begin(), one.rivals.end(), [](const Rival& a, const Rival& b) { return a.cost < b.cost; });
     std::vector<Rival> each;
     for (Rival& rival : one.rivals) {
