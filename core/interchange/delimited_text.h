@@ -1,5 +1,6 @@
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -47,11 +48,15 @@ inline LinesOfText linesOf(std::string_view text) { return LinesOfText(text); }
 std::string_view trimmed(std::string_view text);
 
 /// Cells between separators, trimmed and without the double quotes around them. Nothing between two separators is a
-/// cell.
+/// cell. They are views into the line, which must outlive them: a temporary is refused by the compiler.
 std::vector<std::string_view> cellsBetween(std::string_view line, char separator);
+template <std::same_as<std::string> Temporary>
+void cellsBetween(Temporary&& line, char separator) = delete;
 
-/// Cells between runs of at least `least` blanks; a tab counts as many as it takes.
+/// Cells between runs of at least `least` blanks; a tab counts as many as it takes. Views into the line, as above.
 std::vector<std::string_view> cellsBetweenBlanks(std::string_view line, std::size_t least);
+template <std::same_as<std::string> Temporary>
+void cellsBetweenBlanks(Temporary&& line, std::size_t least) = delete;
 
 /// Longest run of blanks between two other characters.
 std::size_t longestBlanks(std::string_view line);
