@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include "core/audit/audit.h"
 #include "core/audit/remarks.h"
+#include "core/campaign/joint_reading.h"
 #include "core/campaign/read_campaign.h"
 #include "core/io/units.h"
 #include "reports/words/remark_words.h"
@@ -92,6 +93,34 @@ TEST(RealSweeps, ReflectorOnTheAxisAndTheShortArc) {
   }
   EXPECT_TRUE(arc && on_axis);
   EXPECT_FALSE(audit::findsTheImpossible(report));
+}
+
+// FANUC shows joint 3 against the horizontal. The sweeps have the URDF's angles; the controller's own figures come back
+// by the coupling, and tell by themselves what they are.
+TEST(RealSweeps, FiguresAgainstTheHorizontalAreNamedAndRead) {
+  if (!std::filesystem::exists(shared("real"))) GTEST_SKIP() << "the real campaigns are not beside the checkout";
+  campaign::Campaign raw = campaign::readCampaign(shared("real/fanuc-r2000ic-sweeps")).campaign;
+  const std::vector<campaign::JointReading> against_horizontal{{.joint = 2, .plus = 1}};
+  raw.joint_readings = against_horizontal;
+  campaign::anglesToFigures(raw);
+
+  campaign::Campaign undeclared = raw;
+  undeclared.joint_readings.clear();
+  const audit::AuditReport unread = audit::audit(undeclared);
+  ASSERT_FALSE(unread.suspected.empty());
+  EXPECT_EQ(unread.suspected.front().mistake, "joint_coupling");
+  EXPECT_TRUE(contains(unread.suspected.front().remedy, "write q3_deg + q2_deg for q3_deg"))
+      << reports::words(unread.suspected.front().remedy);
+
+  campaign::figuresToAngles(raw);
+  bool compared = false;
+  for (const preparation::AuditCheck& check : audit::audit(raw).checks) {
+    if (check.id != "arm_model") continue;
+    compared = true;
+    EXPECT_EQ(check.verdict, preparation::AuditVerdict::pass);
+    EXPECT_NEAR(*check.value, 0.7e-3, 0.1e-3);  // m: this arm and its drawing
+  }
+  EXPECT_TRUE(compared);
 }
 
 }  // namespace campaigns_test
