@@ -160,8 +160,7 @@ class DayImport {
       for (JoinedState& state : join.states) {
         if (day_.logs.size() > 1) state.pose = fmt::format("{}.{}", log + 1, state.pose);
       }
-      stretches_[log].insert(join.stretches.begin(), join.stretches.end());
-      for (const JoinedState& state : join.states) used_samples_[log].insert(state.first);
+      // Each stretch is a posture: none is left unread.
       addRows(Role::loading, log, join, {});
     }
   }
@@ -205,6 +204,7 @@ class DayImport {
   void addRows(Role role, std::size_t log, const StateJoin& join, const std::vector<DayReading>& readings) {
     const campaign::JointConvention convention(day_.xml.campaign.joint_readings);
     reserve(role, readings);
+    if (role == Role::loading && log != kNoLog && !join.states.empty()) reserveStates(join.states.size());
     for (const JoinedState& state : join.states) {
       const Vector6d q = convention.angles(state.figures);
       if (role == Role::loading && log != kNoLog) addState(state, log, q, readings);
@@ -231,6 +231,15 @@ class DayImport {
     table.rows.reserve(table.rows.size() + readings.size());
   }
 
+  void reserveStates(std::size_t more) {
+    auto& table = result_.campaign.states;
+    if (!table) table.emplace().file = "states.csv";
+    std::vector<RowOrigin>& origins = result_.rows["states"];
+    table->rows.reserve(table->rows.size() + more);
+    origins.reserve(origins.size() + more);
+    result_.campaign.pose_ids.reserve(result_.campaign.pose_ids.size() + more);
+  }
+
   int poseNumber(const std::string& pose) {
     std::vector<std::string>& ids = result_.campaign.pose_ids;
     const auto [place, added] = poses_.emplace(pose, static_cast<int>(ids.size()));
@@ -241,7 +250,6 @@ class DayImport {
   void addState(const JoinedState& state, std::size_t log, const Vector6d& q, const std::vector<DayReading>& readings) {
     const JointSample& sample = files_.logs[log].content.samples[state.first];
     auto& table = result_.campaign.states;
-    if (!table) table.emplace().file = "states.csv";
     campaign::State row;
     row.pose = poseNumber(state.pose);
     row.step = state.step;

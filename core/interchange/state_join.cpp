@@ -163,6 +163,8 @@ StateJoin posturesOf(const JoinTask& task) {
           "expected a log in which the joints stand still somewhere (still_deg, shortest_s), or every_s");
     return join;
   }
+  join.states.reserve(samples.size());
+  join.stretches.reserve(samples.size());
   if (std::all_of(samples.begin(), samples.end(), [](const JointSample& sample) { return sample.name.empty(); })) {
     for (std::size_t i = 0; i < samples.size(); ++i) add(std::to_string(i + 1), 0, i, i);
     return join;
