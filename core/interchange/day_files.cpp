@@ -97,6 +97,7 @@ class DayReader {
     result_.files.back().format = nameOf(PointFormat::columns);
     result_.files.back().encoding = nameOf(decoded.encoding);
     const FileText text{name, decoded.text(), source.options};
+    requireLines(name, text.text);
     if (!hasColumnHeader(text))
       throw io::InputError({name, 1, "columns"}, "",
                            "expected the names of its columns (columns), or a header line that has them");
