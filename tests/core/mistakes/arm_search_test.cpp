@@ -31,7 +31,7 @@ class Search : public ::testing::Test {
     ArmSearch search = mistakes::searchArm(campaign, day);
     EXPECT_EQ(search.cures.size(), 1u);
     if (search.cures.empty()) return {};
-    EXPECT_TRUE(search.cures.front().suspected.remedy.is(remedy)) << search.cures.front().suspected.mistake;
+    EXPECT_TRUE(search.cures.front().suspected.remedy.is(remedy)) << search.cures.front().suspected.mistake.name();
     EXPECT_LT(search.cures.front().suspected.after, 0.01 * search.cures.front().suspected.before);
     return std::move(search.cures.front());
   }
