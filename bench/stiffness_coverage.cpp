@@ -109,8 +109,8 @@ void judge(const simulation::SimulationSpec& spec, std::uint64_t seed, const Row
   const compensation::Certainty certainty =
       compensation::certaintyOf(model, method, model.campaign.load_cell->gain_sigma);
   const Eigen::Vector3d tcp = model.with.frames.tcp_in_flange;
-  const compensation::DeflectingArm arm{
-      model.campaign, own.geometry, own.estimate, tcp, with ? &*with : nullptr, &certainty};
+  const compensation::DeflectingArm arm{model.campaign,          own.geometry, own.estimate, tcp,
+                                        with ? &*with : nullptr, &certainty};
   const simulation::ElasticMachine machine = simulation::buildMachine(spec);
   const Eigen::Matrix3d base_from_r0 = own.geometry.r0_from_base_link.linear().transpose();
   constexpr int kPostures = 6;
