@@ -41,33 +41,6 @@ constexpr double kKnownTo = 0.03;
 constexpr std::array kModels{"springs", "model"};
 constexpr std::array kPlaces{"of the day", "others"};
 
-/// Weights in place of whatever load was drawn, of the same sizes.
-void hangWeights(simulation::LoadingSpec& loading) {
-  constexpr double kGravity = 9.80665;
-  if (const auto* cable = std::get_if<simulation::CablePull>(&loading.load)) {
-    simulation::HangingWeights weights;
-    for (const double tension : cable->tensions) weights.masses_kg.push_back(tension / kGravity);
-    loading.load = weights;
-  }
-}
-
-/// Drawn from the box of joint angles that the day's own postures span.
-std::vector<Vector6d> heldOutPostures(simulation::SimulationSpec spec, int count) {
-  simulation::PostureDraw draw;
-  draw.count = count;
-  draw.low = draw.high = spec.postures.front().q;
-  for (const simulation::ListedPosture& one : spec.postures) {
-    draw.low = draw.low.cwiseMin(one.q);
-    draw.high = draw.high.cwiseMax(one.q);
-  }
-  spec.seed += 0x5eed;  // other draws than the day's
-  spec.postures.clear();
-  spec.posture_draw = draw;
-  std::vector<Vector6d> postures;
-  for (const simulation::Posture& one : simulation::loadingPostures(spec)) postures.push_back(one.q);
-  return postures;
-}
-
 /// What the machine does under a force at P_TCP and its opposite, m/N along `direction` (base_link).
 double trueCompliance(const simulation::ElasticMachine& machine, const Vector6d& q, const Eigen::Vector3d& tcp,
                       const Eigen::Vector3d& direction, double force) {
@@ -119,7 +92,7 @@ void judge(const simulation::SimulationSpec& spec, std::uint64_t seed, const Row
     if (postures[0].size() < kPostures && (postures[0].empty() || postures[0].back() != one.q))
       postures[0].push_back(one.q);
   }
-  postures[1] = heldOutPostures(spec, kPostures);
+  postures[1] = bench::heldOutPostures(spec, kPostures);
   for (std::size_t place = 0; place < kPlaces.size(); ++place) {
     for (const Vector6d& q : postures[place]) {
       const auto found = workspace::pointStiffness(arm, q);
@@ -192,7 +165,7 @@ int main(int argc, char** argv) {
     try {
       const std::uint64_t seed = base * 1'000'000 + machine;
       validation::BlindCase one = bench::drawMachine(family, i, seed, folder / fmt::format("{}_{}.urdf", family, i));
-      hangWeights(*one.spec.loading);
+      bench::hangWeights(*one.spec.loading);
       Row like;
       like.machine = i;
       for (const validation::PlacedEffect& effect : one.effects)

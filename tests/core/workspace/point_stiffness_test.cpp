@@ -91,7 +91,7 @@ TEST(PointStiffness, WhatHidesDoesNotTakeTheFitsOwnErrorAway) {
   PlacedArm day;
   const auto alone = workspace::pointStiffness(day.arm(), day.q);
   compensation::DeflectionDraws& draws = day.certainty.draws;
-  constexpr double kMore = 2e-8;  // m/N by one unit, in every direction
+  static constexpr double kMore = 2e-8;  // m/N by one unit, in every direction
   const Eigen::Index count = draws.size();
   draws.compliance.setZero();
   draws.parameters = Eigen::RowVectorXd::LinSpaced(count, 0.0, 1.0);
