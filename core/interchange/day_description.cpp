@@ -103,8 +103,8 @@ PointsSource readPointsSource(const io::XmlNode& node, JoinBy by, std::vector<st
     if (axis < 1 || axis > 6) node.refuse("axis", node.requiredAttribute("axis"), "expected an axis, 1 to 6");
     source.axis = static_cast<int>(axis) - 1;
   }
-  for (const std::string_view one : cellsBetweenBlanks(node.attribute("only").value_or(""), 1))
-    source.only.emplace_back(one);
+  const std::string only = node.attribute("only").value_or("");
+  for (const std::string_view one : cellsBetweenBlanks(only, 1)) source.only.emplace_back(one);
   constexpr std::array<const char*, 2> kFrames{"tracker", "base_link"};
   if (const auto frame = node.attribute("frame"))
     source.frame = static_cast<campaign::PointFrame>(named(node, "frame", *frame, kFrames));
