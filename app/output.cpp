@@ -209,13 +209,19 @@ void requireOwnFiles(const std::vector<ResultFile>& files) {
 
 void deliver(const std::function<reports::JsonDocument()>& json, const std::function<std::string()>& text,
              const std::string& json_file) {
+  deliverPieces(
+      json, [&text](const io::ByteSink& sink) { sink(text()); }, json_file);
+}
+
+void deliverPieces(const std::function<reports::JsonDocument()>& json, const io::ByteSource& text,
+                   const std::string& json_file) {
   if (!json_file.empty() && isStandardOutput(json_file)) return writeJson(json(), printBytes);
   if (!json_file.empty()) {
     io::requireNotRead(json_file);
     const reports::JsonDocument values = json();
     io::writeFileWhole(json_file, [&values](const io::ByteSink& sink) { writeJson(values, sink); });
   }
-  printText(text());
+  text(printText);
 }
 
 Outlet commandLineOutlet(const std::string& json_file) {

@@ -37,6 +37,10 @@ void printBytes(std::string_view text);
 void deliver(const std::function<reports::JsonDocument()>& json, const std::function<std::string()>& text,
              const std::string& json_file);
 
+/// The same of a text that comes in pieces.
+void deliverPieces(const std::function<reports::JsonDocument()>& json, const io::ByteSource& text,
+                   const std::string& json_file);
+
 /// Where the result of a computation goes: the command line prints it, the Python module makes objects of it.
 struct Outlet {
   /// Takes the result as JSON and as text for a terminal, and makes at once what it wants of the two: what they are

@@ -44,6 +44,7 @@ using namespace stiffscope;
 constexpr std::array kDirections{"down", "up", "radial", "lateral", "lateral, k1 known", "through axis 1"};
 constexpr std::size_t kLateralKnown = 4;
 constexpr double kKnownTo = 0.03;
+constexpr double kLeastSinQ5 = 0.3;  // no singular wrists, which are refused whatever the load
 
 /// Unit directions of the load on the hook at `hook` (base_link), in the order of kDirections.
 std::array<Eigen::Vector3d, kDirections.size()> directionsAt(const robot::Robot& arm, const Eigen::Vector3d& hook) {
@@ -56,36 +57,6 @@ std::array<Eigen::Vector3d, kDirections.size()> directionsAt(const robot::Robot&
   towards.z() = arm.axes_in_base_at_zero[1].point.z();
   const Eigen::Vector3d lateral = up.cross(radial);
   return {-up, up, radial, lateral, lateral, (towards - hook).normalized()};
-}
-
-/// Weights in place of whatever load was drawn, of the same sizes.
-double hangWeights(simulation::LoadingSpec& loading) {
-  constexpr double kGravity = 9.80665;
-  if (const auto* cable = std::get_if<simulation::CablePull>(&loading.load)) {
-    simulation::HangingWeights weights;
-    for (const double tension : cable->tensions) weights.masses_kg.push_back(tension / kGravity);
-    loading.load = weights;
-  }
-  const auto& masses = std::get<simulation::HangingWeights>(loading.load).masses_kg;
-  return kGravity * *std::max_element(masses.begin(), masses.end());
-}
-
-/// Drawn from the box of joint angles that the day's own postures span.
-std::vector<Vector6d> heldOutPostures(simulation::SimulationSpec spec, int count) {
-  simulation::PostureDraw draw;
-  draw.count = count;
-  draw.low = draw.high = spec.postures.front().q;
-  for (const simulation::ListedPosture& one : spec.postures) {
-    draw.low = draw.low.cwiseMin(one.q);
-    draw.high = draw.high.cwiseMax(one.q);
-  }
-  draw.min_abs_sin_q5 = 0.3;  // no singular wrists, which are refused whatever the load
-  spec.seed += 0x5eed;        // other draws than the day's
-  spec.postures.clear();
-  spec.posture_draw = draw;
-  std::vector<Vector6d> postures;
-  for (const simulation::Posture& one : simulation::loadingPostures(spec)) postures.push_back(one.q);
-  return postures;
 }
 
 /// A load on the machine, as asked for and as it comes out.
@@ -247,9 +218,10 @@ int main(int argc, char** argv) {
     try {
       const std::uint64_t seed = base * 1'000'000 + machine;
       validation::BlindCase one = bench::drawMachine(family, i, seed, folder / fmt::format("{}_{}.urdf", family, i));
-      const double force = hangWeights(*one.spec.loading);
+      const double force = bench::hangWeights(*one.spec.loading);
       constexpr int kPostures = 6;
-      const std::vector<TrueCase> cases = trueCases(one.spec, force, heldOutPostures(one.spec, kPostures));
+      const std::vector<TrueCase> cases =
+          trueCases(one.spec, force, bench::heldOutPostures(one.spec, kPostures, kLeastSinQ5));
       Row like;
       like.machine = i;
       for (const validation::PlacedEffect& effect : one.effects)

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 #include "core/io/units.h"
 #include "core/numerics/random.h"
 #include "core/simulation/measure.h"
+#include "core/simulation/postures.h"
 #include "core/validation/effect_draw.h"
 #include "core/validation/effect_size.h"
 
@@ -98,6 +100,34 @@ validation::BlindCase drawMachine(const std::string& family, int i, std::uint64_
     one.spec.station.scale = kScaleSigma * random.normal();
   }
   return one;
+}
+
+double hangWeights(simulation::LoadingSpec& loading) {
+  constexpr double kGravity = 9.80665;
+  if (const auto* cable = std::get_if<simulation::CablePull>(&loading.load)) {
+    simulation::HangingWeights weights;
+    for (const double tension : cable->tensions) weights.masses_kg.push_back(tension / kGravity);
+    loading.load = weights;
+  }
+  const auto& masses = std::get<simulation::HangingWeights>(loading.load).masses_kg;
+  return kGravity * *std::max_element(masses.begin(), masses.end());
+}
+
+std::vector<Vector6d> heldOutPostures(simulation::SimulationSpec spec, int count, double least_sin_q5) {
+  simulation::PostureDraw draw;
+  draw.count = count;
+  draw.low = draw.high = spec.postures.front().q;
+  for (const simulation::ListedPosture& one : spec.postures) {
+    draw.low = draw.low.cwiseMin(one.q);
+    draw.high = draw.high.cwiseMax(one.q);
+  }
+  draw.min_abs_sin_q5 = least_sin_q5;
+  spec.seed += 0x5eed;
+  spec.postures.clear();
+  spec.posture_draw = draw;
+  std::vector<Vector6d> postures;
+  for (const simulation::Posture& one : simulation::loadingPostures(spec)) postures.push_back(one.q);
+  return postures;
 }
 
 campaign::Campaign dayOf(const std::string& family, const validation::BlindCase& one, std::uint64_t seed) {

@@ -3,8 +3,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "core/campaign/campaign.h"
+#include "core/simulation/spec.h"
 #include "core/validation/case.h"
 
 namespace stiffscope::bench {
@@ -21,6 +23,13 @@ inline constexpr const char* kFamilies =
 /// Machine `i` of a family; its URDF is written to `urdf`.
 validation::BlindCase drawMachine(const std::string& family, int i, std::uint64_t seed,
                                   const std::filesystem::path& urdf);
+
+/// Weights in place of whatever load was drawn, of the same sizes. Returns the largest, N.
+double hangWeights(simulation::LoadingSpec& loading);
+
+/// Postures drawn from the box of joint angles that the day's own span, by other draws than the day's; |sin q5| at
+/// least that.
+std::vector<Vector6d> heldOutPostures(simulation::SimulationSpec spec, int count, double least_sin_q5 = 0.0);
 
 /// The day of a machine; of the masses' family with a URDF whose masses are all off by one factor.
 campaign::Campaign dayOf(const std::string& family, const validation::BlindCase& one, std::uint64_t seed);

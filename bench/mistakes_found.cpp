@@ -47,7 +47,7 @@ campaign::Campaign dayNamed(const std::string& name) {
 std::string saidOf(const audit::AuditReport& report) {
   std::string said;
   for (const mistakes::Suspected& one : report.suspected)
-    said += fmt::format("{}: {}: {}\n", one.mistake, reports::words(one.where), reports::words(one.remedy));
+    said += fmt::format("{}: {}: {}\n", one.mistake.name(), reports::words(one.where), reports::words(one.remedy));
   for (const preparation::AuditCheck& check : report.checks) {
     if (check.verdict == preparation::AuditVerdict::fail)
       said += fmt::format("{}: {}: {}\n", check.id, reports::words(check.where), reports::words(check.message));
@@ -78,7 +78,8 @@ std::set<std::string> faultsOf(const audit::AuditReport& report) {
   for (const preparation::AuditCheck& check : report.checks) {
     if (check.verdict == preparation::AuditVerdict::fail) faults.insert(check.id);
   }
-  for (const mistakes::Suspected& one : report.suspected) faults.insert("suspected " + one.mistake);
+  for (const mistakes::Suspected& one : report.suspected)
+    faults.insert(fmt::format("suspected {}", one.mistake.name()));
   return faults;
 }
 
@@ -175,7 +176,7 @@ void printDays(const std::string& family, int count, std::uint64_t seed) {
     for (const mistakes::Suspected& suspected : report.suspected) {
       if (suspected.mistake == "noise_declared") continue;
       found = true;
-      fmt::print("{} {} {}{}: {}: {}: {}\n", own, one.arm, one.loading, effects, suspected.mistake,
+      fmt::print("{} {} {}{}: {}: {}: {}\n", own, one.arm, one.loading, effects, suspected.mistake.name(),
                  reports::words(suspected.where), reports::words(suspected.remedy));
     }
     accused += found;

@@ -37,7 +37,8 @@ int importPoints(const PointsArguments& arguments) {
     files.push_back({file, interchange::readPointFile(file, options)});
     printWarnings(files.back().points.warnings);
   }
-  deliver([&] { return reports::pointsJson(files); }, [&] { return reports::pointsText(files); }, arguments.json);
+  deliverPieces([&] { return reports::pointsJson(files); },
+                [&](const io::ByteSink& sink) { reports::pointsText(files, sink); }, arguments.json);
   return kDone;
 }
 

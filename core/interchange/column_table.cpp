@@ -189,6 +189,14 @@ ColumnTable::Row ColumnTable::rowOf(const TextLine& line) const {
   return row;
 }
 
+Vector6d ColumnTable::wrench(const Row& row) const {
+  // One after the other: a comma initializer that an exception leaves unfinished is an error of its own to Eigen.
+  constexpr std::array<const char*, 6> kNames{"fx", "fy", "fz", "mx", "my", "mz"};
+  Vector6d wrench;
+  for (std::size_t i = 0; i < kNames.size(); ++i) wrench[static_cast<Eigen::Index>(i)] = number(row, kNames[i]);
+  return wrench;
+}
+
 double ColumnTable::number(const Row& row, const std::string& quantity) const {
   const NumberColumn& column = numbers_.at(quantity);
   return decimal(row.cells[column.place], text_.decimalSign(), text_.file, row.line, column.name) * column.si_per_unit;

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/campaign/campaign.h"
 #include "core/interchange/point_formats.h"
 
 namespace stiffscope::interchange {
@@ -34,6 +35,8 @@ class ColumnTable {
 
   /// A number in SI, by the column's name without its unit (x, q1, fx, time). Throws InputError where it is none.
   double number(const Row& row, const std::string& quantity) const;
+  /// fx, fy, fz, mx, my, mz, of a table that has them.
+  Vector6d wrench(const Row& row) const;
   bool hasNumber(const std::string& quantity) const { return numbers_.contains(quantity); }
   bool hasNumbers(const std::vector<std::string>& quantities) const;
   /// Whether the table has them. Throws InputError where it has some of them only.

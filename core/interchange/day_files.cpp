@@ -97,6 +97,7 @@ class DayReader {
     result_.files.back().format = nameOf(PointFormat::columns);
     result_.files.back().encoding = nameOf(decoded.encoding);
     const FileText text{name, decoded.text(), source.options};
+    requireLines(name, text.text);
     if (!hasColumnHeader(text))
       throw io::InputError({name, 1, "columns"}, "",
                            "expected the names of its columns (columns), or a header line that has them");
@@ -106,9 +107,7 @@ class DayReader {
       throw io::InputError({name, 0, "columns"}, source.options.columns,
                            "expected pose, perhaps step, and fx_n fy_n fz_n mx_nm my_nm mz_nm");
     table.forEachRow([&](const ColumnTable::Row& row) {
-      StatedLoad load{Vector6d::Zero(), result_.files.size() - 1, row.line};
-      load.wrench << table.number(row, "fx"), table.number(row, "fy"), table.number(row, "fz"), table.number(row, "mx"),
-          table.number(row, "my"), table.number(row, "mz");
+      const StatedLoad load{table.wrench(row), result_.files.size() - 1, row.line};
       const std::string pose = table.text(row, "pose");
       const auto [first, added] =
           result_.loads.emplace(std::pair(pose, wholeStep(name, row.line, table.text(row, "step"))), load);

@@ -41,8 +41,13 @@ std::optional<DayReading> DayNames::readingOf(std::size_t source_index, const Po
   const std::string name = source.target.empty() ? mapped(field("target")) : source.target;
   if (!source.only.empty() && !isAmong(source.only, name)) return std::nullopt;
   DayReading reading;
-  reading.source = source_index;
-  reading.point = &point;
+  reading.source = static_cast<std::uint32_t>(source_index);
+  reading.line = static_cast<std::uint32_t>(point.line);
+  reading.point = point.point;
+  if (point.time) {
+    reading.time_s = point.time->seconds;
+    reading.resolution_s = point.time->resolution;
+  }
   reading.target = targetNamed(name);
   if (reading.target < 0) return std::nullopt;
   reading.pose = !source.pose.empty() ? source.pose : !field("index").empty() ? field("index") : field("pose");

@@ -1,5 +1,6 @@
 #include "core/interchange/delimited_text.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <limits>
 
@@ -32,6 +33,16 @@ LinesOfText::Iterator& LinesOfText::Iterator::operator++() {
   const bool both = ended && rest_[end] == '\r' && end + 1 < rest_.size() && rest_[end + 1] == '\n';
   rest_.remove_prefix(ended ? end + (both ? 2 : 1) : rest_.size());
   return *this;
+}
+
+void requireLines(const std::string& file, std::string_view text) {
+  constexpr std::size_t kLongest = std::size_t{1} << 20;
+  for (const TextLine& line : linesOf(text)) {
+    if (line.text.size() <= kLongest) continue;
+    throw io::InputError(
+        {file, line.number, ""}, io::oneLine(line.text.substr(0, 200), 60),
+        fmt::format("expected lines of at most {} bytes; this one has {}", kLongest, line.text.size()));
+  }
 }
 
 std::string_view trimmed(std::string_view text) {

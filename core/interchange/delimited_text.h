@@ -44,6 +44,10 @@ class LinesOfText {
 
 inline LinesOfText linesOf(std::string_view text) { return LinesOfText(text); }
 
+/// Throws InputError where a line is longer than any of a table or a program: cells of a line of 100 MB would take 48
+/// times as much. `file` is its name for messages.
+void requireLines(const std::string& file, std::string_view text);
+
 /// Without blanks at both ends; tabs and the no-break space are blanks.
 std::string_view trimmed(std::string_view text);
 

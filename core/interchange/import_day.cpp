@@ -35,6 +35,7 @@ class DayImport {
   }
 
   ImportedDay made() {
+    findUncertainties();
     for (const Role role : {Role::circle_sweeps, Role::wrist_sweep, Role::loading}) importRole(role);
     requireNew(Role::circle_sweeps, campaign::circleSweepsLayout(), result_.campaign.circle_sweeps);
     requireNew(Role::wrist_sweep, campaign::wristSweepLayout(), result_.campaign.wrist_sweep);
@@ -49,7 +50,7 @@ class DayImport {
       // A file read for two tables has each row in one of them, or is left out once.
       if (use(file, row.line)) result_.skipped.push_back({file, row});
     }
-    compareUncertainties();
+    warnOfUncertainties();
     campaign::checkCampaign(result_.campaign, result_.warnings);
     return std::move(result_);
   }
@@ -93,6 +94,8 @@ class DayImport {
             fmt::format("expected readings of the targets; none of its {} names is of one, the first is '{}'",
                         files_.points[s].content.points.size(),
                         files_.points[s].content.points.empty() ? "" : files_.points[s].content.points.front().name));
+      // Each file of points is read for one role: what it said is in the readings now.
+      files_.points[s].content = {};
     }
     return readings;
   }
@@ -136,8 +139,8 @@ class DayImport {
       for (const JoinedState& state : join.states) used_samples_[log].insert(state.first);
       for (const auto& [i, reason] : join.left_out) {
         const std::size_t file = files_.points[readings[i].source].file;
-        skipped_.emplace_back(file, SkippedRow{readings[i].point->line, reason});
-        use(file, readings[i].point->line, false);
+        skipped_.emplace_back(file, SkippedRow{readings[i].line, reason});
+        use(file, readings[i].line, false);
       }
       judge(task, role, join, readings);
       addRows(role, log, join, readings);
@@ -157,8 +160,7 @@ class DayImport {
       for (JoinedState& state : join.states) {
         if (day_.logs.size() > 1) state.pose = fmt::format("{}.{}", log + 1, state.pose);
       }
-      stretches_[log].insert(join.stretches.begin(), join.stretches.end());
-      for (const JoinedState& state : join.states) used_samples_[log].insert(state.first);
+      // Each stretch is a posture: none is left unread.
       addRows(Role::loading, log, join, {});
     }
   }
@@ -196,13 +198,13 @@ class DayImport {
   }
 
   void addOrigin(Role role, const DayReading& reading) {
-    result_.rows[nameOf(role)].push_back(
-        {files_.points[reading.source].file, reading.point->line, reading.point->line});
+    result_.rows[nameOf(role)].push_back({files_.points[reading.source].file, reading.line, reading.line});
   }
 
   void addRows(Role role, std::size_t log, const StateJoin& join, const std::vector<DayReading>& readings) {
     const campaign::JointConvention convention(day_.xml.campaign.joint_readings);
     reserve(role, readings);
+    if (role == Role::loading && log != kNoLog && !join.states.empty()) reserveStates(join.states.size());
     for (const JoinedState& state : join.states) {
       const Vector6d q = convention.angles(state.figures);
       if (role == Role::loading && log != kNoLog) addState(state, log, q, readings);
@@ -229,6 +231,15 @@ class DayImport {
     table.rows.reserve(table.rows.size() + readings.size());
   }
 
+  void reserveStates(std::size_t more) {
+    auto& table = result_.campaign.states;
+    if (!table) table.emplace().file = "states.csv";
+    std::vector<RowOrigin>& origins = result_.rows["states"];
+    table->rows.reserve(table->rows.size() + more);
+    origins.reserve(origins.size() + more);
+    result_.campaign.pose_ids.reserve(result_.campaign.pose_ids.size() + more);
+  }
+
   int poseNumber(const std::string& pose) {
     std::vector<std::string>& ids = result_.campaign.pose_ids;
     const auto [place, added] = poses_.emplace(pose, static_cast<int>(ids.size()));
@@ -239,14 +250,13 @@ class DayImport {
   void addState(const JoinedState& state, std::size_t log, const Vector6d& q, const std::vector<DayReading>& readings) {
     const JointSample& sample = files_.logs[log].content.samples[state.first];
     auto& table = result_.campaign.states;
-    if (!table) table.emplace().file = "states.csv";
     campaign::State row;
     row.pose = poseNumber(state.pose);
     row.step = state.step;
     row.q = q;
     // Times of a log alone are the robot's.
-    row.time_s = state.readings.empty() ? sample.time_s.value_or(campaign::kNoTime)
-                                        : timeOf(*readings[state.readings.front()].point);
+    row.time_s =
+        state.readings.empty() ? sample.time_s.value_or(campaign::kNoTime) : readings[state.readings.front()].time_s;
     row.temperature_c = sample.temperature_c;
     row.tool_pose = meanToolPose(files_.logs[log].content.samples, state.first, state.last);
     row.line = table->rows.size() + 2;
@@ -273,8 +283,8 @@ class DayImport {
     row.step = state.step;
     row.repeat = reading.repeat.empty() ? std::to_string(count) : reading.repeat;
     row.target = reading.target;
-    row.time_s = timeOf(*reading.point);
-    row.point = reading.point->point;
+    row.time_s = reading.time_s;
+    row.point = reading.point;
     row.line = table.rows.size() + 2;
     table.rows.push_back(std::move(row));
     addOrigin(Role::loading, reading);
@@ -289,8 +299,8 @@ class DayImport {
       row.index = index;
       row.target = reading.target;
       row.q = q;
-      row.point = reading.point->point;
-      row.time_s = timeOf(*reading.point);
+      row.point = reading.point;
+      row.time_s = reading.time_s;
       row.line = table.rows.size() + 1;
     };
     if (role == Role::circle_sweeps) {
@@ -353,7 +363,7 @@ class DayImport {
   }
 
   /// The files' standard uncertainties beside what the campaign declares of the tracker: medians.
-  void compareUncertainties() {
+  void findUncertainties() {
     const std::optional<campaign::Tracker>& tracker = result_.campaign.tracker;
     std::vector<double> sigmas, ratios;
     for (const DayFiles::Points& file : files_.points) {
@@ -370,8 +380,13 @@ class DayImport {
     if (sigmas.empty()) return;
     result_.stated_sigma = middleOf(sigmas);
     if (ratios.empty()) return;
-    const double ratio = middleOf(ratios);
-    result_.stated_over_declared = ratio;
+    result_.stated_over_declared = middleOf(ratios);
+    compared_ = ratios.size();
+  }
+
+  void warnOfUncertainties() {
+    if (!result_.stated_over_declared) return;
+    const double ratio = *result_.stated_over_declared;
     // As the audit's check of declared noise.
     constexpr double kApart = 2.0;
     if (ratio <= kApart && ratio >= 1.0 / kApart) return;
@@ -379,7 +394,7 @@ class DayImport {
         {day_.file, 0, "tracker"}, "",
         fmt::format("the uncertainties in the files, {:.1f} um (median of {} readings), are {:.2g} times the noise "
                     "declared of the tracker",
-                    *result_.stated_sigma / io::kMicrometre, ratios.size(), ratio)));
+                    *result_.stated_sigma / io::kMicrometre, compared_, ratio)));
   }
 
   static double middleOf(std::vector<double>& values) {
@@ -408,6 +423,7 @@ class DayImport {
   std::vector<std::set<std::pair<std::size_t, std::size_t>>> stretches_;  ///< by log, what could be joined
   std::set<std::pair<std::string, int>> used_loads_;
   std::vector<std::pair<std::size_t, SkippedRow>> skipped_;
+  std::size_t compared_ = 0;                       ///< readings whose uncertainty was compared with the tracker's
   std::map<std::string, std::vector<bool>> used_;  ///< by the file's name, its lines
 };
 

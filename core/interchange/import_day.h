@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -12,10 +13,15 @@
 
 namespace stiffscope::interchange {
 
-/// Lines of a file that a row of a table came from.
+/// Lines of a file that a row of a table came from. No file that is read has 2^32 of them.
 struct RowOrigin {
-  std::size_t file = 0;  ///< of ImportedDay::files
-  std::size_t line = 0, last_line = 0;
+  std::uint32_t file = 0;  ///< of ImportedDay::files
+  std::uint32_t line = 0, last_line = 0;
+
+  RowOrigin(std::size_t of_file, std::size_t first, std::size_t last)
+      : file(static_cast<std::uint32_t>(of_file)),
+        line(static_cast<std::uint32_t>(first)),
+        last_line(static_cast<std::uint32_t>(last)) {}
 };
 
 struct SkippedOrigin {

@@ -190,10 +190,7 @@ RobotLog readJointColumns(const LogText& text) {
       sample.tool_pose.position = {table.number(row, "px"), table.number(row, "py"), table.number(row, "pz")};
     if (turn) sample.tool_pose.rpy = {table.number(row, "pw"), table.number(row, "pp"), table.number(row, "pr")};
     if (table.hasNumber("temperature")) sample.temperature_c = table.number(row, "temperature");
-    if (wrench) {
-      sample.wrench << table.number(row, "fx"), table.number(row, "fy"), table.number(row, "fz"),
-          table.number(row, "mx"), table.number(row, "my"), table.number(row, "mz");
-    }
+    if (wrench) sample.wrench = table.wrench(row);
     log.samples.push_back(std::move(sample));
   });
   return log;

@@ -152,6 +152,7 @@ void requireNear(const std::string& file, const PointFile& points) {
 PointFile parsePointFile(const std::string& file, std::string_view bytes, const FileOptions& options) {
   const DecodedText decoded = decodeText(file, bytes, options.encoding);
   const FileText text{file, decoded.text(), options};
+  if (!looksLikeOpenIndy(text.text)) requireLines(file, text.text);
   const PointFormat format = formatOf(text);
   requireOptionsOf(format, text);
   PointFile points = readAs(format, text);

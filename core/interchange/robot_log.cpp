@@ -117,6 +117,7 @@ void dropEmptyPoses(const std::string& file, RobotLog& log) {
 RobotLog parseRobotLog(const std::string& file, std::string_view bytes, const LogOptions& options) {
   const DecodedText decoded = decodeText(file, bytes, options.table.encoding);
   const LogText text{file, decoded.text(), options};
+  requireLines(file, text.text);
   RobotLog log = readAs(formatOf(text), text);
   log.encoding = decoded.encoding;
   if (log.samples.empty() && options.joints_needed)

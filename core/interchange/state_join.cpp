@@ -28,18 +28,21 @@ std::string shownKey(const StateKey& key) {
 
 /// States in the order in which they were first read.
 std::vector<JoinedState> statesInOrder(const std::vector<DayReading>& readings) {
-  std::vector<JoinedState> states;
   std::map<StateKey, std::size_t> places;
+  for (const DayReading& reading : readings) places.emplace(keyOf(reading), places.size());
+  // Of a million states doubling would take three times their room.
+  std::vector<JoinedState> states;
+  states.reserve(places.size());
   for (std::size_t i = 0; i < readings.size(); ++i) {
-    const auto [place, added] = places.emplace(keyOf(readings[i]), states.size());
-    if (added) {
+    const std::size_t place = places.at(keyOf(readings[i]));
+    if (place == states.size()) {
       JoinedState state;
       state.pose = readings[i].pose;
       state.step = readings[i].step;
       state.axis = readings[i].axis;
       states.push_back(std::move(state));
     }
-    states[place->second].readings.push_back(i);
+    states[place].readings.push_back(i);
   }
   return states;
 }
@@ -96,8 +99,8 @@ StateJoin joinByName(const JoinTask& task, const std::vector<DayReading>& readin
     }
     if (found == samples.end()) {
       const DayReading& reading = readings[state.readings.front()];
-      throw io::InputError({task.day.pathOf(task.day.points[reading.source].file), reading.point->line, "pose"},
-                           state.pose, fmt::format("expected a pose that {} has joints for", task.file));
+      throw io::InputError({task.day.pathOf(task.day.points[reading.source].file), reading.line, "pose"}, state.pose,
+                           fmt::format("expected a pose that {} has joints for", task.file));
     }
     setJoints(state, task.log, found->second, found->second);
   }
@@ -160,6 +163,8 @@ StateJoin posturesOf(const JoinTask& task) {
           "expected a log in which the joints stand still somewhere (still_deg, shortest_s), or every_s");
     return join;
   }
+  join.states.reserve(samples.size());
+  join.stretches.reserve(samples.size());
   if (std::all_of(samples.begin(), samples.end(), [](const JointSample& sample) { return sample.name.empty(); })) {
     for (std::size_t i = 0; i < samples.size(); ++i) add(std::to_string(i + 1), 0, i, i);
     return join;
@@ -186,7 +191,7 @@ std::vector<PlacedReading> placedReadings(const std::vector<JoinedState>& states
       const DayReading& reading = readings[i];
       if (std::find(seen.begin(), seen.end(), reading.target) != seen.end()) continue;
       seen.push_back(reading.target);
-      placed.push_back({state.figures, reading.target, reading.point->point});
+      placed.push_back({state.figures, reading.target, reading.point});
     }
   }
   return placed;
@@ -261,8 +266,7 @@ ClockJoin joinedAt(const JoinTask& task, const std::vector<DayReading>& readings
   std::vector<std::size_t> order;
   std::map<std::size_t, std::string> numbers;
   for (const DayReading& reading : readings) {
-    const std::size_t still =
-        standstillAt(standstills, reading.point->time->seconds + offset, reading.point->time->resolution);
+    const std::size_t still = standstillAt(standstills, reading.time_s + offset, reading.resolution_s);
     join.standstill_of.push_back(still);
     if (still != kNowhere) numbers.emplace(still, "");
   }
@@ -298,8 +302,8 @@ void narrowToReadings(const JoinTask& task, const std::vector<DayReading>& readi
     if (sharing.at(state.first) < 2) continue;
     double from = std::numeric_limits<double>::infinity(), to = -from;
     for (const std::size_t i : state.readings) {
-      from = std::min(from, readings[i].point->time->seconds + offset);
-      to = std::max(to, readings[i].point->time->seconds + offset);
+      from = std::min(from, readings[i].time_s + offset);
+      to = std::max(to, readings[i].time_s + offset);
     }
     std::size_t first = state.first, last = state.last;
     while (first < last && *task.log.samples[first].time_s < from) ++first;
@@ -316,20 +320,19 @@ void requireOnePlaceAPose(const JoinTask& task, const std::vector<DayReading>& r
     const auto [first, added] = seen.emplace(StateKey{state.axis, state.pose, state.step}, &state);
     if (added) continue;
     const DayReading& reading = readings[state.readings.front()];
-    throw io::InputError({task.day.pathOf(task.day.points[reading.source].file), reading.point->line, "pose"},
-                         state.pose,
+    throw io::InputError({task.day.pathOf(task.day.points[reading.source].file), reading.line, "pose"}, state.pose,
                          fmt::format("expected the readings of a pose in one standstill; line {} is of another",
-                                     readings[first->second->readings.front()].point->line));
+                                     readings[first->second->readings.front()].line));
   }
 }
 
 std::vector<ReadingTime> timesOf(const JoinTask& task, const std::vector<DayReading>& readings) {
   std::vector<ReadingTime> times;
   for (const DayReading& reading : readings) {
-    if (!reading.point->time)
-      throw io::InputError({task.day.pathOf(task.day.points[reading.source].file), reading.point->line, "time"}, "",
+    if (!reading.hasTime())
+      throw io::InputError({task.day.pathOf(task.day.points[reading.source].file), reading.line, "time"}, "",
                            "expected a time; without one the clock cannot say where the joints were");
-    times.push_back({reading.point->time->seconds, reading.point->time->resolution});
+    times.push_back({reading.time_s, reading.resolution_s});
   }
   return times;
 }

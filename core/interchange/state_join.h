@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,15 +13,17 @@
 
 namespace stiffscope::interchange {
 
-/// A reading with what its file and name say of it.
+/// A reading with what its file and name say of it. The file's own point is not needed beside it.
 struct DayReading {
-  std::size_t source = 0;  ///< of the day's files of points
-  const PointReading* point = nullptr;
-  int target = 0;
+  std::uint32_t source = 0;  ///< of the day's files of points
+  std::uint32_t line = 0;    ///< of that file, which has fewer bytes than 2^32
+  int target = 0, step = 0, axis = -1;
   std::string pose;  ///< empty: to be found by the clock
-  int step = 0;
   std::string repeat;
-  int axis = -1;
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< m, in the file's frame
+  double time_s = campaign::kNoTime, resolution_s = 0.0;
+
+  bool hasTime() const { return !std::isnan(time_s); }
 };
 
 /// The joints of a pose, or of a load step of it, and the readings taken there.

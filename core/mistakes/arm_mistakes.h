@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/mistakes/readings_of_day.h"
+#include "core/mistakes/suspected.h"
 #include "metrology/remark.h"
 
 namespace stiffscope::mistakes {
@@ -15,7 +16,7 @@ enum class AnglesRow { own, before, after };
 
 /// One way in which angles, points or names of reflectors are usually written wrongly: what takes it back.
 struct ArmMistake {
-  std::string id;
+  MistakeId id;
   /// How many things it asks to be wrong: of cures that mend as well the one with the fewest is believed.
   int things = 1;
   std::function<void(Vector6d&)> angles;

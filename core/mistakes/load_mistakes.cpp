@@ -38,7 +38,7 @@ class Table {
     return std::move(all_);
   }
 
-  LoadMistake start(const char* id) const {
+  LoadMistake start(MistakeId id) const {
     LoadMistake mistake;
     mistake.id = id;
     mistake.meant = declared_;

@@ -5,13 +5,14 @@
 
 #include "core/campaign/campaign.h"
 #include "core/mistakes/spring_fit.h"
+#include "core/mistakes/suspected.h"
 #include "metrology/remark.h"
 
 namespace stiffscope::mistakes {
 
 /// One way in which a load cell's readings, or how they are declared, are usually wrong: what takes it back.
 struct LoadMistake {
-  std::string id;
+  MistakeId id;
   int things = 1;  ///< how many things it asks to be wrong
   CellReading meant;
   Remark where, remedy;

@@ -35,7 +35,7 @@ enum class RemarkId {
   angles_backwards,    ///< axis
   sweeps_exchanged,    ///< both axes
   labels_exchanged,    ///< axis as labelled, axis that turns; in pairs
-  origin_off,          ///< joint, by how much, in its parent's axes at zero
+  origin_off,          ///< joint, by how much (base_link, m), unit directions in which the readings do not tell it
   origin_turned,       ///< joint, about which of base_link's axes, by which angle
   scale_off,           ///< of the points against the URDF, a share above one
 

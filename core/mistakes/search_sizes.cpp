@@ -69,9 +69,15 @@ void keepOrigin(const SearchedArm& arm, ReadingsOfDay day, Remark remedy, std::v
   cures.push_back(std::move(cure));
 }
 
+struct SeenShift {
+  Eigen::Vector3d shift = Eigen::Vector3d::Zero();
+  std::vector<double> unseen;  ///< unit directions, three numbers each, in which the readings do not tell a shift
+};
+
 /// The shift of a joint's origin that brings the readings nearest, by Gauss-Newton on the fit's residuals with
-/// differences for derivatives: the fit is nearly linear in it.
-Eigen::Vector3d bestShift(const ReadingsOfDay& as_read, std::size_t joint) {
+/// differences for derivatives: the fit is nearly linear in it. In directions that the readings hardly see, as along
+/// the first axis that moves, a link's length or the reflectors' places do the same: there nothing is said.
+SeenShift bestShift(const ReadingsOfDay& as_read, std::size_t joint) {
   const auto misfit = [&](const Eigen::Vector3d& shift) {
     ReadingsOfDay day = as_read;
     moveFrom(joint, shift, Eigen::Matrix3d::Identity(), day.robot);
@@ -97,10 +103,20 @@ Eigen::Vector3d bestShift(const ReadingsOfDay& as_read, std::size_t joint) {
           (both - up[static_cast<std::size_t>(k)] - up[static_cast<std::size_t>(l)] + middle) / (kStep * kStep);
     }
   }
-  // Directions in which the readings do not see a shift stay where they are.
-  const double ridge = 1e-3 * std::max(1e-12, curvature.diagonal().maxCoeff());
-  curvature.diagonal().array() += ridge;
-  return -curvature.ldlt().solve(gradient);
+  // A misfit of a millimetre that is no shift looks like at most thirty of them in a direction that counts as seen.
+  constexpr double kSeen = 1e-3, kLeast = 1e-12;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> directions(curvature);
+  const Eigen::Vector3d& sizes = directions.eigenvalues();
+  SeenShift found;
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Vector3d direction = directions.eigenvectors().col(k);
+    if (sizes[k] > kSeen * std::max(kLeast, sizes[2])) {
+      found.shift -= direction.dot(gradient) / sizes[k] * direction;
+    } else {
+      found.unseen.insert(found.unseen.end(), direction.begin(), direction.end());
+    }
+  }
+  return found;
 }
 
 }  // namespace
@@ -147,12 +163,12 @@ void searchOrigins(SearchedArm& arm) {
         keepOrigin(arm, std::move(day), Remark(RemarkId::origin_turned, joint + 1, axis, degrees * io::kDegree), cures);
       }
     }
-    const Eigen::Vector3d shift = bestShift(arm.day, joint);
+    const auto& [shift, unseen] = bestShift(arm.day, joint);
     if (shift.norm() < arm.limits.least_shift) continue;
     ReadingsOfDay day = arm.day;
     moveFrom(joint, shift, Eigen::Matrix3d::Identity(), day.robot);
     keepOrigin(arm, std::move(day),
-               Remark(RemarkId::origin_off, joint + 1, std::vector<double>(shift.begin(), shift.end())), cures);
+               Remark(RemarkId::origin_off, joint + 1, std::vector<double>(shift.begin(), shift.end()), unseen), cures);
   }
   if (cures.empty()) return;
   std::stable_sort(cures.begin(), cures.end(), [](const ArmCure& a, const ArmCure& b) { return a.rms < b.rms; });

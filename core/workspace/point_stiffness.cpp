@@ -1,8 +1,11 @@
 #include "core/workspace/point_stiffness.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
+#include "core/numerics/resampling.h"
 #include "core/robot/cartesian_stiffness.h"
 #include "core/robot/kinematics.h"
 #include "metrology/linear_algebra.h"
@@ -68,9 +71,46 @@ Eigen::MatrixXd byParameters(const DeflectingArm& arm, const Vector6d& q, const 
   return by;
 }
 
-/// `by`: of the effects' parameters along the direction; no columns: joint springs alone.
+/// Variance of a direction's compliance, (m/N)^2, by the fit alone, springs and named effects together. Zero where the
+/// draws are those of the fit: then they have it.
+double varianceOfFit(const DeflectingArm& arm, const Vector6d& q, const Matrix36d& jacobian,
+                     const Eigen::Vector3d& direction, double compliance) {
+  if (!arm.certainty->draws.by) return 0.0;
+  identification::StiffnessEstimate springs = arm.estimate;
+  if (arm.with != nullptr) springs.covariance -= springs.parts.effects;
+  const Matrix6d covariance = identification::coveringCovariance(springs);
+  const Vector6d moves = (jacobian.transpose() * direction).cwiseAbs2();
+  double variance = 0.0;
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < 6; ++j) {
+      // The direction is at right angles to what joints of unknown stiffness move.
+      if (hasUsableStiffness(arm.estimate, i) && hasUsableStiffness(arm.estimate, j))
+        variance += moves[i] * moves[j] * covariance(i, j);
+    }
+  }
+  if (arm.with == nullptr) return std::max(0.0, variance);
+  for (const effects::RestingFlange& flange : arm.with->varied) {
+    const auto varied = probed(flange, arm, q, direction);
+    if (varied) variance += std::pow(direction.dot(*varied) - compliance, 2);
+  }
+  return std::max(0.0, variance);
+}
+
+/// What 68.27 % of the errors do not exceed, the standard uncertainty of normal ones: of a few draws of a large effect
+/// their root mean square would speak, which is no scale of the others.
+double middleError(const Eigen::RowVectorXd& errors) {
+  constexpr double kOneSigma = 0.6827;
+  if (!errors.allFinite()) return std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> sizes(errors.cwiseAbs().begin(), errors.cwiseAbs().end());
+  std::sort(sizes.begin(), sizes.end());
+  return numerics::quantile(sizes, kOneSigma);
+}
+
+/// `by`: of the effects' parameters along the direction; no columns: joint springs alone. `more`: variance that the
+/// draws do not have.
 DirectionalCompliance withInterval(const DeflectingArm& arm, const Matrix36d& jacobian,
-                                   const Eigen::Vector3d& direction, double compliance, const Eigen::RowVectorXd& by) {
+                                   const Eigen::Vector3d& direction, double compliance, const Eigen::RowVectorXd& by,
+                                   double more = 0.0) {
   const compensation::DeflectionDraws& draws = arm.certainty->draws;
   const Vector6d moves = jacobian.transpose() * direction;
   Eigen::Matrix3Xd errors = Eigen::Matrix3Xd::Zero(3, draws.size());
@@ -79,7 +119,11 @@ DirectionalCompliance withInterval(const DeflectingArm& arm, const Matrix36d& ja
   for (std::size_t d = 0; d < draws.springs_alone.size(); ++d) {
     if (draws.springs_alone[d]) errors(0, static_cast<Eigen::Index>(d)) -= compliance;
   }
-  const identification::CoverageInterval off = compensation::spreadOf(errors).interval[0];
+  identification::CoverageInterval off = compensation::spreadOf(errors).interval[0];
+  if (by.cols() > 0) {
+    const double half = identification::kNormalFactor * std::sqrt(std::pow(middleError(errors.row(0)), 2) + more);
+    off = {std::min(off.low, -half), std::max(off.high, half)};
+  }
   return {direction, compliance, {compliance + off.low, compliance + off.high}};
 }
 
@@ -142,7 +186,9 @@ std::optional<PointStiffness> pointStiffness(const DeflectingArm& arm, const Vec
   for (const robot::PrincipalStiffness& one : robot::principalStiffnessWithin(place.model, known)) {
     const Eigen::Vector3d move = place.model * one.direction;
     const Eigen::RowVectorXd by = one.direction.transpose() * byParameters(arm, q, at.tcp, one.direction, move);
-    place.of_model.push_back(withInterval(arm, moves, one.direction, one.direction.dot(move), by));
+    const double compliance = one.direction.dot(move);
+    place.of_model.push_back(withInterval(arm, moves, one.direction, compliance, by,
+                                          varianceOfFit(arm, q, moves, one.direction, compliance)));
   }
   return place;
 }

@@ -15,7 +15,7 @@ Json figure(const std::optional<double>& value) { return value ? number(*value) 
 
 void addSuspected(const std::vector<mistakes::Suspected>& some, Json& all) {
   for (const mistakes::Suspected& one : some) {
-    all.push_back({{"mistake", one.mistake},
+    all.push_back({{"mistake", one.mistake.name()},
                    {"where", words(one.where)},
                    {"remedy", words(one.remedy)},
                    {"before", number(one.before)},

@@ -5,6 +5,7 @@
 
 #include "core/interchange/import_day.h"
 #include "core/interchange/point_reading.h"
+#include "core/io/write_file.h"
 #include "reports/json/json_document.h"
 
 namespace stiffscope::reports {
@@ -37,6 +38,7 @@ JsonDocument importJson(const interchange::ImportedDay& day);
 std::string importText(const interchange::ImportedDay& day);
 
 /// The same for a terminal: what the file is, and a line a point.
-std::string pointsText(const std::vector<NamedPoints>& files);
+/// Handed on in pieces of whole lines: of a large file it is longer than the file.
+void pointsText(const std::vector<NamedPoints>& files, const io::ByteSink& sink);
 
 }  // namespace stiffscope::reports

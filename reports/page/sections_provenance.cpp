@@ -188,7 +188,7 @@ void writeRejected(Html& html, const reports::ReportCampaign& one) {
 std::vector<std::string> suspectedWords(const audit::AuditReport& report) {
   std::vector<std::string> items;
   for (const mistakes::Suspected& one : report.suspected) {
-    items.push_back(fmt::format("Suspected: {} of the {}; {}{}{}.", reports::auditName(one.mistake),
+    items.push_back(fmt::format("Suspected: {} of the {}; {}{}{}.", reports::auditName(std::string(one.mistake.name())),
                                 reports::words(one.where), reports::words(one.remedy), one.shown.empty() ? "" : "; ",
                                 reports::words(one.shown)));
   }

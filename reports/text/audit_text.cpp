@@ -64,7 +64,7 @@ void writeSuspected(const std::vector<mistakes::Suspected>& suspected, Out out) 
   fmt::format_to(out, "\nSuspected\n");
   for (const mistakes::Suspected& one : suspected) {
     fmt::format_to(out, "  {}\n",
-                   wrapped(fmt::format("{} of the {}: {}{}{}", one.mistake, words(one.where), words(one.remedy),
+                   wrapped(fmt::format("{} of the {}: {}{}{}", one.mistake.name(), words(one.where), words(one.remedy),
                                        one.shown.empty() ? "" : "; ", words(one.shown)),
                            4));
   }

@@ -50,19 +50,30 @@ std::string pointText(const interchange::PointReading& point, std::size_t width)
 
 }  // namespace
 
-std::string pointsText(const std::vector<NamedPoints>& files) {
+void pointsText(const std::vector<NamedPoints>& files, const io::ByteSink& sink) {
+  constexpr std::size_t kPiece = 1 << 16;
   std::string text;
+  const auto handOn = [&](std::size_t least) {
+    if (text.size() < least) return;
+    sink(text);
+    text.clear();
+  };
   for (const NamedPoints& named : files) {
     text += headText(named);
     std::size_t width = 4;
     for (const interchange::PointReading& point : named.points.points) width = std::max(width, fullName(point).size());
     text += fmt::format("{:>7}  {:<{}} {:>5} {:>13} {:>13} {:>13} {:>8} {:>8} {:>8}  time\n", "line", "name", width,
                         "occ.", "x mm", "y mm", "z mm", "u_x um", "u_y um", "u_z um");
-    for (const interchange::PointReading& point : named.points.points) text += pointText(point, width);
-    for (const interchange::SkippedRow& row : named.points.skipped)
+    for (const interchange::PointReading& point : named.points.points) {
+      text += pointText(point, width);
+      handOn(kPiece);
+    }
+    for (const interchange::SkippedRow& row : named.points.skipped) {
       text += fmt::format("{:>7}  left out: {}\n", row.line, skipWords(row.reason));
+      handOn(kPiece);
+    }
   }
-  return text;
+  handOn(1);
 }
 
 }  // namespace stiffscope::reports

@@ -62,11 +62,18 @@ std::string originOff(const RemarkValues& values) {
   const double largest = std::max({std::abs(shift.at(0)), std::abs(shift.at(1)), std::abs(shift.at(2))});
   constexpr double kCentimetre = 1e-2;
   const int decimals = largest < kCentimetre ? 2 : 0;
+  const std::vector<double>& unseen = values.numbers(2);
+  std::string directions;
+  for (std::size_t i = 0; i + 2 < unseen.size(); i += 3)
+    directions += fmt::format("{}({:.2f}, {:.2f}, {:.2f})", directions.empty() ? "" : " and ", unseen[i], unseen[i + 1],
+                              unseen[i + 2]);
   return fmt::format(
-      "shift the origin of joint {} by ({:.{}f}, {:.{}f}, {:.{}f}) mm in base_link's axes, all joints at zero; or the "
+      "shift the origin of joint {} by ({:.{}f}, {:.{}f}, {:.{}f}) mm in base_link's axes, all joints at zero{}; or "
+      "the "
       "URDF is another machine's",
       values.count(0), millimetresOf(shift.at(0)), decimals, millimetresOf(shift.at(1)), decimals,
-      millimetresOf(shift.at(2)), decimals);
+      millimetresOf(shift.at(2)), decimals,
+      directions.empty() ? "" : ", and as far as it may be along " + directions + ", which the readings do not show");
 }
 
 std::string exchangedNames(const std::vector<std::string>& pairs) {

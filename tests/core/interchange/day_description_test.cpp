@@ -60,7 +60,7 @@ TEST(DayDescription, EverythingThatCanBeSaid) {
       "<join by=\"order\" still_deg=\"0.1\" shortest_s=\"2.5\" offset_s=\"-3\"/>"
       "<points role=\"circle_sweeps\" file=\"a\" axis=\"3\" by=\"name\" format=\"columns\" encoding=\"cp1252\" "
       "columns=\"x_mm y_mm z_mm\" separator=\";\" decimal_comma=\"yes\" skip=\"2\" target=\"P10\" frame=\"base_link\"/>"
-      "<points role=\"nests\" file=\"b\" only=\"N1  N2\" unit=\"in\"/>"
+      "<points role=\"nests\" file=\"b\" only=\"N1  a_nest_with_a_name_of_some_length\" unit=\"in\"/>"
       "<log role=\"loading\" file=\"c\" format=\"ur\" rate_hz=\"125\"/><loads file=\"d\"/>"
       "<joint_reading joint=\"3\" plus=\"2\"/><target_name from=\"1\" to=\"P10\"/>"));
   const PointsSource& points = day.points[0];
@@ -74,7 +74,7 @@ TEST(DayDescription, EverythingThatCanBeSaid) {
   EXPECT_EQ(points.options.skip, 2u);
   EXPECT_EQ(points.target, "P10");
   EXPECT_EQ(points.frame, campaign::PointFrame::base_link);
-  EXPECT_EQ(day.points[1].only, (std::vector<std::string>{"N1", "N2"}));
+  EXPECT_EQ(day.points[1].only, (std::vector<std::string>{"N1", "a_nest_with_a_name_of_some_length"}));
   EXPECT_EQ(day.points[1].options.unit, "in");
   EXPECT_EQ(day.logs[0].role, Role::loading);
   EXPECT_EQ(day.logs[0].options.rate_hz, 125.0);

@@ -424,6 +424,11 @@ TEST(Columns, WhatTheHeaderNamesAndNobodyReadsIsSaid) {
   expectSays(file.warnings[0], {":1", "not read", "u_x_um"});
 }
 
+TEST(Recognition, RefusesALineThatNoTableHas) {
+  const std::string cells = "a,  1.0,  2.0,  3.0\n" + std::string((1 << 20) + 1, ';') + "\n";
+  expectSays(refusal(cells), {":2", "at most 1048576 bytes", "1048577"});
+}
+
 TEST(Recognition, RefusesTheWrongAndTheAmbiguous) {
   FileOptions leica;
   leica.format = PointFormat::leica;

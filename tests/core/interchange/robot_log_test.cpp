@@ -97,6 +97,15 @@ TEST(UrLog, RadiansByNameAndRate) {
   EXPECT_DOUBLE_EQ(*named.samples[0].time_s, 12.5);
 }
 
+TEST(LogColumns, AWrench) {
+  LogOptions options;
+  options.table.columns = "q1_deg q2_deg q3_deg q4_deg q5_deg q6_deg fx_n fy_kn fz_n mx_nm my_nm mz_nm";
+  const RobotLog log = read("1 2 3 4 5 6 10 0.02 30 4 5 6\n", options);
+  const Vector6d wrench = (Vector6d() << 10, 20, 30, 4, 5, 6).finished();
+  EXPECT_TRUE(log.samples[0].wrench.isApprox(wrench, 1e-15));
+  expectSays(refusal("1 2 3 4 5 6 10 _ 30 4 5 6\n", options), {":1", "fy_kn", "'_'"});
+}
+
 TEST(LogColumns, NamedByTheUser) {
   LogOptions options;
   options.table.columns = "pose step q1_deg q2_deg q3_deg q4_deg q5_deg q6_deg temperature_c";

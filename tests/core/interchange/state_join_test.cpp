@@ -48,19 +48,16 @@ class StateJoins : public ::testing::Test {
   }
 
   void addReading(const std::string& pose, int step, double time_s) {
-    points_.emplace_back();
-    points_.back().time = Timestamp{time_s, false, 0.1};
-    points_.back().line = points_.size();
     DayReading reading;
+    reading.line = static_cast<std::uint32_t>(readings_.size() + 1);
+    reading.time_s = time_s;
+    reading.resolution_s = 0.1;
     reading.pose = pose;
     reading.step = step;
     readings_.push_back(reading);
   }
 
-  const std::vector<DayReading>& readings() {
-    for (std::size_t i = 0; i < readings_.size(); ++i) readings_[i].point = &points_[i];
-    return readings_;
-  }
+  const std::vector<DayReading>& readings() const { return readings_; }
 
   template <class Join>
   std::string refusal(const Join& join) {
@@ -70,7 +67,6 @@ class StateJoins : public ::testing::Test {
   DayDescription day_;
   robot::Robot robot_ = exampleChain().robot();
   RobotLog log_;
-  std::vector<PointReading> points_;
   std::vector<DayReading> readings_;
 };
 
@@ -109,7 +105,7 @@ TEST_F(StateJoins, APoseInTwoStandstillsIsRefusedWithBothLines) {
 TEST_F(StateJoins, ByTheClockEveryReadingAndSampleNeedsItsTime) {
   addSamples(10.0, 100);
   addReading("", 0, 5.0);
-  points_[0].time.reset();
+  readings_[0].time_s = campaign::kNoTime;
   expectSays(refusal(joinByClock), {"lab/a.txt:1", "time"});
   log_.samples[50].time_s.reset();
   expectSays(refusal(joinByClock), {"lab/b.csv", "rate_hz"});

@@ -31,7 +31,7 @@ class Search : public ::testing::Test {
     ArmSearch search = mistakes::searchArm(campaign, day);
     EXPECT_EQ(search.cures.size(), 1u);
     if (search.cures.empty()) return {};
-    EXPECT_TRUE(search.cures.front().suspected.remedy.is(remedy)) << search.cures.front().suspected.mistake;
+    EXPECT_TRUE(search.cures.front().suspected.remedy.is(remedy)) << search.cures.front().suspected.mistake.name();
     EXPECT_LT(search.cures.front().suspected.after, 0.01 * search.cures.front().suspected.before);
     return std::move(search.cures.front());
   }
@@ -81,7 +81,27 @@ TEST_F(Search, AnOriginOfTheRobot) {
   const ArmCure found = cure(RemarkId::origin_off);
   EXPECT_EQ(count(found, 0), 3);
   const auto& shift = std::get<std::vector<double>>(found.suspected.remedy.values.at(1));
-  EXPECT_NEAR(shift[2], -0.15, 2e-3);  // of a shift to first order, with a ridge of a thousandth
+  EXPECT_NEAR(shift[2], -0.15, 2e-3);  // of a shift to first order
+  EXPECT_TRUE(std::get<std::vector<double>>(found.suspected.remedy.values.at(2)).empty());
+}
+
+// Along its own axis the origin of joint 6 does what the reflectors' places on the flange do: of a shift across it and
+// along it, the part across is named, and that along it is said not to be seen.
+TEST_F(Search, AnOriginAlongItsAxisIsNotToldFromTheReflectors) {
+  ChainArm off = lab.nominal;
+  const metrology::Line before = off.robot().axes_in_base_at_zero[5];
+  off.to_joint[5].translation() += Eigen::Vector3d(0.06, 0.06, 0.06);
+  day.robot = off.robot();
+  const Eigen::Vector3d axis = before.direction, back = before.point - day.robot.axes_in_base_at_zero[5].point;
+  const ArmCure found = cure(RemarkId::origin_off);
+  EXPECT_EQ(count(found, 0), 6);
+  const auto& shift = std::get<std::vector<double>>(found.suspected.remedy.values.at(1));
+  const auto& unseen = std::get<std::vector<double>>(found.suspected.remedy.values.at(2));
+  ASSERT_EQ(unseen.size(), 3u);
+  const Eigen::Vector3d named(shift[0], shift[1], shift[2]), direction(unseen[0], unseen[1], unseen[2]);
+  EXPECT_NEAR(std::abs(direction.dot(axis)), 1.0, 1e-6);
+  EXPECT_NEAR(named.dot(axis), 0.0, 1e-9);
+  EXPECT_NEAR((named - (back - axis.dot(back) * axis)).norm(), 0.0, 2e-3);  // to first order, as above
 }
 
 TEST_F(Search, ATableOfAnotherScale) {

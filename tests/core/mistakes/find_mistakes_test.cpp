@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 #include <map>
+#include <regex>
 #include <set>
 #include "core/campaign/read_campaign.h"
 #include "core/mistakes/find_mistakes.h"
@@ -20,6 +22,20 @@
 namespace stiffscope {
 namespace find_mistakes_test {
 
+TEST(MistakeIds, AreThoseOfTheDocumentation) {
+  std::ifstream file(std::filesystem::path(STIFFSCOPE_SOURCE_DIR) / "docs" / "results.md");
+  std::vector<std::string> documented;
+  bool there = false;
+  const std::regex row("\\| `([a-z_]+)` \\|.*");
+  std::smatch found;
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with("##")) there = line == "### Mistakes that `audit` names";
+    if (there && std::regex_match(line, found, row)) documented.push_back(found[1]);
+  }
+  // MistakeId does not compile with another id than these.
+  EXPECT_EQ(documented, std::vector<std::string>(mistakes::kMistakeIds.begin(), mistakes::kMistakeIds.end()));
+}
+
 const campaign::Campaign& goodDay() {
   static const campaign::Campaign campaign =
       campaign::readCampaign(std::filesystem::path(STIFFSCOPE_SOURCE_DIR) / "samples" / "active").campaign;
@@ -30,7 +46,7 @@ std::string said(const mistakes::ModelAgreement& agreement) {
   std::string text;
   for (const auto* cures : {&agreement.arm, &agreement.loads}) {
     for (const mistakes::Suspected& one : *cures)
-      text += fmt::format("{}: {}: {}\n", one.mistake, reports::words(one.where), reports::words(one.remedy));
+      text += fmt::format("{}: {}: {}\n", one.mistake.name(), reports::words(one.where), reports::words(one.remedy));
   }
   return text;
 }

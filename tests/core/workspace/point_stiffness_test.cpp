@@ -85,6 +85,32 @@ TEST(PointStiffness, IntervalIsThatOfTheSprings) {
   }
 }
 
+// What hides only gives: beside the quantiles of its draws, which leave nothing below the model, the interval holds k u
+// with the fit's own variance to either side.
+TEST(PointStiffness, WhatHidesDoesNotTakeTheFitsOwnErrorAway) {
+  PlacedArm day;
+  const auto alone = workspace::pointStiffness(day.arm(), day.q);
+  compensation::DeflectionDraws& draws = day.certainty.draws;
+  static constexpr double kMore = 2e-8;  // m/N by one unit, in every direction
+  const Eigen::Index count = draws.size();
+  draws.compliance.setZero();
+  draws.parameters = Eigen::RowVectorXd::LinSpaced(count, 0.0, 1.0);
+  draws.by = [](const Vector6d&, const effects::FlangeLoad& load, const std::vector<Eigen::Vector3d>&) {
+    return Eigen::MatrixXd(kMore * load.force);
+  };
+  const auto place = workspace::pointStiffness(day.arm(), day.q);
+  ASSERT_TRUE(alone && place);
+  ASSERT_EQ(place->of_model.size(), 3u);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const workspace::DirectionalCompliance& one = place->of_model[k];
+    // The interval by springs alone is that of the fit, to 5 % of a standard deviation at each end.
+    const double fit = 0.5 * (alone->of_model[k].interval.high - alone->of_model[k].interval.low) / 1.96;
+    const double half = 1.96 * std::hypot(0.6827 * kMore, fit);
+    EXPECT_NEAR(one.compliance - one.interval.low, half, 0.05 * half);
+    EXPECT_NEAR(one.interval.high - one.compliance, std::max(half, 0.975 * kMore), 0.05 * half);
+  }
+}
+
 // Without k1 nothing is said of the direction in which joint 1 moves P_TCP, and the others stay as they are.
 TEST(PointStiffness, AJointOfUnknownStiffnessTakesItsDirectionAway) {
   PlacedArm day;
