@@ -90,7 +90,7 @@ class Inventory {
 
   const campaign::Campaign& campaign_;
   std::map<int, std::map<int, std::map<int, int>>> readings_;  ///< pose, step, target: count
-  std::map<int, int>* last_ = nullptr;  ///< of `readings_`: of the state that was added to last
+  std::map<int, int>* last_ = nullptr;                         ///< of `readings_`: of the state that was added to last
   int last_pose_ = 0, last_step_ = 0;
   std::set<std::pair<int, int>> states_;
   std::map<int, int> poses_with_;  ///< by step

@@ -18,8 +18,8 @@ struct Trained {
   Eigen::VectorXd after;
 };
 
-/// One training sample (weights of the postures): every recipe fitted. `sum`, `sum_alone`: of its equations, with effects
-/// and without.
+/// One training sample (weights of the postures): every recipe fitted. `sum`, `sum_alone`: of its equations, with
+/// effects and without.
 std::vector<Trained> train(const SystemInput& input, const GapFit& alone, const GapFit& fit,
                            const std::vector<bool>& allowed, const std::vector<FitRecipe>& recipes,
                            const std::vector<double>& weights, const Eigen::MatrixXd& sum,
@@ -32,8 +32,7 @@ std::vector<Trained> train(const SystemInput& input, const GapFit& alone, const 
   rules.loading_rows *= share;
   rules.least_drop *= share;
   const Selector selector(input.models, fit.data.layout, projection, std::max(2.0, postures), rules, allowed);
-  const StiffnessesAlone before =
-      stiffnessesAlone(alone.data, weights, project(sum_alone, alone.data.layout.effects));
+  const StiffnessesAlone before = stiffnessesAlone(alone.data, weights, project(sum_alone, alone.data.layout.effects));
   std::vector<Trained> trained;
   for (const FitRecipe& recipe : recipes) {
     const FittedSet set = recipe.choose ? selector.select() : selector.fit(recipe.models);
@@ -43,8 +42,8 @@ std::vector<Trained> train(const SystemInput& input, const GapFit& alone, const 
   return trained;
 }
 
-/// Trains on each sample and hands it to take(sample, trained). Each thread takes a few samples at a time, whose equations
-/// are summed together.
+/// Trains on each sample and hands it to take(sample, trained). Each thread takes a few samples at a time, whose
+/// equations are summed together.
 template <class Take>
 void trainOnEach(const SystemInput& input, const GapFit& alone, const GapFit& fit, const std::vector<bool>& allowed,
                  const std::vector<FitRecipe>& recipes, const std::vector<numerics::Weights>& samples,
