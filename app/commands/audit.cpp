@@ -20,7 +20,8 @@ namespace {
 /// What could be told apart by these loads is asked, not what is there.
 diagnosis::Diagnosis designOf(const preparation::PreparedCampaign& prepared) {
   diagnosis::DiagnoseOptions design;
-  design.resamples = design.chance_draws = 0;
+  design.chance_draws = 0;
+  design.design_only = true;
   return diagnosis::diagnose(prepared, design);
 }
 

@@ -68,7 +68,14 @@ class Inventory {
   std::size_t size() const { return readings_.size(); }
 
  private:
-  void add(int pose, int step, int target) { ++readings_[pose][step][target]; }
+  /// Readings of one state mostly follow each other.
+  void add(int pose, int step, int target) {
+    if (last_ == nullptr || pose != last_pose_ || step != last_step_) {
+      last_ = &readings_[pose][step];
+      last_pose_ = pose, last_step_ = step;
+    }
+    ++(*last_)[target];
+  }
 
   void describeState(const std::string& pose, int step, const std::map<int, int>& targets,
                      std::vector<Remark>& found) const {
@@ -83,6 +90,8 @@ class Inventory {
 
   const campaign::Campaign& campaign_;
   std::map<int, std::map<int, std::map<int, int>>> readings_;  ///< pose, step, target: count
+  std::map<int, int>* last_ = nullptr;                         ///< of `readings_`: of the state that was added to last
+  int last_pose_ = 0, last_step_ = 0;
   std::set<std::pair<int, int>> states_;
   std::map<int, int> poses_with_;  ///< by step
   std::set<int> targets_;
@@ -129,9 +138,13 @@ struct Span {
 template <class Row>
 std::vector<Remark> outOfOrder(const campaign::Campaign& campaign, const campaign::Table<Row>& table) {
   std::map<int, std::map<int, Span>> poses;
+  const Row* last = nullptr;  // rows of one step mostly follow each other
+  Span* last_span = nullptr;
   for (const Row& row : table.rows) {
     if (!std::isfinite(row.time_s)) continue;
-    Span& span = poses[row.pose][row.step];
+    if (last == nullptr || row.pose != last->pose || row.step != last->step) last_span = &poses[row.pose][row.step];
+    last = &row;
+    Span& span = *last_span;
     if (row.time_s < span.first) span.first = row.time_s, span.line = row.line;
     span.last = std::max(span.last, row.time_s);
   }
@@ -154,8 +167,13 @@ std::vector<Remark> outOfOrder(const campaign::Campaign& campaign, const campaig
 /// Load states whose row is older or younger than all readings of another step than its own.
 std::vector<Remark> statesApart(const campaign::Campaign& campaign) {
   std::map<std::pair<int, int>, Span> readings;
+  const campaign::LoadingReading* last = nullptr;
+  Span* last_span = nullptr;
   for (const campaign::LoadingReading& row : campaign.loading->rows) {
-    Span& span = readings[{row.pose, row.step}];
+    if (last == nullptr || row.pose != last->pose || row.step != last->step)
+      last_span = &readings[{row.pose, row.step}];
+    last = &row;
+    Span& span = *last_span;
     span.first = std::min(span.first, row.time_s);
     span.last = std::max(span.last, row.time_s);
   }

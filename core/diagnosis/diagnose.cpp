@@ -154,6 +154,11 @@ class Diagnoser {
                                                 : chanceLimit(input_, fit_, allowed_, options_.chance_draws,
                                                               options_.false_alarm, options_.seed);
     fit_.rules.detect = std::max(fit_.rules.detect, chance);
+    if (options_.design_only) {
+      result_.usable = true;
+      result_.aliases = designConfounding(input_, fit_, allowed_);
+      return std::move(result_);
+    }
     describe();
     decide();
     if (options_.resamples > 0 && !options_.verdict_only) shrink();

@@ -22,6 +22,8 @@ struct DiagnoseOptions {
   std::optional<double> chance_limit;
   bool verdict_only =
       false;  ///< gap and verdict alone: not where the gap lies, what could be told apart, what comes next
+  bool design_only =
+      false;  ///< what could be told apart, and what could not be tested, alone: nothing of what is there
   std::optional<effects::Effect> only;  ///< the one effect that may be chosen; what it leaves is then left as it is
 };
 

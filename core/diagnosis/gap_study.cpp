@@ -30,11 +30,7 @@ std::vector<effects::EffectModel> modelsFor(const campaign::Campaign& campaign,
 
 /// Which models the campaign can show, and what the others lack.
 void evaluatePreconditions(const GapOptions& options, const SystemInput& input, GapStudy& study) {
-  SystemInput loading = input;  // whatIsThere asks for states alone
-  loading.models.clear();
-  loading.sweeps = false;
-  const LinearSystem data = linearSystem(loading, study.start->state, {});
-  const effects::CampaignContents has = whatIsThere(input, data, study.start->state, study.start->station);
+  const effects::CampaignContents has = whatIsThere(input, study.start->state, study.start->station);
   study.allowed.assign(input.models.size(), true);
   for (std::size_t e = 0; e < effects::kEffectCount; ++e) {
     const auto effect = static_cast<effects::Effect>(e);

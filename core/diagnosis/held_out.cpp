@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <span>
 
 #include "core/identification/estimate.h"
 #include "core/numerics/parallel.h"
@@ -17,20 +18,21 @@ struct Trained {
   Eigen::VectorXd after;
 };
 
-/// One training sample (weights of the postures): every recipe fitted.
+/// One training sample (weights of the postures): every recipe fitted. `sum`, `sum_alone`: of its equations, with
+/// effects and without.
 std::vector<Trained> train(const SystemInput& input, const GapFit& alone, const GapFit& fit,
                            const std::vector<bool>& allowed, const std::vector<FitRecipe>& recipes,
-                           const std::vector<double>& weights) {
+                           const std::vector<double>& weights, const Eigen::MatrixXd& sum,
+                           const Eigen::MatrixXd& sum_alone) {
   double postures = 0.0;
   for (const double weight : weights) postures += weight;
-  const Projection projection = project(sumOf(fit.data, weights), fit.data.layout.effects);
+  const Projection projection = project(sum, fit.data.layout.effects);
   SelectionRules rules = fit.rules;
   const double share = postures / static_cast<double>(fit.data.postures.size());
   rules.loading_rows *= share;
   rules.least_drop *= share;
   const Selector selector(input.models, fit.data.layout, projection, std::max(2.0, postures), rules, allowed);
-  const StiffnessesAlone before =
-      stiffnessesAlone(alone.data, weights, project(sumOf(alone.data, weights), alone.data.layout.effects));
+  const StiffnessesAlone before = stiffnessesAlone(alone.data, weights, project(sum_alone, alone.data.layout.effects));
   std::vector<Trained> trained;
   for (const FitRecipe& recipe : recipes) {
     const FittedSet set = recipe.choose ? selector.select() : selector.fit(recipe.models);
@@ -38,6 +40,22 @@ std::vector<Trained> train(const SystemInput& input, const GapFit& alone, const 
         {before, allParameters(projection.by_nothing - projection.by_effects * set.effects, set.effects)});
   }
   return trained;
+}
+
+/// Trains on each sample and hands it to take(sample, trained). Each thread takes a few samples at a time, whose
+/// equations are summed together.
+template <class Take>
+void trainOnEach(const SystemInput& input, const GapFit& alone, const GapFit& fit, const std::vector<bool>& allowed,
+                 const std::vector<FitRecipe>& recipes, const std::vector<numerics::Weights>& samples,
+                 const Take& take) {
+  constexpr std::size_t kTogether = 5;  // half a megabyte each; the more, the less evenly are threads loaded
+  numerics::onAllCores((samples.size() + kTogether - 1) / kTogether, [&](std::size_t block) {
+    const std::size_t first = block * kTogether;
+    const std::span some = std::span(samples).subspan(first, std::min(kTogether, samples.size() - first));
+    const std::vector<Eigen::MatrixXd> sums = sumsOf(fit.data, some), sums_alone = sumsOf(alone.data, some);
+    for (std::size_t k = 0; k < some.size(); ++k)
+      take(first + k, train(input, alone, fit, allowed, recipes, some[k], sums[k], sums_alone[k]));
+  });
 }
 
 double shrinkOf(double before, double after) { return before > 0.0 ? 1.0 - std::sqrt(after / before) : 0.0; }
@@ -113,8 +131,9 @@ std::vector<HeldOutShrink> heldOutShrinks(const SystemInput& input, const GapFit
   std::vector<HeldOutShrink> result(recipes.size());
   if (postures < 4) return result;
   std::vector<std::vector<HeldOut>> left(postures, std::vector<HeldOut>(recipes.size()));
-  numerics::onAllCores(postures, [&](std::size_t p) {
-    const auto trained = train(input, alone, fit, allowed, recipes, numerics::leaveOneOut(postures, p));
+  std::vector<numerics::Weights> others;
+  for (std::size_t p = 0; p < postures; ++p) others.push_back(numerics::leaveOneOut(postures, p));
+  trainOnEach(input, alone, fit, allowed, recipes, others, [&](std::size_t p, const std::vector<Trained>& trained) {
     for (std::size_t r = 0; r < recipes.size(); ++r)
       left[p][r] = leftIn(alone.data.postures[p], trained[r].before, fit.data.postures[p], trained[r].after);
   });
@@ -128,9 +147,8 @@ std::vector<HeldOutShrink> heldOutShrinks(const SystemInput& input, const GapFit
   const double judged_share =
       resamples > 0 ? judged / static_cast<double>(resamples) / static_cast<double>(postures) : 0.0;
   std::vector<std::vector<HeldOut>> drawn(samples.size(), std::vector<HeldOut>(recipes.size()));
-  numerics::onAllCores(samples.size(), [&](std::size_t b) {
+  trainOnEach(input, alone, fit, allowed, recipes, samples, [&](std::size_t b, const std::vector<Trained>& trained) {
     const auto& weights = samples[b];
-    const auto trained = train(input, alone, fit, allowed, recipes, weights);
     for (std::size_t p = 0; p < postures; ++p) {
       if (weights[p] != 0.0) continue;
       for (std::size_t r = 0; r < recipes.size(); ++r)

@@ -1,11 +1,14 @@
 #include "core/diagnosis/preconditions.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
+#include "core/diagnosis/system_rows.h"
+
 namespace stiffscope::diagnosis {
 
-effects::CampaignContents whatIsThere(const SystemInput& input, const LinearSystem& data, const SystemState& state,
+effects::CampaignContents whatIsThere(const SystemInput& input, const SystemState& state,
                                       const preparation::DriftModel& station) {
   effects::CampaignContents has;
   has.absolute = input.absolute;
@@ -13,7 +16,7 @@ effects::CampaignContents whatIsThere(const SystemInput& input, const LinearSyst
   has.nests = station.motion.tested;
   has.weights = state.geometry.weight.links_known;
   std::set<int> steps;
-  for (const GapPosture& posture : data.postures) {
+  for (const SystemRows& posture : loadingRows(input.campaign, state.geometry, state.at, state.corrections)) {
     has.reflectors = std::max(has.reflectors, posture.states.front().points.size());
     for (std::size_t s = 1; s < posture.states.size(); ++s) {
       const effects::ArmState& one = posture.states[s];

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace stiffscope::diagnosis {
 
@@ -24,12 +25,23 @@ Eigen::LDLT<Eigen::MatrixXd> factorised(const Eigen::MatrixXd& matrix, const Eig
 }  // namespace
 
 Eigen::MatrixXd sumOf(const LinearSystem& data, const std::vector<double>& weights) {
-  Eigen::MatrixXd sum = data.sweeps;
-  for (std::size_t p = 0; p < data.postures.size(); ++p) {
-    if (weights[p] != 0.0) data.postures[p].normal.addTo(weights[p], sum);
+  return std::move(sumsOf(data, {&weights, 1}).front());
+}
+
+std::vector<Eigen::MatrixXd> sumsOf(const LinearSystem& data, std::span<const std::vector<double>> weights) {
+  // So few columns of all sums stay in the cache while the postures, tens of megabytes, pass.
+  constexpr Eigen::Index kColumns = 8;
+  std::vector<Eigen::MatrixXd> sums(weights.size(), data.sweeps);
+  for (Eigen::Index first = 0; first < data.sweeps.cols(); first += kColumns) {
+    const Eigen::Index count = std::min(kColumns, data.sweeps.cols() - first);
+    for (std::size_t p = 0; p < data.postures.size(); ++p) {
+      for (std::size_t k = 0; k < weights.size(); ++k) {
+        if (weights[k][p] != 0.0) data.postures[p].normal.addTo(weights[k][p], sums[k], first, count);
+      }
+    }
   }
-  sum.triangularView<Eigen::StrictlyUpper>() = sum.transpose();
-  return sum;
+  for (Eigen::MatrixXd& sum : sums) sum.triangularView<Eigen::StrictlyUpper>() = sum.transpose();
+  return sums;
 }
 
 Eigen::VectorXd allParameters(const Eigen::VectorXd& nuisances, const Eigen::VectorXd& effects) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <vector>
 
 #include "core/diagnosis/linear_system.h"
@@ -22,6 +23,10 @@ struct Projection {
 
 /// Sum of the postures' normal equations, each times its weight, plus the sweeps'.
 Eigen::MatrixXd sumOf(const LinearSystem& data, const std::vector<double>& weights);
+
+/// The same for each of several sets of weights, value by value what sumOf gives: the equations are gone through once
+/// for all of them.
+std::vector<Eigen::MatrixXd> sumsOf(const LinearSystem& data, std::span<const std::vector<double>> weights);
 
 /// What the model of stiffnesses alone is, a parameter vector for each of the two gaps.
 struct StiffnessesAlone {

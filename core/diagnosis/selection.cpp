@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/numerics/parallel.h"
+
 namespace stiffscope::diagnosis {
 
 bool FittedSet::has(const std::vector<effects::EffectModel>& table, effects::Effect effect) const {
@@ -179,10 +181,13 @@ std::optional<FittedSet> Selector::grown(const FittedSet& base, std::size_t mode
 }
 
 std::vector<FittedSet> Selector::ranked(const FittedSet& base) const {
+  std::vector<std::optional<FittedSet>> by_model(models_.size());
+  numerics::onAllCores(models_.size(), [&](std::size_t m) {
+    if (allowed_[m] && !base.has(models_, models_[m].effect)) by_model[m] = grown(base, m);
+  });
   std::vector<FittedSet> sets;
-  for (std::size_t m = 0; m < models_.size(); ++m) {
-    if (!allowed_[m] || base.has(models_, models_[m].effect)) continue;
-    if (auto set = grown(base, m)) sets.push_back(std::move(*set));
+  for (std::optional<FittedSet>& set : by_model) {
+    if (set) sets.push_back(std::move(*set));
   }
   std::stable_sort(sets.begin(), sets.end(),
                    [](const FittedSet& a, const FittedSet& b) { return a.score() < b.score(); });

@@ -34,8 +34,7 @@ std::vector<effects::EffectModel> modelsOf(const std::vector<RequestedEffect>& w
 
 void requireTestable(const std::vector<RequestedEffect>& wanted, const diagnosis::SystemInput& input,
                      const diagnosis::DiagnosisInput& start) {
-  const effects::CampaignContents has =
-      diagnosis::whatIsThere(input, diagnosis::linearSystem(input, start.state, {}), start.state, start.station);
+  const effects::CampaignContents has = diagnosis::whatIsThere(input, start.state, start.station);
   for (const RequestedEffect& one : wanted) {
     const Remark missing = effects::missingFor(one.effect, has);
     if (!missing.empty()) throw UnfitEffect(one.effect, Remark(RemarkId::lacks_what_shows_it, missing));

@@ -25,10 +25,16 @@ class LowerTriangle {
   }
 
   /// Adds `weight` times it to the lower triangle of `sum`.
-  void addTo(double weight, Eigen::MatrixXd& sum) const {
-    Eigen::Index at = 0;
-    for (Eigen::Index column = 0, left = sum.rows(); left > 0; ++column, at += left, --left) {
+  void addTo(double weight, Eigen::MatrixXd& sum) const { addTo(weight, sum, 0, sum.cols()); }
+
+  /// The same of `count` columns from `first` on.
+  void addTo(double weight, Eigen::MatrixXd& sum, Eigen::Index first, Eigen::Index count) const {
+    const Eigen::Index rows = sum.rows();
+    Eigen::Index at = first * rows - first * (first - 1) / 2;
+    for (Eigen::Index column = first; column < first + count; ++column) {
+      const Eigen::Index left = rows - column;
       sum.col(column).tail(left) += weight * values_.segment(at, left);
+      at += left;
     }
   }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 #include <utility>
 
 namespace stiffscope::preparation {
@@ -66,15 +65,17 @@ std::vector<bool> loadedPostures(const campaign::Campaign& campaign) {
   double largest = 0.0;
   for (const campaign::State& row : campaign.states->rows)
     largest = std::max(largest, row.wrench_in_cell.head<3>().norm());
-  std::set<std::pair<int, int>> under_load;
+  std::vector<std::pair<int, int>> under_load;
   for (const campaign::State& row : campaign.states->rows) {
     if (row.step != 0 && row.wrench_in_cell.head<3>().norm() > campaign::kReturnShare * largest)
-      under_load.insert({row.pose, row.step});
+      under_load.emplace_back(row.pose, row.step);
   }
+  std::sort(under_load.begin(), under_load.end());
   const auto see = [&](int pose, int step) {
     const auto posture = static_cast<std::size_t>(pose);
     if (step == 0) at_rest[posture] = true;
-    if (under_load.contains({pose, step})) loaded[posture] = true;
+    if (!loaded[posture] && std::binary_search(under_load.begin(), under_load.end(), std::pair(pose, step)))
+      loaded[posture] = true;
   };
   if (campaign.loading) {
     for (const campaign::LoadingReading& row : campaign.loading->rows) see(row.pose, row.step);
