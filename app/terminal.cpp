@@ -78,16 +78,17 @@ std::string paintedLine(std::string_view line) {
   for (const std::string_view caution : {"caution:", "warning:"}) {
     const std::size_t at = line.find_first_not_of(' ');
     if (at != std::string_view::npos && line.substr(at).starts_with(caution))
-      return std::string(line.substr(0, at)) + painted(caution, kYellow) + std::string(line.substr(at + caution.size()));
+      return std::string(line.substr(0, at)) + painted(caution, kYellow) +
+             std::string(line.substr(at + caution.size()));
   }
   for (const VerdictWord& verdict : kVerdictWords) {
-    for (std::size_t at = line.find(verdict.word); at != std::string_view::npos;
-         at = line.find(verdict.word, at + 1)) {
+    for (std::size_t at = line.find(verdict.word); at != std::string_view::npos; at = line.find(verdict.word, at + 1)) {
       const std::size_t end = at + verdict.word.size();
       if (end < line.size() && line[end] != ' ' && line[end] != ':') continue;
       const std::string_view before = line.substr(0, at), after = line.substr(end);
       const bool in_table = isCheckName(before) && (after.empty() || after.starts_with("  "));
-      const bool in_title = !before.starts_with(' ') && before.ends_with(": ") && (after.empty() || after.starts_with(':'));
+      const bool in_title =
+          !before.starts_with(' ') && before.ends_with(": ") && (after.empty() || after.starts_with(':'));
       if (!in_table && !in_title) continue;
       return std::string(before) + painted(verdict.word, verdict.colour) + std::string(after);
     }
@@ -135,8 +136,8 @@ struct ProgressLine {
   double seconds(Clock::time_point since) const { return std::chrono::duration<double>(Clock::now() - since).count(); }
 
   void write() {
-    std::string text = fmt::format("stiffscope {}: {:.0f} s{}{}", command, seconds(started), stage.empty() ? "" : ", ",
-                                   stage);
+    std::string text =
+        fmt::format("stiffscope {}: {:.0f} s{}{}", command, seconds(started), stage.empty() ? "" : ", ", stage);
     constexpr std::size_t kMost = 78;  // a longer line would wrap, and could not be written anew
     if (text.size() > kMost) text.resize(kMost);
     std::fprintf(stderr, "\r\x1b[K%s", text.c_str());

@@ -27,8 +27,8 @@ std::string differenceOfStatedMachines(const StatedCampaign& before, const State
       return fmt::format("the machines differ: axes {} and {} are nominally {:.1f} mm apart before, {:.1f} mm after",
                          a.axis, a.axis + 1, a.nominal_mm, b.nominal_mm);
     if (std::abs(a.nominal_deg - b.nominal_deg) * io::kDegree > comparison::kSameDirection)
-      return fmt::format("the machines differ: axes {} and {} are nominally at {:.2f}° before, at {:.2f}° after", a.axis,
-                         a.axis + 1, a.nominal_deg, b.nominal_deg);
+      return fmt::format("the machines differ: axes {} and {} are nominally at {:.2f}° before, at {:.2f}° after",
+                         a.axis, a.axis + 1, a.nominal_deg, b.nominal_deg);
   }
   return {};
 }
@@ -115,14 +115,16 @@ std::vector<std::string> cautionsOf(const StatedComparison& result) {
     cautions.push_back(fmt::format("{} states no stiffnesses: they are not compared",
                                    before.states_stiffness ? after.file : before.file));
   if (before.serial.empty() != after.serial.empty())
-    cautions.push_back("one of the two states no serial number: that they are one machine rests on its name and lengths");
+    cautions.push_back(
+        "one of the two states no serial number: that they are one machine rests on its name and lengths");
   if (before.links.empty() || after.links.empty())
     cautions.push_back("not both state the lengths between axes: that they are one machine rests on its name");
   if (!before.urdf_sha256.empty() && !after.urdf_sha256.empty() && before.urdf_sha256 != after.urdf_sha256)
     cautions.push_back("the robot descriptions (URDF) are not the same file");
   if (result.comparesStiffness())
     cautions.push_back(
-        "differences take both results as independent; `compare` of the two campaigns uses their readings, in which what "
+        "differences take both results as independent; `compare` of the two campaigns uses their readings, in which "
+        "what "
         "both miss on the same postures cancels, and is sharper");
   return cautions;
 }

@@ -69,8 +69,8 @@ struct StatedCampaign {
   std::vector<StatedAccuracy> accuracy;
 };
 
-/// Reads results.json of `report` or what audit, frames, identify, calibrate or diagnose wrote by --json. `named` may end
-/// in "#2", the second campaign of the file; a file with several needs it. Throws io::InputError.
+/// Reads results.json of `report` or what audit, frames, identify, calibrate or diagnose wrote by --json. `named` may
+/// end in "#2", the second campaign of the file; a file with several needs it. Throws io::InputError.
 StatedCampaign readStatedCampaign(const std::string& named);
 
 /// Whether it names such a file rather than a campaign: a file whose name ends in .json, "#N" behind it or not.
@@ -83,7 +83,7 @@ struct StatedComparison {
   std::vector<std::string> cautions;
   /// By Method and joint; no entries where either states no stiffness.
   std::array<std::vector<std::optional<comparison::StatedChange>>, 3> changes;
-  std::optional<identification::Method> shown_first;  ///< of the methods that both have
+  std::optional<identification::Method> shown_first;                     ///< of the methods that both have
   std::vector<std::optional<comparison::StatedChange>> lengths, angles;  ///< by link
   struct Pair {
     std::size_t before = 0, after = 0;

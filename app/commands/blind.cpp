@@ -28,8 +28,12 @@ namespace {
 
 validation::BlindEvents eventsOnStderr() {
   validation::BlindEvents events;
-  events.sealed = [](const std::string& seal) { clearProgress(), std::fprintf(stderr, "labels sealed, SHA-256 %s\n", seal.c_str()); };
-  events.frozen = [](const std::string& hash) { clearProgress(), std::fprintf(stderr, "answers frozen, SHA-256 %s\n", hash.c_str()); };
+  events.sealed = [](const std::string& seal) {
+    clearProgress(), std::fprintf(stderr, "labels sealed, SHA-256 %s\n", seal.c_str());
+  };
+  events.frozen = [](const std::string& hash) {
+    clearProgress(), std::fprintf(stderr, "answers frozen, SHA-256 %s\n", hash.c_str());
+  };
   events.progress = [](const char* stage, int done, int total) {
     atWork(stage, static_cast<std::size_t>(done), static_cast<std::size_t>(total));
   };

@@ -107,7 +107,8 @@ void addCompare(CLI::App& app, Run& run) {
     CompareRequest request;
   };
   const auto arguments = std::make_shared<CompareArguments>();
-  CLI::App* command = app.add_subcommand("compare", "Two states of one machine: compliances, and deflection avoided; or two results");
+  CLI::App* command =
+      app.add_subcommand("compare", "Two states of one machine: compliances, and deflection avoided; or two results");
   command->footer(
       "States the difference of compliances first, with U (95 %): where both campaigns measured the same postures, "
       "what\n"
@@ -119,10 +120,16 @@ void addCompare(CLI::App& app, Run& run) {
       "where no postures correspond, the differences too. Two days without a load: what moved in the arm's geometry\n"
       "(joint zeros, lengths, angles of axes), how significant it is, and which single cause explains it.\n"
       "docs/method.md has the formulas. Two result files instead of campaigns (results.json of report, or --json of\n"
-      "audit, frames, identify, calibrate, diagnose; FILE.json#2 is the second campaign in one) are put side by side as\n"
+      "audit, frames, identify, calibrate, diagnose; FILE.json#2 is the second campaign in one) are put side by side "
+      "as\n"
       "they stand, matched by joint and posture, also as a page by --html: docs/results.md.");
-  command->add_option("BEFORE", arguments->before, "campaign before, or with the double encoders inactive; or a results.json")->required();
-  command->add_option("AFTER", arguments->after, "campaign after, or with the double encoders active; or a results.json")->required();
+  command
+      ->add_option("BEFORE", arguments->before,
+                   "campaign before, or with the double encoders inactive; or a results.json")
+      ->required();
+  command
+      ->add_option("AFTER", arguments->after, "campaign after, or with the double encoders active; or a results.json")
+      ->required();
   command->add_option("--step", arguments->request.step, "load step of both to identify from");
   command->add_flag("--neglect-kc", arguments->request.neglect_kc, "neglect K_c, as the paper does");
   addModelOptions(*command, arguments->request.model);

@@ -40,8 +40,7 @@ reports::Figure stiffnessFigure(const StatedComparison& comparison) {
   chart.series = {{"before", render::colours::kSeries[0], {}}, {"after", render::colours::kSeries[1], {}}};
   for (std::size_t j = 0; j < comparison.changes[m].size(); ++j) {
     const auto& change = comparison.changes[m][j];
-    chart.categories.push_back(reports::jointName(static_cast<int>(j)) +
-                               (change && change->significant() ? " *" : ""));
+    chart.categories.push_back(reports::jointName(static_cast<int>(j)) + (change && change->significant() ? " *" : ""));
     chart.series[0].intervals.push_back(statedInterval(comparison.before.compliances[m][j]));
     chart.series[1].intervals.push_back(statedInterval(comparison.after.compliances[m][j]));
   }
@@ -88,7 +87,8 @@ std::vector<reports::Figure> statedCharts(const StatedComparison& comparison) {
   std::vector<reports::Figure> figures;
   if (!comparison.comparesStiffness()) return figures;
   figures.push_back(stiffnessFigure(comparison));
-  if (reports::Figure postures = postureFigure(comparison); !postures.png.empty()) figures.push_back(std::move(postures));
+  if (reports::Figure postures = postureFigure(comparison); !postures.png.empty())
+    figures.push_back(std::move(postures));
   return figures;
 }
 

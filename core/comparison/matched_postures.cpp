@@ -9,7 +9,7 @@ namespace stiffscope::comparison {
 
 namespace {
 
-constexpr double kSameMass = 1e-3;                          // of all links together
+constexpr double kSameMass = 1e-3;  // of all links together
 
 using CaseByPose = std::unordered_map<std::string, std::size_t>;
 

@@ -13,8 +13,8 @@ namespace stiffscope::comparison {
 // Two results that only state values and intervals: files of other days, models of two days. What both miss does not
 // cancel in their difference, as it does where readings on the same postures are there (PairedFit).
 
-/// Two-sided probability of a value as far from zero, by its own sd and degrees of freedom; not a number where it has no
-/// sd. Rounding of what is equal is told by `size`, that of the numbers whose difference it is.
+/// Two-sided probability of a value as far from zero, by its own sd and degrees of freedom; not a number where it has
+/// no sd. Rounding of what is equal is told by `size`, that of the numbers whose difference it is.
 double pOfZero(const Uncertain& number, double size);
 
 /// How far the farther end of an interval is from its value: U of a value whose interval is not symmetric.

@@ -80,8 +80,8 @@ void addIdentification(const Json& json, StatedCampaign& campaign) {
     for (const identification::Method method : identification::kMethods) {
       const std::size_t m = static_cast<std::size_t>(method);
       const std::string key = namesOf(method).key;
-      posture.wrist.residual_mm[m] = numberIn(row, ("wrist_after_" + key).c_str());
-      posture.targets.residual_mm[m] = numberIn(row, ("targets_mean_after_" + key).c_str());
+      posture.wrist.residual_mm[m] = numberIn(row, ("wrist_after_" + key + "_mm").c_str());
+      posture.targets.residual_mm[m] = numberIn(row, ("targets_mean_after_" + key + "_mm").c_str());
     }
   }
 }
@@ -121,7 +121,10 @@ StatedAudit auditOf(const Json& json) {
 
 std::string effectWords(const std::string& id) {
   const auto effect = effects::effectOf(id);
-  return effect ? effectName(*effect) : id;
+  if (effect) return effectName(*effect);
+  std::string words = id;  // of a day without a load
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
 }
 
 void addDiagnosis(const Json& json, bool unloaded, StatedCampaign& campaign) {
@@ -141,7 +144,8 @@ void addDiagnosis(const Json& json, bool unloaded, StatedCampaign& campaign) {
   const auto add = [&](const char* table, double StatedPosture::*member) {
     const Json* where = partOf(json, table);
     if (where == nullptr || !where->contains("posture")) return;
-    for (const Json& row : where->at("posture")) postureNamed(row.at("name"), campaign).*member = numberIn(row, "rms_um");
+    for (const Json& row : where->at("posture"))
+      postureNamed(row.at("name"), campaign).*member = numberIn(row, "rms_um");
   };
   add("where", &StatedPosture::gap_um);
   add("where_after", &StatedPosture::gap_after_um);
@@ -177,7 +181,8 @@ Json chosenCampaign(const Json& json, const std::string& file, std::size_t numbe
   if (list == json.end() || !list->is_array()) {
     const Json parts = json.is_object() ? partsOf(json) : Json::object();
     if (parts.empty()) throw io::InputError({file}, "", kExpected);
-    if (number > 1) throw io::InputError({file}, fmt::format("#{}", number), "expected no more than #1: it is one result");
+    if (number > 1)
+      throw io::InputError({file}, fmt::format("#{}", number), "expected no more than #1: it is one result");
     return parts;
   }
   if (list->empty()) throw io::InputError({file}, "", "expected a campaign in it");

@@ -39,8 +39,7 @@ reports::Cell stiffnessCell(const identification::Identification& result, identi
             notes.mark(fmt::format("{} is not identifiable: {}.", reports::jointName(joint), reports::words(reason)))};
   }
   const double expanded = reports::coverageOf(one.estimate, joint).factor * one.estimate.stiffnessSd(joint);
-  const std::string value =
-      reports::withUncertainty(one.estimate.stiffness(joint) / unit.size, expanded / unit.size);
+  const std::string value = reports::withUncertainty(one.estimate.stiffness(joint) / unit.size, expanded / unit.size);
   const Remark mark = one.estimate.mark(joint);
   return mark.empty() ? reports::Cell(value)
                       : reports::Cell(value, fmt::format("{} {}", reports::words(mark), notes.mark(markNote(mark))));

@@ -57,11 +57,12 @@ void addKnowledge(const std::vector<compensation::CompensatedPosture>& postures,
   auto out = std::back_inserter(text);
   for (const campaign::KnownStiffness& one : known) {
     const StiffnessUnit unit = stiffnessUnit(std::vector<double>{one.stiffness});
-    fmt::format_to(out, "{}\n",
-                   wrapped(fmt::format("  k{} = {:.4f} +- {:.4f} {} (standard uncertainty) is not of this day, "
-                                       "which cannot see it, but from: {}.",
-                                       one.joint + 1, one.stiffness / unit.size, one.sd / unit.size, unit.text, one.source),
-                           2));
+    fmt::format_to(
+        out, "{}\n",
+        wrapped(fmt::format("  k{} = {:.4f} +- {:.4f} {} (standard uncertainty) is not of this day, "
+                            "which cannot see it, but from: {}.",
+                            one.joint + 1, one.stiffness / unit.size, one.sd / unit.size, unit.text, one.source),
+                2));
   }
   fmt::format_to(out, "{}\n", wrapped(summaryWords(compensation::summaryOf(postures)) + ".", 2));
   addCautions(postures, text);

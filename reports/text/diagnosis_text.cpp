@@ -93,8 +93,9 @@ void writeStiffnesses(const diagnosis::Diagnosis& diagnosis, Out out) {
     if (!diagnosis.identifiable[static_cast<std::size_t>(j)]) {
       fmt::format_to(out, "  joint {}           not identifiable\n", j + 1);
     } else if (diagnosis.stated) {
-      fmt::format_to(out, "  joint {}           {:>12.4f}{:>12.4f} {}\n", j + 1, diagnosis.stiffness_before[j] / unit.size,
-                     diagnosis.stiffness_after[j] / unit.size, expandedCell(diagnosis.stated->expanded[j], unit));
+      fmt::format_to(out, "  joint {}           {:>12.4f}{:>12.4f} {}\n", j + 1,
+                     diagnosis.stiffness_before[j] / unit.size, diagnosis.stiffness_after[j] / unit.size,
+                     expandedCell(diagnosis.stated->expanded[j], unit));
     } else {
       fmt::format_to(out, "  joint {}              {:>10.4f}{:>10.4f}{:>10.4f}\n", j + 1,
                      diagnosis.stiffness_before[j] / unit.size, diagnosis.stiffness_after[j] / unit.size,

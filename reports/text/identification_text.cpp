@@ -152,7 +152,8 @@ namespace {
 
 using Out = std::back_insert_iterator<std::string>;
 
-std::string markedStiffnessCell(const identification::StiffnessEstimate& estimate, int joint, const StiffnessUnit& unit) {
+std::string markedStiffnessCell(const identification::StiffnessEstimate& estimate, int joint,
+                                const StiffnessUnit& unit) {
   if (!estimate.identifiable[static_cast<std::size_t>(joint)]) return "-";
   const char* mark =
       estimate.mark(joint).empty() ? "" : (estimate.mark(joint).is(identification::RemarkId::negative) ? "!" : "?");

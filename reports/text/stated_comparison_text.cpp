@@ -44,7 +44,8 @@ std::string tableText(const Table& table) {
   for (std::size_t r = 0; r < rows.size(); ++r) {
     if (group_of[r] != group) text += "  " + (group = group_of[r]) + "\n";
     std::string line = " ";
-    for (std::size_t i = 0; i < rows[r].size(); ++i) line += (i == 0 ? " " : "  ") + padded(rows[r][i], widths[i], i == 0);
+    for (std::size_t i = 0; i < rows[r].size(); ++i)
+      line += (i == 0 ? " " : "  ") + padded(rows[r][i], widths[i], i == 0);
     text += line + "\n";
   }
   return text;

@@ -53,8 +53,8 @@ std::string transmissionText(const identification::Identification& result,
     for (int joint = 0; joint < 6; ++joint) {
       const identification::GearTorsion& gear = transmission.joints[static_cast<std::size_t>(joint)];
       if (!gear.measured) continue;
-      fmt::format_to(out, "  k{:<3}{:>20}{:>8}{:>11}", joint + 1, gearCell(transmission.estimate, joint, unit), gear.states,
-                     wordsOf(gear.held));
+      fmt::format_to(out, "  k{:<3}{:>20}{:>8}{:>11}", joint + 1, gearCell(transmission.estimate, joint, unit),
+                     gear.states, wordsOf(gear.held));
       const auto apart =
           tracked ? identification::gearAndStructure(transmission, result.of(*method).estimate, joint) : std::nullopt;
       if (apart) {

@@ -134,7 +134,9 @@ std::string withMicro(const std::string& text) {
 
 std::string microUnits(const std::string& text) {
   std::string changed;
-  const auto letter = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || (c & 0x80) != 0; };
+  const auto letter = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || (c & 0x80) != 0;
+  };
   for (std::size_t at = 0; at < text.size(); ++at) {
     const bool unit = text[at] == 'u' && (text.compare(at, 2, "um") == 0 || text.compare(at, 4, "urad") == 0);
     const std::size_t end = at + (text.compare(at, 2, "um") == 0 ? 2 : 4);
@@ -143,9 +145,8 @@ std::string microUnits(const std::string& text) {
       continue;
     }
     const std::size_t before = text.find_last_not_of(" \n", at - 1);
-    const bool counts = before != std::string::npos &&
-                        (std::isdigit(static_cast<unsigned char>(text[before])) != 0 || text[before] == '(' ||
-                         text[before] == '?');
+    const bool counts = before != std::string::npos && (std::isdigit(static_cast<unsigned char>(text[before])) != 0 ||
+                                                        text[before] == '(' || text[before] == '?');
     changed += counts ? "µ" : "u";
   }
   return changed;

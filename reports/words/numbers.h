@@ -17,8 +17,8 @@ namespace stiffscope::reports {
 inline constexpr double kMmPerM = 1e3;
 inline constexpr double kMega = 1e6;
 
-/// The unit in which a set of stiffnesses is printed, so that none begins with zeros: 10^6 Nm/rad of a large robot, 10^3
-/// of one whose wrist has less than 0.01 10^6, Nm/rad of one with less than ten.
+/// The unit in which a set of stiffnesses is printed, so that none begins with zeros: 10^6 Nm/rad of a large robot,
+/// 10^3 of one whose wrist has less than 0.01 10^6, Nm/rad of one with less than ten.
 struct StiffnessUnit {
   double size = kMega;  ///< Nm/rad
   const char* name = "10⁶\u00a0Nm/rad";
@@ -64,8 +64,8 @@ std::string percent(double share, int decimals = 1);
 /// whole words are changed.
 std::string withMicro(const std::string& text);
 
-/// For a terminal: "um" and "urad" behind a number or an opening bracket as µm and µrad; the rest stays as wide as it is,
-/// so that columns stay under each other.
+/// For a terminal: "um" and "urad" behind a number or an opening bracket as µm and µrad; the rest stays as wide as it
+/// is, so that columns stay under each other.
 std::string microUnits(const std::string& text);
 
 /// `value` for printing with `decimals` places: what rounds to zero is zero, without the sign that would

@@ -52,7 +52,8 @@ std::vector<double> stiffnessesOf(const StatedComparison& comparison) {
 
 Table stiffnessTable(const StatedComparison& comparison) {
   const StiffnessUnit unit = stiffnessUnit(stiffnessesOf(comparison));
-  Table table{std::string("Joint stiffness k in ") + unit.name + " with its 95 % interval, and the difference of compliances c = 1/k",
+  Table table{std::string("Joint stiffness k in ") + unit.name +
+                  " with its 95 % interval, and the difference of compliances c = 1/k",
               {"", "", "before", "after", "after − before, µrad/Nm", "p", "p (Holm)", "significant (5 %)"},
               {}};
   table.id = "stiffness";
@@ -62,27 +63,25 @@ Table stiffnessTable(const StatedComparison& comparison) {
   for (const identification::Method method : identification::kMethods) {
     const std::size_t m = static_cast<std::size_t>(method);
     if (comparison.changes[m].empty()) continue;
-    RowGroup group{longName(method) + (method == comparison.shown_first ? ", shown first" : ""), {}};
+    RowGroup group{shortName(method) + (method == comparison.shown_first ? ", shown first" : ""), {}};
     for (std::size_t j = 0; j < comparison.changes[m].size(); ++j) {
       const auto &before = comparison.before.compliances[m][j], &after = comparison.after.compliances[m][j];
       const auto& change = comparison.changes[m][j];
       Row row{jointName(static_cast<int>(j)), intervalCell(before, unit.size), intervalCell(after, unit.size)};
       if (change) {
-        row.insert(row.end(), {withUncertainty(change->difference.value / kMicroradian,
-                                               change->difference.expanded() / kMicroradian),
-                               probabilityWords(change->p_value), probabilityWords(change->p_holm),
-                               significanceWords(*change)});
+        row.insert(
+            row.end(),
+            {withUncertainty(change->difference.value / kMicroradian, change->difference.expanded() / kMicroradian),
+             probabilityWords(change->p_value), probabilityWords(change->p_holm), significanceWords(*change)});
       } else {
         row.insert(row.end(), {kNone, kNone, kNone, before || after ? "stated by one alone" : "not identifiable"});
       }
       group.rows.push_back(std::move(row));
-      table.data->rows.push_back({static_cast<double>(j + 1), namesOf(method).key,
-                                  before ? DataCell(1.0 / before->value) : DataCell(),
-                                  after ? DataCell(1.0 / after->value) : DataCell(),
-                                  change ? valueCell(change->difference.value) : DataCell(),
-                                  change ? valueCell(change->difference.expanded()) : DataCell(),
-                                  change ? valueCell(change->p_value) : DataCell(),
-                                  change ? valueCell(change->p_holm) : DataCell()});
+      table.data->rows.push_back(
+          {static_cast<double>(j + 1), namesOf(method).key, before ? DataCell(1.0 / before->value) : DataCell(),
+           after ? DataCell(1.0 / after->value) : DataCell(), change ? valueCell(change->difference.value) : DataCell(),
+           change ? valueCell(change->difference.expanded()) : DataCell(),
+           change ? valueCell(change->p_value) : DataCell(), change ? valueCell(change->p_holm) : DataCell()});
     }
     table.groups.push_back(std::move(group));
   }
@@ -114,10 +113,11 @@ Table residualTable(const StatedComparison& comparison) {
 }
 
 Table gapTable(const StatedComparison& comparison) {
-  Table table{"What the diagnosis leaves in a posture, µm rms per coordinate: before and after its effects are in the "
-              "model",
-              {"posture", "before: gap", "before: with effects", "after: gap", "after: with effects"},
-              {{"", {}}}};
+  Table table{
+      "What the diagnosis leaves in a posture, µm rms per coordinate: before and after its effects are in the "
+      "model",
+      {"posture", "before: gap", "before: with effects", "after: gap", "after: with effects"},
+      {{"", {}}}};
   table.id = "gap";
   const auto& [a, b] = std::tie(comparison.before.diagnosis, comparison.after.diagnosis);
   if (!a || !b || a->unloaded != b->unloaded) return table;
@@ -205,8 +205,8 @@ std::string verdictCell(const StatedDiagnosis& diagnosis) {
 }
 
 std::string gapCell(const StatedDiagnosis& diagnosis) {
-  return fmt::format("{} µm, with effects {} µm, noise {} µm", fixed(diagnosis.gap_um, 1),
-                     fixed(diagnosis.after_um, 1), fixed(diagnosis.noise_um, 1));
+  return fmt::format("{} µm, with effects {} µm, noise {} µm", fixed(diagnosis.gap_um, 1), fixed(diagnosis.after_um, 1),
+                     fixed(diagnosis.noise_um, 1));
 }
 
 /// Names of the two, and what is not the same of both.
@@ -242,8 +242,9 @@ Table apartTable(const StatedComparison& comparison) {
 std::vector<std::string> saidOfBoth(const StatedComparison& comparison) {
   std::vector<std::string> said;
   const StatedCampaign &before = comparison.before, &after = comparison.after;
-  said.push_back("Machine: " + asIs(before.robot) +
-                 (before.serial.empty() || before.serial != after.serial ? "" : ", serial number " + asIs(before.serial)));
+  said.push_back(
+      "Machine: " + asIs(before.robot) +
+      (before.serial.empty() || before.serial != after.serial ? "" : ", serial number " + asIs(before.serial)));
   if (before.name == after.name) said.push_back("Campaign: " + asIs(before.name));
   if (before.date == after.date) said.push_back("Date: " + asIs(before.date));
   if (before.audit && after.audit && verdictCell(*before.audit) == verdictCell(*after.audit))
@@ -282,7 +283,8 @@ std::vector<Table> statedTables(const StatedComparison& comparison) {
   tables.push_back(gapTable(comparison));
   tables.push_back(linkTable(comparison));
   std::erase_if(tables, [](const Table& table) {
-    return std::all_of(table.groups.begin(), table.groups.end(), [](const RowGroup& group) { return group.rows.empty(); });
+    return std::all_of(table.groups.begin(), table.groups.end(),
+                       [](const RowGroup& group) { return group.rows.empty(); });
   });
   return tables;
 }
