@@ -328,6 +328,7 @@ int writeReport(const ReportArguments& arguments) {
         {"acceptance limits", reports::asIs(limits->file) + ", SHA-256 `" + limits->sha256 + "`"});
   }
   for (std::size_t i = 0; i < decisions.size(); ++i) content.campaigns[i].decisions = &decisions[i];
+  atWork("drawing figures");
   content.figures = makeFigures(content.campaigns, {arguments.paper}, content.avoided);
 
   addScenes(results, content);
