@@ -38,9 +38,9 @@ TEST(MicroUnits, AreWrittenBehindNumbersAlone) {
 }
 
 TEST(StiffnessUnit, SuitsTheSmallestJoint) {
-  EXPECT_EQ(reports::stiffnessUnit({5.6e6, 78e3}).size, 1e6);   // a large robot
-  EXPECT_EQ(reports::stiffnessUnit({1.2e5, 6100.0}).size, 1e3);  // a small one's wrist
-  EXPECT_EQ(reports::stiffnessUnit({500.0, 4.0}).size, 1.0);
+  EXPECT_EQ(reports::stiffnessUnit(std::vector<double>{5.6e6, 78e3}).size, 1e6);    // a large robot
+  EXPECT_EQ(reports::stiffnessUnit(std::vector<double>{1.2e5, 6100.0}).size, 1e3);  // a small one's wrist
+  EXPECT_EQ(reports::stiffnessUnit(std::vector<double>{500.0, 4.0}).size, 1.0);
   EXPECT_EQ(reports::stiffnessUnit(std::vector<double>{}).size, 1e6);
 }
 

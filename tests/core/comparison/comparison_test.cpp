@@ -315,9 +315,8 @@ TEST(StatedChanges, AddUncertaintiesInSquares) {
   using comparison::StatedCompliance;
   const std::vector<std::optional<StatedCompliance>> before{StatedCompliance{10.0, {7.0, 12.0}},
                                                             StatedCompliance{1.0, {0.9, 1.1}}, std::nullopt};
-  const std::vector<std::optional<StatedCompliance>> after{StatedCompliance{30.0, {27.0, 34.0}},
-                                                           StatedCompliance{1.0, {0.9, 1.1}},
-                                                           StatedCompliance{2.0, {1.9, 2.1}}};
+  const std::vector<std::optional<StatedCompliance>> after{
+      StatedCompliance{30.0, {27.0, 34.0}}, StatedCompliance{1.0, {0.9, 1.1}}, StatedCompliance{2.0, {1.9, 2.1}}};
   const auto changes = comparison::statedChanges(before, after);
   ASSERT_EQ(changes.size(), 3u);
   EXPECT_DOUBLE_EQ(changes[0]->difference.value, 20.0);
