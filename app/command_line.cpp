@@ -2,11 +2,46 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
 
 #include "app/options.h"
 #include "app/output.h"
+#include "app/terminal.h"
+#include "core/io/input_error.h"
 
 namespace stiffscope::app {
+
+namespace {
+
+/// `help`, `help COMMAND`, `help import campaign`: what --help prints.
+void addHelp(CLI::App& app, Run& run) {
+  const auto words = std::make_shared<std::vector<std::string>>();
+  CLI::App* command = app.add_subcommand("help", "What a command does and its options");
+  command->add_option("COMMAND", *words, "the command, with its own where it has some (import campaign)");
+  command->callback([words, &app, &run] {
+    run = [words, &app] {
+      const CLI::App* about = &app;
+      for (const std::string& word : *words) {
+        const CLI::App* inner = nullptr;
+        std::vector<std::string> known;
+        for (const CLI::App* one : about->get_subcommands(nullptr)) {
+          known.push_back(one->get_name());
+          if (one->get_name() == word) inner = one;
+        }
+        if (inner == nullptr) {
+          throw io::InputError({"help"}, word, "expected a command" + io::nearestNameHint(word, known));
+        }
+        about = inner;
+      }
+      printText(about->help());
+      return kDone;
+    };
+  });
+}
+
+}  // namespace
 
 std::unique_ptr<CLI::App> commandLine(Run& run) {
   auto made =
@@ -32,6 +67,8 @@ std::unique_ptr<CLI::App> commandLine(Run& run) {
   addSimulate(app, run);
   addReport(app, run);
   addView(app, run);
+  addHelp(app, run);
+  addMannerOptions(app);
   checkOptionValues(app);
   return made;
 }
@@ -51,6 +88,8 @@ int runCommandLine(int count, char** words) {
     std::fprintf(stderr, "%s", app.help().c_str());
     return kBadInput;
   }
+  const auto commands = app.get_subcommands();
+  const Progress progress(commands.empty() ? "" : commands.front()->get_name());
   return run();
 }
 

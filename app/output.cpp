@@ -13,11 +13,13 @@
 
 #include <fmt/format.h>
 
+#include "app/terminal.h"
 #include "core/identification/motor_side.h"
 #include "core/io/input_error.h"
 #include "core/io/read_file.h"
 #include "core/io/write_file.h"
 #include "core/numerics/parallel.h"
+#include "reports/words/numbers.h"
 
 namespace stiffscope::app {
 
@@ -148,12 +150,16 @@ class JsonWriter {
 void writeJson(const reports::JsonDocument& document, const io::ByteSink& sink) { JsonWriter(document, sink).addAll(); }
 
 campaign::Campaign openCampaign(const std::string& folder_or_xml, campaign::Hashes hashes) {
+  atWork("reading " + folder_or_xml);
   campaign::CampaignReading reading = campaign::readCampaign(folder_or_xml, hashes);
   printWarnings(reading.warnings);
+  atWork("computing");
   return identification::referredToMotors(std::move(reading.campaign));
 }
 
 void printWarnings(const std::vector<std::string>& warnings) {
+  if (manner().verbosity == Verbosity::quiet || warnings.empty()) return;
+  clearProgress();
   for (const std::string& warning : warnings) std::fprintf(stderr, "stiffscope: warning: %s\n", warning.c_str());
 }
 
@@ -221,16 +227,23 @@ void deliverPieces(const std::function<reports::JsonDocument()>& json, const io:
     const reports::JsonDocument values = json();
     io::writeFileWhole(json_file, [&values](const io::ByteSink& sink) { writeJson(values, sink); });
   }
-  text(printText);
+  text([](std::string_view piece) { printText(reports::microUnits(std::string(piece))); });
 }
 
 Outlet commandLineOutlet(const std::string& json_file) {
   return {[json_file](const auto& json, const auto& text) { deliver(json, text, json_file); },
           [](const std::string& warning) { printWarnings({warning}); },
-          [](const std::string& line) { std::fprintf(stderr, "stiffscope: %s\n", line.c_str()); }};
+          [](const std::string& line) {
+            clearProgress();
+            std::fprintf(stderr, "stiffscope: %s\n", line.c_str());
+          }};
 }
 
-void printText(std::string_view text) { printBytes(io::withoutControls(text)); }
+void printText(std::string_view text) {
+  clearProgress();
+  const std::string clean = io::withoutControls(text);
+  printBytes(coloursText() ? withVerdictColours(clean) : clean);
+}
 
 void printBytes(std::string_view text) {
   errno = 0;

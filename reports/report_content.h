@@ -92,7 +92,7 @@ struct Figure {
 /// The sections that have figures, in the order of the page: figures are counted in it.
 inline constexpr std::array kFigureSections{"opening", "accuracy",  "station", "accuracy-gap", "wrist",
                                             "links",   "stiffness", "subsets", "workspace",    "compensation",
-                                            "gap",     "figures",   "audit"};
+                                            "gap",     "figures",   "audit",   "postures"};
 
 /// The name of its file in a report's folder.
 inline std::string pictureFile(const Figure& figure) { return figure.id + ".png"; }

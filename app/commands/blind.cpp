@@ -10,6 +10,7 @@
 #include "app/fleet/slurm.h"
 #include "app/options.h"
 #include "app/output.h"
+#include "app/terminal.h"
 #include "core/accuracy/diagnose_accuracy.h"
 #include "core/diagnosis/diagnose.h"
 #include "core/diagnosis/effect_distance.h"
@@ -27,13 +28,15 @@ namespace {
 
 validation::BlindEvents eventsOnStderr() {
   validation::BlindEvents events;
-  events.sealed = [](const std::string& seal) { std::fprintf(stderr, "labels sealed, SHA-256 %s\n", seal.c_str()); };
-  events.frozen = [](const std::string& hash) { std::fprintf(stderr, "answers frozen, SHA-256 %s\n", hash.c_str()); };
-  if (isatty(STDERR_FILENO) != 0) {
-    events.progress = [](const char* stage, int done, int total) {
-      std::fprintf(stderr, "\r%s %d of %d%s", stage, done, total, done == total ? "\n" : "");
-    };
-  }
+  events.sealed = [](const std::string& seal) {
+    clearProgress(), std::fprintf(stderr, "labels sealed, SHA-256 %s\n", seal.c_str());
+  };
+  events.frozen = [](const std::string& hash) {
+    clearProgress(), std::fprintf(stderr, "answers frozen, SHA-256 %s\n", hash.c_str());
+  };
+  events.progress = [](const char* stage, int done, int total) {
+    atWork(stage, static_cast<std::size_t>(done), static_cast<std::size_t>(total));
+  };
   return events;
 }
 

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "app/command_line.h"
+#include "app/commands/compare_results.h"
 #include "app/computations.h"
 #include "app/model.h"
 #include "app/options.h"
@@ -11,9 +12,11 @@
 #include "core/campaign/state_points.h"
 #include "core/comparison/compare.h"
 #include "core/comparison/geometry_change.h"
+#include "core/io/input_error.h"
 #include "reports/json/campaign_json.h"
 #include "reports/json/json.h"
 #include "reports/report_content.h"
+#include "reports/stated_results.h"
 #include "reports/text/text.h"
 #include "reports/words/preparation_words.h"
 
@@ -99,12 +102,13 @@ int compareTwo(const CompareRequest& request, const CampaignSource& source_befor
 
 void addCompare(CLI::App& app, Run& run) {
   struct CompareArguments {
-    std::string before, after, json;
+    std::string before, after, json, html;
     bool raw = false;
     CompareRequest request;
   };
   const auto arguments = std::make_shared<CompareArguments>();
-  CLI::App* command = app.add_subcommand("compare", "Two states of one machine: compliances, and deflection avoided");
+  CLI::App* command =
+      app.add_subcommand("compare", "Two states of one machine: compliances, and deflection avoided; or two results");
   command->footer(
       "States the difference of compliances first, with U (95 %): where both campaigns measured the same postures, "
       "what\n"
@@ -115,17 +119,36 @@ void addCompare(CLI::App& app, Run& run) {
       "and what that avoids of the deflection at the reflectors. Stiffnesses before and after are those of identify;\n"
       "where no postures correspond, the differences too. Two days without a load: what moved in the arm's geometry\n"
       "(joint zeros, lengths, angles of axes), how significant it is, and which single cause explains it.\n"
-      "docs/method.md has the formulas.");
-  command->add_option("BEFORE", arguments->before, "campaign before, or with the double encoders inactive")->required();
-  command->add_option("AFTER", arguments->after, "campaign after, or with the double encoders active")->required();
+      "docs/method.md has the formulas. Two result files instead of campaigns (results.json of report, or --json of\n"
+      "audit, frames, identify, calibrate, diagnose; FILE.json#2 is the second campaign in one) are put side by side "
+      "as\n"
+      "they stand, matched by joint and posture, also as a page by --html: docs/results.md.");
+  command
+      ->add_option("BEFORE", arguments->before,
+                   "campaign before, or with the double encoders inactive; or a results.json")
+      ->required();
+  command
+      ->add_option("AFTER", arguments->after, "campaign after, or with the double encoders active; or a results.json")
+      ->required();
   command->add_option("--step", arguments->request.step, "load step of both to identify from");
   command->add_flag("--neglect-kc", arguments->request.neglect_kc, "neglect K_c, as the paper does");
   addModelOptions(*command, arguments->request.model);
   addRawOption(*command, arguments->raw);
   command->add_option("--seed", arguments->request.seed, "of the bootstrap over postures")->capture_default_str();
   command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
+  command->add_option("--html", arguments->html, "of two result files: write the page of them to this file");
   command->callback([arguments, &run] {
     run = [arguments] {
+      requireOwnFiles({{"--html", arguments->html}, {"--json", arguments->json}});
+      const bool first = reports::namesResults(arguments->before), second = reports::namesResults(arguments->after);
+      if (first && second)
+        return compareResults(arguments->before, arguments->after, arguments->html, commandLineOutlet(arguments->json));
+      if (first != second)
+        throw io::InputError({first ? arguments->after : arguments->before}, "",
+                             "expected a result file, as the other one is, or a campaign for both");
+      if (!arguments->html.empty())
+        throw io::InputError({"--html"}, arguments->html,
+                             "expected two result files; `report` writes one of a campaign, results.json");
       return compareTwo(arguments->request, sourceOf(arguments->before, arguments->raw),
                         sourceOf(arguments->after, arguments->raw), commandLineOutlet(arguments->json));
     };

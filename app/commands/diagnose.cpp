@@ -13,6 +13,7 @@
 #include "app/options.h"
 #include "app/output.h"
 #include "app/prepared.h"
+#include "app/terminal.h"
 #include "core/accuracy/diagnose_accuracy.h"
 #include "core/campaign/campaign.h"
 #include "core/campaign/state_points.h"
@@ -82,13 +83,9 @@ int diagnoseWithSpikes(DiagnoseArguments& arguments) {
   if (!arguments.picture.empty()) io::requireNotRead(arguments.picture);  // before the study, which takes minutes
   requireLoad(campaign);
   const diagnosis::Diagnosis diagnosis = diagnosed(preparation::prepareCampaign(campaign));
-  std::function<void(std::size_t, std::size_t)> progress;
-  if (isatty(STDERR_FILENO) != 0) {
-    progress = [](std::size_t done, std::size_t total) {
-      std::fprintf(stderr, "\rdiagnosed %zu of %zu%s", done, total, done == total ? "\n" : "");
-    };
-  }
-  const diagnosis::SpikeStudy study = diagnosis::spikeStudy(campaign, diagnosis, arguments.options, progress);
+  const diagnosis::SpikeStudy study =
+      diagnosis::spikeStudy(campaign, diagnosis, arguments.options,
+                            [](std::size_t done, std::size_t total) { atWork("diagnosed", done, total); });
   if (!arguments.picture.empty()) drawSpikes(arguments.picture, campaign, diagnosis, study);
   deliver([&] { return reports::withSpikes(reports::diagnosisJson(campaign, diagnosis), study); },
           [&] {

@@ -24,6 +24,7 @@
 #include "app/options.h"
 #include "app/output.h"
 #include "app/prepared.h"
+#include "app/terminal.h"
 #include "core/accuracy/diagnose_accuracy.h"
 #include "core/audit/audit.h"
 #include "core/audit/check_design.h"
@@ -165,6 +166,7 @@ struct Result {
     campaign::Campaign read = openCampaign(folder);
     prepared = arguments.raw ? preparation::leaveRaw(std::move(read)) : preparation::prepareCampaign(std::move(read));
     loaded = identification::whatLoadsLack(prepared.campaign).empty();
+    atWork("identifying and diagnosing " + folder);
     if (!loaded && campaign::isUnloadedDay(prepared.campaign)) accuracy = accuracy::diagnoseAccuracy(prepared);
     if (loaded) improved = modelOf(prepared, arguments.model, options);
     if (loaded) diagnosis = diagnosisOf(prepared, improved);
@@ -174,6 +176,7 @@ struct Result {
     }
     addWorkspace();
     addScene();
+    atWork("auditing " + folder);
     audited = arguments.raw ? audit::audit(prepared.campaign) : audit::audit(prepared);
     if (diagnosis) audit::addSeparableEffects(*diagnosis, audited);
     withoutLoadReadings(prepared.campaign);
@@ -325,6 +328,7 @@ int writeReport(const ReportArguments& arguments) {
         {"acceptance limits", reports::asIs(limits->file) + ", SHA-256 `" + limits->sha256 + "`"});
   }
   for (std::size_t i = 0; i < decisions.size(); ++i) content.campaigns[i].decisions = &decisions[i];
+  atWork("drawing figures");
   content.figures = makeFigures(content.campaigns, {arguments.paper}, content.avoided);
 
   addScenes(results, content);

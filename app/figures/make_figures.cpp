@@ -2,10 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <type_traits>
-
 #include "app/figures/accuracy_figures.h"
 #include "app/figures/arm_scenes.h"
+#include "app/figures/drawn.h"
 #include "app/view/view_material.h"
 #include "render/image.h"
 #include "reports/page/html.h"
@@ -20,43 +19,6 @@ namespace {
 constexpr render::Size kChart{1200, 700};
 constexpr render::Size kScene{1200, 800};
 constexpr std::size_t kMostGhosts = 60;  // more postures in one picture hide each other
-
-// What the axes of a chart say; of a scene nothing.
-template <class Picture>
-void nameAxes(const Picture& picture, reports::Figure& figure) {
-  if constexpr (requires { picture.category_title; }) {
-    figure.value_name = picture.y_title;
-    figure.category_name = picture.category_title;
-  } else if constexpr (requires { picture.diagrams; }) {
-    if (picture.diagrams.empty()) return;
-    figure.value_name = picture.diagrams.front().y_title;
-    figure.category_name = picture.diagrams.back().x_title;
-  } else if constexpr (requires { picture.rows; }) {
-    figure.value_name = picture.x_title;
-  } else if constexpr (requires {
-                         picture.panels;
-                         picture.methods;
-                       }) {
-    figure.value_name = picture.y_title;
-    figure.category_name = "Joint";
-  }
-}
-
-template <class Picture>
-reports::Figure drawn(reports::Figure figure, const Picture& picture, render::Size size) {
-  size.doubled = true;
-  render::Image image = render::render(picture, size);
-  nameAxes(picture, figure);
-  if constexpr (!std::is_same_v<Picture, render::ArmScene>) {  // that has no values
-    for (render::Mark& mark : image.marks)
-      figure.marks.push_back(
-          {mark.x, mark.y, std::move(mark.series), std::move(mark.category), mark.value, mark.category_at});
-  }
-  figure.png = render::encodeSmallPng(image);
-  figure.width = image.width;
-  figure.height = image.height;
-  return figure;
-}
 
 /// The figures of one campaign, each put into the section of the page that it belongs to.
 class FigureList {

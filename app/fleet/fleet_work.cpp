@@ -14,6 +14,7 @@
 
 #include "app/fleet/fleet_day.h"
 #include "app/fleet/processes.h"
+#include "app/terminal.h"
 #include "core/io/input_error.h"
 #include "core/io/read_file.h"
 #include "core/io/write_file.h"
@@ -129,7 +130,6 @@ void runTasks(const FleetRequest& request, const std::vector<Task>& tasks, const
   const std::size_t jobs = std::min(request.jobs > 0 ? request.jobs : cores, tasks.size());
   const std::string threads = fmt::format("STIFFSCOPE_THREADS={}", std::max<std::size_t>(1, cores / jobs));
   const std::string program = ownProgram().string();
-  const bool shown = isatty(STDERR_FILENO) != 0;
   std::mutex mutex;
   std::size_t done = 0;
   numerics::onThreads(jobs, tasks.size(), [&](std::size_t i) {
@@ -142,7 +142,7 @@ void runTasks(const FleetRequest& request, const std::vector<Task>& tasks, const
       fs::remove(messageFile(task.file), none);
     const std::lock_guard lock(mutex);
     ++done;
-    if (shown) std::fprintf(stderr, "\r%s %zu of %zu%s", stage, done, tasks.size(), done == tasks.size() ? "\n" : "");
+    atWork(stage, done, tasks.size());
   });
 }
 

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 
+#include "core/comparison/stated_change.h"
 #include "core/identification/identification.h"
 #include "core/identification/remarks.h"
 #include "core/identification/shown_first.h"
-#include "metrology/tail_probability.h"
 
 namespace stiffscope::comparison {
 
@@ -118,15 +118,6 @@ Remark markOf(const identification::StiffnessEstimate& before, const identificat
   return first.is(identification::RemarkId::negative) || second.empty() ? first : second;
 }
 
-/// Two-sided, of a number that is zero.
-double pOfZero(const Uncertain& number, double size) {
-  constexpr double kRounding = 1e-12;  // of the size: what is left of equal ones
-  if (!std::isfinite(number.sd) || !(number.dof > 0.0)) return kNone;
-  if (number.sd <= kRounding * size) return std::abs(number.value) <= kRounding * size ? 1.0 : kNone;
-  const double t = number.value / number.sd;
-  return metrology::fTail(t * t, 1, number.dof);
-}
-
 /// The stiffnesses of each campaign's own identification.
 void stateStiffnesses(const identification::StiffnessEstimate& before, const identification::StiffnessEstimate& after,
                       int joint, JointChange& change) {
@@ -207,22 +198,19 @@ void stateModels(const identification::StiffnessEstimate& before, const identifi
 /// The difference of the two models' compliances with U from their intervals, and what follows of it.
 void differByModels(const identification::StiffnessEstimate& before, const identification::StiffnessEstimate& after,
                     int joint, double avoided_by_unit, JointChange& change) {
-  const auto u = [&](const identification::StiffnessEstimate& one) {
-    const identification::CoverageInterval c = identification::complianceInterval(one, joint);
-    return std::max(c.high - one.compliance[joint], one.compliance[joint] - c.low);
-  };
+  const identification::CoverageInterval interval_before = identification::complianceInterval(before, joint),
+                                         interval_after = identification::complianceInterval(after, joint);
   const double c_before = before.compliance[joint], c_after = after.compliance[joint];
-  const double u_before = u(before), u_after = u(after), expanded = std::hypot(u_before, u_after);
-  constexpr double kManyDegrees = 1e6;  // quantiles of draws are no Student's t
-  change.difference = {c_after - c_before, expanded / identification::kNormalFactor, kManyDegrees, expanded};
+  const double u_before = fartherEnd(c_before, interval_before), u_after = fartherEnd(c_after, interval_after);
+  change.difference = differenceOfStated(c_before, interval_before, c_after, interval_after);
   change.correlation = 0.0;
   change.p_value = pOfZero(change.difference, std::abs(c_before));
   const double taken_u = std::hypot(u_after / c_before, c_after * u_before / (c_before * c_before));
-  change.taken = {1.0 - c_after / c_before, taken_u / identification::kNormalFactor, kManyDegrees, taken_u};
+  change.taken = {1.0 - c_after / c_before, taken_u / identification::kNormalFactor, change.difference.dof, taken_u};
   if (!(c_before > u_before)) change.taken = {kNone, kNone, 0.0};
   const double by_unit = std::abs(avoided_by_unit);
-  change.avoided = {-avoided_by_unit * change.difference.value, by_unit * change.difference.sd, kManyDegrees,
-                    by_unit * expanded};
+  change.avoided = {-avoided_by_unit * change.difference.value, by_unit * change.difference.sd, change.difference.dof,
+                    by_unit * change.difference.expanded()};
   if (avoided_by_unit == 0.0) change.avoided = {kNone, kNone, 0.0};
 }
 

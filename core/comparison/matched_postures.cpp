@@ -9,8 +9,7 @@ namespace stiffscope::comparison {
 
 namespace {
 
-constexpr double kSamePlace = 1e-3, kSameDirection = 1e-3;  // m, rad: beyond what two files of one arm round to
-constexpr double kSameMass = 1e-3;                          // of all links together
+constexpr double kSameMass = 1e-3;  // of all links together
 
 using CaseByPose = std::unordered_map<std::string, std::size_t>;
 

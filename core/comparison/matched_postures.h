@@ -52,6 +52,9 @@ std::vector<ReflectorPair> reflectorsInBoth(const campaign::Campaign& before_cam
                                             const campaign::Campaign& after_campaign,
                                             const identification::LoadCase& after);
 
+/// m, rad: beyond what two descriptions of one arm round to.
+inline constexpr double kSamePlace = 1e-3, kSameDirection = 1e-3;
+
 /// Why the two nominal arms are not one machine: an axis that stands more than 1 mm or 1 mrad elsewhere in
 /// base_link. Empty where they are.
 Remark differenceOfMachines(const robot::Robot& before, const robot::Robot& after);

@@ -56,11 +56,13 @@ Json campaignJson(const campaign::Campaign& campaign) {
   Json inputs = Json::array();
   for (const campaign::InputFile& input : campaign.inputs)
     inputs.push_back({{"file", input.name}, {"sha256", input.sha256}});
-  return {{"name", campaign.name},
-          {"date", campaign.date},
-          {"robot", campaign.robot.name},
-          {"double_encoder", nameOf(campaign.double_encoder)},
-          {"inputs", inputs}};
+  Json json{{"name", campaign.name},
+            {"date", campaign.date},
+            {"robot", campaign.robot.name},
+            {"double_encoder", nameOf(campaign.double_encoder)},
+            {"inputs", inputs}};
+  if (!campaign.texts.robot_serial.empty()) json["robot_serial"] = campaign.texts.robot_serial;
+  return json;
 }
 
 }  // namespace stiffscope::reports

@@ -72,6 +72,8 @@ struct WorkspaceStiffness;
 
 namespace stiffscope::reports {
 
+struct StatedComparison;
+
 struct ReportContent;
 
 /// Which joint angles a calibration stands on, and, where the log has both kinds, how well either predicts.
@@ -86,6 +88,9 @@ Json calibrationJson(const campaign::Campaign& campaign, const calibration::Cali
 
 /// One method's part of `compare`, joint by joint; `ratios_hold`: what joint springs leave is noise.
 Json changeJson(const comparison::StiffnessChange& change, bool ratios_hold);
+
+/// The result of `compare` of two result files.
+Json statedComparisonJson(const StatedComparison& comparison);
 
 /// The result of `compare`. `joints` are those of the best method that both campaigns have (`method`); all of
 /// them stand under `methods`.

@@ -205,15 +205,15 @@ std::vector<std::string> headsOf(const reports::ReportContent& content, const Ab
   return heads;
 }
 
-std::string stiffnessWords(const reports::ReportCampaign& one, int joint) {
+std::string stiffnessWords(const reports::ReportCampaign& one, int joint, const reports::StiffnessUnit& unit) {
   const auto shown = reports::shownMethod(one.identification);
   if (!shown) return "–";
   const identification::StiffnessEstimate& estimate = one.identification.of(*shown).estimate;
   if (!estimate.identifiable[static_cast<std::size_t>(joint)]) return "not seen";
   const double u = identification::expandedUncertainty(estimate, joint);
-  const double k = estimate.stiffness(joint) / reports::kMega;
+  const double k = estimate.stiffness(joint) / unit.size;
   const std::string mark = reports::words(estimate.mark(joint));
-  const std::string words = std::isfinite(u) ? reports::withUncertainty(k, u / reports::kMega)
+  const std::string words = std::isfinite(u) ? reports::withUncertainty(k, u / unit.size)
                                              : fmt::format("{} (U open)", reports::significant(k, 3));
   return mark.empty() ? words : fmt::format("{} ({})", words, mark);
 }
@@ -228,7 +228,16 @@ void addStiffnesses(const reports::ReportContent& content, reports::Table& table
       methods.push_back(name);
   }
   const bool one_method = methods.size() == 1;
-  table.caption = fmt::format("Joint stiffness k ± U, 10⁶\u00a0Nm/rad{}", one_method ? ", by " + methods.front() : "");
+  std::vector<double> stiffnesses;
+  for (const reports::ReportCampaign& one : content.campaigns) {
+    const auto shown = reports::shownMethod(one.identification);
+    for (int joint = 0; isLoaded(one) && shown && joint < 6; ++joint) {
+      const identification::StiffnessEstimate& estimate = one.identification.of(*shown).estimate;
+      if (estimate.identifiable[static_cast<std::size_t>(joint)]) stiffnesses.push_back(estimate.stiffness(joint));
+    }
+  }
+  const reports::StiffnessUnit unit = reports::stiffnessUnit(stiffnesses);
+  table.caption = fmt::format("Joint stiffness k ± U, {}{}", unit.name, one_method ? ", by " + methods.front() : "");
   table.columns = {"Joint"};
   for (const std::string& head : headsOf(content, isLoaded, "k ± U")) table.columns.push_back(head);
   if (methods.size() > 1) {
@@ -242,7 +251,7 @@ void addStiffnesses(const reports::ReportContent& content, reports::Table& table
   for (int joint = 0; joint < 6; ++joint) {
     reports::Row row{reports::jointName(joint)};
     for (const reports::ReportCampaign& one : content.campaigns) {
-      if (isLoaded(one)) row.emplace_back(stiffnessWords(one, joint));
+      if (isLoaded(one)) row.emplace_back(stiffnessWords(one, joint, unit));
     }
     table.groups.front().rows.push_back(std::move(row));
   }

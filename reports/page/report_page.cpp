@@ -128,15 +128,7 @@ void keepMarks(Html& html, const reports::Figure& figure) {
 }
 
 void writeScripts(Html& html, const reports::ReportContent& content) {
-  html.script(kTablesScript);
-  bool any = false;
-  for (const reports::Figure& figure : content.figures) {
-    if (figure.marks.empty()) continue;
-    any = true;
-    html.script(withoutMarkup(marksJson(figure)),
-                {{"type", "application/json"}, {"class", "marks"}, {"data-figure", figure.id}});
-  }
-  if (any) html.script(kChartsScript);
+  writeChartScripts(html, content.figures);
   if (content.scenes.empty() || kThreeGzip.empty()) return;
   for (const reports::PageScene& scene : content.scenes)
     html.script(withoutMarkup(scene.json),
@@ -152,6 +144,18 @@ void writeEnd(Html& html, const reports::ReportContent& content) {
 }
 
 }  // namespace
+
+void writeChartScripts(Html& html, const std::vector<reports::Figure>& figures) {
+  html.script(kTablesScript);
+  bool any = false;
+  for (const reports::Figure& figure : figures) {
+    if (figure.marks.empty()) continue;
+    any = true;
+    html.script(withoutMarkup(marksJson(figure)),
+                {{"type", "application/json"}, {"class", "marks"}, {"data-figure", figure.id}});
+  }
+  if (any) html.script(kChartsScript);
+}
 
 ReportPage makeReportPage(const reports::ReportContent& content) {
   Html html;

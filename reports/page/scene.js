@@ -119,12 +119,12 @@
       this.cone(from, radius, neck, radius, colour);
       this.cone(neck, Math.max(0.4 * head, 1.4 * radius), to, 0, colour);
     }
-    object(THREE) {
+    object(THREE, material) {
       const geometry = new THREE.BufferGeometry();
       geometry.setAttribute('position', new THREE.Float32BufferAttribute(this.points, 3));
       geometry.setAttribute('color', new THREE.Float32BufferAttribute(this.colours, 3));
       geometry.setIndex(this.triangles);
-      return new THREE.Mesh(geometry, new THREE.MeshBasicMaterial({ vertexColors: THREE.VertexColors }));
+      return new THREE.Mesh(geometry, material);
     }
   }
 
@@ -285,6 +285,9 @@
       this.renderer.autoClear = false;
       this.camera = new THREE.OrthographicCamera(-1, 1, 1, -1, 1, 100);
       this.camera.matrixAutoUpdate = false;
+      // Kept: a material that goes takes its compiled shaders along, and the next frame would compile them again.
+      this.surface = new THREE.MeshBasicMaterial({ vertexColors: THREE.VertexColors });
+      this.line = new THREE.LineBasicMaterial();
       this.room.append(this.canvas, this.labels, this.numbers, this.keys);
       this.live = element('div', { class: 'scene-live' });
       this.live.append(this.bar, this.room, this.status);
@@ -421,7 +424,6 @@
       this.renderer.clearDepth();
       this.renderer.render(scene, this.camera);
       object.geometry.dispose();
-      object.material.dispose();
     }
 
     draw() {
@@ -444,7 +446,7 @@
       this.layer(this.floor());
       const arm = new Mesh(light, 0.55, 40);
       addArm(arm, this.frame, palette);
-      this.layer(arm.object(THREE));
+      this.layer(arm.object(THREE, this.surface));
       const mm = view.high_mm / this.height;  // a pixel
       for (const vector of this.data.vectors) {
         if (!this.shown[vector.key]) continue;
@@ -455,7 +457,7 @@
           const colour = this.byShare ? this.shareColour(this.shareOf(vectors)) : palette[vector.colour];
           mesh.arrow(point.at, add(point.at, times(vectors[vector.key], this.factorOf(vector.key))), (vector.width / 2) * mm, 15 * mm, colour);
         }
-        if (mesh.triangles.length > 0) this.layer(mesh.object(THREE));
+        if (mesh.triangles.length > 0) this.layer(mesh.object(THREE, this.surface));
       }
       const dots = new Mesh(light, 0.86, 16);
       for (const point of this.frame.points) if (point.wrist) dots.sphere(point.at, 6 * mm, palette.wrist);
@@ -463,7 +465,7 @@
         const now = trace.axis === this.frame.posture;
         for (const point of trace.points) dots.sphere(point, (now ? 4 : 3) * mm, mix(palette.measured, palette.paper, now ? 1 : 0.35), 8);
       }
-      if (dots.triangles.length > 0) this.layer(dots.object(THREE));
+      if (dots.triangles.length > 0) this.layer(dots.object(THREE, this.surface));
       this.drawLabels();
       this.tell();
       this.drawn = (this.drawn || 0) + 1;
@@ -487,7 +489,8 @@
       for (let y = from[1]; y <= to[1]; y += step) lines.push(from[0], y, 0, to[0], y, 0);
       const geometry = new THREE.BufferGeometry();
       geometry.setAttribute('position', new THREE.Float32BufferAttribute(lines, 3));
-      return new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ color: css(palette.grid) }));
+      this.line.color.setStyle(css(palette.grid));
+      return new THREE.LineSegments(geometry, this.line);
     }
 
     // From faint (no share) to full colour (all of it).

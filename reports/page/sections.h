@@ -42,6 +42,9 @@ void writeProvenance(Html& html, const reports::ReportContent& content);  ///< f
 bool hasVersions(const reports::ReportContent& content);
 void writeVersions(Html& html, const reports::ReportContent& content);  ///< versions, settings
 
+/// What sorts tables and answers for the marks of figures: the page's scripts but for its scenes.
+void writeChartScripts(Html& html, const std::vector<reports::Figure>& figures);
+
 /// Which campaigns a section is about.
 using About = bool (*)(const reports::ReportCampaign&);
 bool isAny(const reports::ReportCampaign& one);

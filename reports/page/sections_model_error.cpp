@@ -180,25 +180,33 @@ bool seen(const identification::MethodResult& method, int joint) {
   return method.available && method.estimate.identifiable[static_cast<std::size_t>(joint)];
 }
 
-reports::Cell stiffnessOf(const identification::MethodResult& method, int joint) {
+reports::Cell stiffnessOf(const identification::MethodResult& method, int joint, const reports::StiffnessUnit& unit) {
   if (!seen(method, joint)) return "–";
   const double expanded = reports::coverageOf(method.estimate, joint).factor * method.estimate.stiffnessSd(joint);
-  return reports::withUncertainty(1e-6 * method.estimate.stiffness(joint), 1e-6 * expanded);
+  return reports::withUncertainty(method.estimate.stiffness(joint) / unit.size, expanded / unit.size);
 }
 
 reports::Table stiffnessWithEffectsTable(const extended_model::ExtendedModel& model) {
-  reports::Table table{
-      "Stiffness k ± U without and with the effects, 10⁶\u00a0Nm/rad", {"Joint", "Method", "Without", "With"}, {}};
+  const reports::StiffnessUnit unit = reports::stiffnessUnit(model.with);
+  reports::Table table{fmt::format("Stiffness k ± U without and with the effects, {}", unit.name), {"Joint"}, {{}}};
+  for (const identification::Method method : identification::kMethods) {
+    if (!model.without.of(method).available && !model.with.of(method).available) continue;
+    table.columns.push_back(reports::shortName(method) + " without");
+    table.columns.push_back("with");
+  }
   table.id = "effects-stiffness";
   reports::DataTable& data = table.data.emplace();
   data.columns = {"joint",           "method",           "without_nm_per_rad", "u_without_nm_per_rad",
                   "with_nm_per_rad", "u_with_nm_per_rad"};
   for (int joint = 0; joint < 6; ++joint) {
-    reports::RowGroup group{reports::jointName(joint), {}};
+    reports::Row shown{reports::jointName(joint)};
+    bool any = false;
     for (const identification::Method method : identification::kMethods) {
       const identification::MethodResult &without = model.without.of(method), &with = model.with.of(method);
+      if (!without.available && !with.available) continue;
+      shown.insert(shown.end(), {stiffnessOf(without, joint, unit), stiffnessOf(with, joint, unit)});
       if (seen(without, joint) || seen(with, joint)) {
-        group.rows.push_back({reports::shortName(method), stiffnessOf(without, joint), stiffnessOf(with, joint)});
+        any = true;
         std::vector<reports::DataCell>& row = data.rows.emplace_back();
         row = {joint + 1.0, std::string(reports::namesOf(method).key)};
         for (const identification::MethodResult* one : {&without, &with}) {
@@ -209,7 +217,7 @@ reports::Table stiffnessWithEffectsTable(const extended_model::ExtendedModel& mo
         }
       }
     }
-    if (!group.rows.empty()) table.groups.push_back(std::move(group));
+    if (any) table.groups.front().rows.push_back(std::move(shown));
   }
   return table;
 }

@@ -30,7 +30,7 @@ std::string markNote(const Remark& mark) {
 }
 
 reports::Cell stiffnessCell(const identification::Identification& result, identification::Method method, int joint,
-                            Notes& notes) {
+                            const reports::StiffnessUnit& unit, Notes& notes) {
   const identification::MethodResult& one = result.of(method);
   if (!one.available) return {"not available", notes.mark(unavailable(result, method))};
   if (!one.estimate.identifiable[static_cast<std::size_t>(joint)]) {
@@ -39,8 +39,7 @@ reports::Cell stiffnessCell(const identification::Identification& result, identi
             notes.mark(fmt::format("{} is not identifiable: {}.", reports::jointName(joint), reports::words(reason)))};
   }
   const double expanded = reports::coverageOf(one.estimate, joint).factor * one.estimate.stiffnessSd(joint);
-  const std::string value =
-      reports::withUncertainty(one.estimate.stiffness(joint) / reports::kMega, expanded / reports::kMega);
+  const std::string value = reports::withUncertainty(one.estimate.stiffness(joint) / unit.size, expanded / unit.size);
   const Remark mark = one.estimate.mark(joint);
   return mark.empty() ? reports::Cell(value)
                       : reports::Cell(value, fmt::format("{} {}", reports::words(mark), notes.mark(markNote(mark))));
@@ -73,7 +72,8 @@ reports::DataTable stiffnessData(const identification::Identification& result) {
 }
 
 reports::Table stiffnessTable(const identification::Identification& result, Notes& notes) {
-  reports::Table table{"Joint stiffness k ± U, 10⁶\u00a0Nm/rad, from all postures", {"Joint"}, {{}}};
+  const reports::StiffnessUnit unit = reports::stiffnessUnit(result);
+  reports::Table table{fmt::format("Joint stiffness k ± U, {}, from all postures", unit.name), {"Joint"}, {{}}};
   table.id = "stiffness";
   table.data = stiffnessData(result);
   for (const identification::Method method : identification::kMethods)
@@ -81,7 +81,7 @@ reports::Table stiffnessTable(const identification::Identification& result, Note
   for (int joint = 0; joint < 6; ++joint) {
     reports::Row row{reports::jointName(joint)};
     for (const identification::Method method : identification::kMethods)
-      row.push_back(stiffnessCell(result, method, joint, notes));
+      row.push_back(stiffnessCell(result, method, joint, unit, notes));
     table.groups.front().rows.push_back(std::move(row));
   }
   return table;

@@ -131,7 +131,7 @@ constexpr const char* kPrint =
     ".several,.figures{display:block}.one .each,header .cautions{columns:auto}.scroll{break-inside:auto}"
     "figcaption,.notes,p.faint{font-size:8.5pt}.verdict{font-size:12pt}"
     "table,.each table{font-size:7.5pt}th,td{padding:.15rem .36rem}"
-    ".figures{margin:0}figure{margin:3mm 0}figure img{width:auto;max-width:100%;max-height:82mm}"
+    ".figures{margin:0}figure{margin:3mm 0}figure img{width:auto;max-width:100%;max-height:72mm}"
     ".scroll{overflow:visible;margin-bottom:3mm}caption{max-width:none}"
     "p,ul,ol,figcaption{max-width:none}"
     ".numbers{grid-template-columns:repeat(3,1fr)}.numbers b{font-size:16pt}"

@@ -65,7 +65,7 @@ void writeClasses(const AccuracyDiagnosis& accuracy, Out out) {
 }
 
 void writeLimits(const AccuracyDiagnosis& accuracy, Out out) {
-  fmt::format_to(out, "\nSmallest size that would have been seen, um rms per coordinate:\n");
+  fmt::format_to(out, "\nSmallest size that would have been seen, µm rms per coordinate:\n");
   std::string sizes;
   for (const accuracy::DetectableEffect& one : accuracy.detectable) {
     if (one.size) sizes += fmt::format("{}{} {:.1f}", sizes.empty() ? "" : ", ", idOf(one.effect), um(*one.size));
@@ -90,7 +90,7 @@ std::string accuracyText(const campaign::Campaign& campaign, const AccuracyDiagn
   for (const std::string& sentence : words(accuracy.reasons)) fmt::format_to(out, "  {}\n", wrapped(sentence, 2));
   fmt::format_to(
       out,
-      "\nHow far: gap of the positions, um rms per coordinate, held out\n  as the URDF has the arm{:>13.1f}\n"
+      "\nHow far: gap of the positions, µm rms per coordinate, held out\n  as the URDF has the arm{:>13.1f}\n"
       "  geometry calibrated{:>18.1f}\n  with effects{:>25.1f}  (shrinks by {:.3f}, 95 %: {})\n"
       "  noise of the readings{:>16.1f}\n",
       um(accuracy.gap.nominal), um(accuracy.gap.before), um(accuracy.gap.after),

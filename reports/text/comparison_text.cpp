@@ -33,7 +33,7 @@ std::string pText(double p) {
 constexpr double kMicroradian = 1e-6;
 
 void writeDifferences(const comparison::StiffnessChange& change, Out out) {
-  fmt::format_to(out, "  {:<4}{:>26}{:>11}{:>11}{:>20}{:>20}\n", "", "difference (urad/Nm)", "p", "Holm",
+  fmt::format_to(out, "  {:<4}{:>26}{:>11}{:>11}{:>20}{:>20}\n", "", "difference (µrad/Nm)", "p", "Holm",
                  "taken away, %", "of deflection, %");
   for (std::size_t j = 0; j < 6; ++j) {
     const comparison::JointChange& joint = change.joints[j];
@@ -52,14 +52,19 @@ void writeDifferences(const comparison::StiffnessChange& change, Out out) {
 }
 
 void writeStiffnesses(const comparison::StiffnessChange& change, bool ratios_hold, Out out) {
-  fmt::format_to(out, "  {:<4}{:>22}{:>22}{:>24}{:>8}\n", "", "before (1e6 Nm/rad)", "after (1e6 Nm/rad)", "ratio",
-                 "corr.");
+  std::vector<double> stiffnesses;
+  for (const comparison::JointChange& joint : change.joints) {
+    if (joint.comparable) stiffnesses.insert(stiffnesses.end(), {joint.before.value, joint.after.value});
+  }
+  const StiffnessUnit unit = stiffnessUnit(stiffnesses);
+  fmt::format_to(out, "  {:<4}{:>22}{:>22}{:>24}{:>8}\n", "", fmt::format("before ({})", unit.text),
+                 fmt::format("after ({})", unit.text), "ratio", "corr.");
   for (std::size_t j = 0; j < 6; ++j) {
     const comparison::JointChange& joint = change.joints[j];
     if (!joint.comparable) continue;
     const std::string ratio = withU(joint.ratio, 1.0, 4);
-    fmt::format_to(out, "  k{:<3}{:>22}{:>22}{:>24}{:>8.2f}{}\n", j + 1, withU(joint.before, 1e-6, 4),
-                   withU(joint.after, 1e-6, 4), ratios_hold ? ratio : "(" + ratio + ")", joint.correlation,
+    fmt::format_to(out, "  k{:<3}{:>22}{:>22}{:>24}{:>8.2f}{}\n", j + 1, withU(joint.before, 1.0 / unit.size, 4),
+                   withU(joint.after, 1.0 / unit.size, 4), ratios_hold ? ratio : "(" + ratio + ")", joint.correlation,
                    joint.mark.empty() ? "" : "  " + words(joint.mark));
   }
 }
@@ -91,14 +96,14 @@ void writeLegend(const comparison::Comparison& comparison, Out out) {
   fmt::format_to(out, "\n  {}\n", wrapped(text, 2));
   if (!left.available) return;
   const auto micrometres = [](double value) { return value / io::kMicrometre; };
-  text = fmt::format("Joint springs leave {:.1f} um per coordinate before and {:.1f} um after",
+  text = fmt::format("Joint springs leave {:.1f} µm per coordinate before and {:.1f} µm after",
                      micrometres(left.before), micrometres(left.after));
   if (left.noise_before && left.noise_after) {
-    text += fmt::format(" (noise of the tracker: {:.1f} and {:.1f} um)", micrometres(*left.noise_before),
+    text += fmt::format(" (noise of the tracker: {:.1f} and {:.1f} µm)", micrometres(*left.noise_before),
                         micrometres(*left.noise_after));
   }
   if (std::isfinite(left.of_difference)) {
-    text += fmt::format(", {:.1f} um of the difference", micrometres(left.of_difference));
+    text += fmt::format(", {:.1f} µm of the difference", micrometres(left.of_difference));
   }
   text += left.isNoise() ? ". It is noise, as far as it shows: ratios of stiffnesses hold."
           : comparison.models_hold
@@ -126,7 +131,7 @@ void writeShare(const comparison::DeflectionAvoided& avoided, const char* place,
 
 void writePostures(const comparison::DeflectionAvoided& avoided, const char* place, Out out) {
   fmt::format_to(out, "\nThe deflection at {}, posture by posture\n  {:<12}{:>14}{:>14}{:>12}\n", place, "pose",
-                 "before (um)", "after (um)", "avoided, %");
+                 "before (µm)", "after (µm)", "avoided, %");
   const auto row = [](const comparison::PostureDeflection& one) {
     return fmt::format("{:<12}{:>14.1f}{:>14.1f}{:>12.1f}", one.pose, one.before / io::kMicrometre,
                        one.after / io::kMicrometre, 100.0 * one.share());

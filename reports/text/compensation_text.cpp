@@ -55,12 +55,15 @@ void addKnowledge(const std::vector<compensation::CompensatedPosture>& postures,
                   const std::vector<campaign::KnownStiffness>& known, const std::vector<std::string>& cautions,
                   std::string& text) {
   auto out = std::back_inserter(text);
-  for (const campaign::KnownStiffness& one : known)
-    fmt::format_to(out, "{}\n",
-                   wrapped(fmt::format("  k{} = {:.4f} +- {:.4f} 1e6 Nm/rad (standard uncertainty) is not of this day, "
-                                       "which cannot see it, but from: {}.",
-                                       one.joint + 1, one.stiffness / 1e6, one.sd / 1e6, one.source),
-                           2));
+  for (const campaign::KnownStiffness& one : known) {
+    const StiffnessUnit unit = stiffnessUnit(std::vector<double>{one.stiffness});
+    fmt::format_to(
+        out, "{}\n",
+        wrapped(fmt::format("  k{} = {:.4f} +- {:.4f} {} (standard uncertainty) is not of this day, "
+                            "which cannot see it, but from: {}.",
+                            one.joint + 1, one.stiffness / unit.size, one.sd / unit.size, unit.text, one.source),
+                2));
+  }
   fmt::format_to(out, "{}\n", wrapped(summaryWords(compensation::summaryOf(postures)) + ".", 2));
   addCautions(postures, text);
   for (const std::string& caution : cautions) fmt::format_to(out, "{}\n", wrapped("Caution: " + caution + ".", 2));

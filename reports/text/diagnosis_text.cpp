@@ -67,32 +67,39 @@ void writeClasses(const diagnosis::Diagnosis& diagnosis, Out out) {
 }
 
 /// "+-0.1234", "+-?" where the interval is open.
-std::string expandedCell(double expanded) {
-  return std::isfinite(expanded) ? fmt::format("+-{:.4f}", 1e-6 * expanded) : "+-?";
+std::string expandedCell(double expanded, const StiffnessUnit& unit) {
+  return std::isfinite(expanded) ? fmt::format("+-{:.4f}", expanded / unit.size) : "+-?";
 }
 
 /// As identification states them; where it has none, of the diagnosis's own fit.
 void writeStiffnesses(const diagnosis::Diagnosis& diagnosis, Out out) {
+  std::vector<double> stiffnesses;
+  for (int j = 0; j < 6; ++j) {
+    if (diagnosis.identifiable[static_cast<std::size_t>(j)]) stiffnesses.push_back(diagnosis.stiffness_after[j]);
+  }
+  const StiffnessUnit unit = stiffnessUnit(stiffnesses);
   if (diagnosis.stated) {
     fmt::format_to(out,
-                   "\nStiffness, 1e6 Nm/rad, by {}, with its expanded uncertainty U (coverage 95 %)\n  {:<18}{:>12}"
+                   "\nStiffness, {}, by {}, with its expanded uncertainty U (coverage 95 %)\n  {:<18}{:>12}"
                    "{:>20}\n",
-                   namesOf(diagnosis.stated->method).brief, "", "springs only", "with the model");
+                   unit.text, namesOf(diagnosis.stated->method).brief, "", "springs only", "with the model");
   } else {
     fmt::format_to(out,
-                   "\nStiffness, 1e6 Nm/rad      before     after         u  (all load steps together; one standard "
-                   "uncertainty)\n");
+                   "\nStiffness, {}      before     after         u  (all load steps together; one standard "
+                   "uncertainty)\n",
+                   unit.text);
   }
   for (int j = 0; j < 6; ++j) {
     if (!diagnosis.identifiable[static_cast<std::size_t>(j)]) {
       fmt::format_to(out, "  joint {}           not identifiable\n", j + 1);
     } else if (diagnosis.stated) {
-      fmt::format_to(out, "  joint {}           {:>12.4f}{:>12.4f} {}\n", j + 1, 1e-6 * diagnosis.stiffness_before[j],
-                     1e-6 * diagnosis.stiffness_after[j], expandedCell(diagnosis.stated->expanded[j]));
+      fmt::format_to(out, "  joint {}           {:>12.4f}{:>12.4f} {}\n", j + 1,
+                     diagnosis.stiffness_before[j] / unit.size, diagnosis.stiffness_after[j] / unit.size,
+                     expandedCell(diagnosis.stated->expanded[j], unit));
     } else {
       fmt::format_to(out, "  joint {}              {:>10.4f}{:>10.4f}{:>10.4f}\n", j + 1,
-                     1e-6 * diagnosis.stiffness_before[j], 1e-6 * diagnosis.stiffness_after[j],
-                     1e-6 * diagnosis.stiffness_after_sd[j]);
+                     diagnosis.stiffness_before[j] / unit.size, diagnosis.stiffness_after[j] / unit.size,
+                     diagnosis.stiffness_after_sd[j] / unit.size);
     }
   }
   fmt::format_to(out, "  K_c (no free parameter) changes the joint torques by {:.2f} %\n",
@@ -100,11 +107,11 @@ void writeStiffnesses(const diagnosis::Diagnosis& diagnosis, Out out) {
 }
 
 void writeLimits(const diagnosis::Diagnosis& diagnosis, Out out) {
-  fmt::format_to(out, "\nNoise: {:.1f} um rms in one state's displacement; {}.\n", um(diagnosis.state_noise),
+  fmt::format_to(out, "\nNoise: {:.1f} µm rms in one state's displacement; {}.\n", um(diagnosis.state_noise),
                  words(diagnosis.noise_source));
-  fmt::format_to(out, "Limits: a fall of BIC of {:.0f}, and {:.1f} um rms after the stiffnesses.\n",
+  fmt::format_to(out, "Limits: a fall of BIC of {:.0f}, and {:.1f} µm rms after the stiffnesses.\n",
                  diagnosis.significance_limit, um(diagnosis.size_limit));
-  fmt::format_to(out, "Smallest size that would have been seen, um rms per coordinate:\n");
+  fmt::format_to(out, "Smallest size that would have been seen, µm rms per coordinate:\n");
   std::string sizes;
   for (const diagnosis::DetectableSize& one : diagnosis.detectable) {
     if (one.size)
@@ -124,11 +131,11 @@ std::string diagnosisText(const campaign::Campaign& campaign, const diagnosis::D
   if (!diagnosis.usable) return fmt::format("{}: no diagnosis: {}\n", campaign.name, words(diagnosis.unusable_reason));
   fmt::format_to(out, "{}: {}\n\n", campaign.name, verdictWords(diagnosis.verdict));
   fmt::format_to(out, "{}\n", wrapped(reasonWords(diagnosis.verdict), 0));
-  fmt::format_to(out, "\nGap of the deflection ({:.0f} um rms): {:.1f} um before, {:.1f} um after, noise {:.1f} um\n",
+  fmt::format_to(out, "\nGap of the deflection ({:.0f} µm rms): {:.1f} µm before, {:.1f} µm after, noise {:.1f} µm\n",
                  um(diagnosis.gap.deflection), um(diagnosis.gap.before), um(diagnosis.gap.after),
                  um(diagnosis.gap.noise));
   if (diagnosis.positions_tested) {
-    fmt::format_to(out, "Gap of unloaded positions: {:.1f} um before, {:.1f} um after, noise {:.1f} um\n",
+    fmt::format_to(out, "Gap of unloaded positions: {:.1f} µm before, {:.1f} µm after, noise {:.1f} µm\n",
                    um(diagnosis.positions.before), um(diagnosis.positions.after), um(diagnosis.positions.noise));
   }
   writeClasses(diagnosis, out);
@@ -210,7 +217,7 @@ std::string spikeText(const diagnosis::Diagnosis& baseline, const diagnosis::Spi
     for (const diagnosis::SpikeCounts& at : one.sizes) sizes += fmt::format("{:>7}", fmt::format("x {:g}", at.times));
     break;
   }
-  fmt::format_to(out, "  {:<25}{:>8} {}{:>10}{:>9}\n", "named, of draws", "size, um", sizes, "its part", "another");
+  fmt::format_to(out, "  {:<25}{:>8} {}{:>10}{:>9}\n", "named, of draws", "size, µm", sizes, "its part", "another");
   bool marked = false;
   for (const diagnosis::SpikedEffect& one : study.effects) {
     writeSpikedEffect(one, out);

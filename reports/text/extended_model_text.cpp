@@ -47,10 +47,10 @@ void writeEffect(const extended_model::AddedEffect& one, Out out) {
     fmt::format_to(out, "    {}\n", wrapped("Caution: " + doubt + ".", 4));
 }
 
-std::string stiffnessCell(const identification::StiffnessEstimate& estimate, int joint) {
+std::string stiffnessCell(const identification::StiffnessEstimate& estimate, int joint, const StiffnessUnit& unit) {
   if (!estimate.identifiable[static_cast<std::size_t>(joint)]) return "-";
-  const double expanded = identification::expandedUncertainty(estimate, joint) * 1e-6;
-  return fmt::format("{:.4f} +-{}", estimate.stiffness(joint) * 1e-6,
+  const double expanded = identification::expandedUncertainty(estimate, joint) / unit.size;
+  return fmt::format("{:.4f} +-{}", estimate.stiffness(joint) / unit.size,
                      std::isfinite(expanded) ? fmt::format("{:.4f}", expanded) : "?");
 }
 
@@ -62,25 +62,26 @@ std::string heldOutCell(const identification::MethodResult& method,
 }
 
 /// The standard uncertainty that the effects alone make.
-std::string byEffects(const identification::StiffnessEstimate& estimate, int joint) {
+std::string byEffects(const identification::StiffnessEstimate& estimate, int joint, const StiffnessUnit& unit) {
   if (!estimate.identifiable[static_cast<std::size_t>(joint)]) return "-";
   return fmt::format("{:.4f}", std::sqrt(estimate.parts.effects(joint, joint)) /
-                                   (estimate.compliance[joint] * estimate.compliance[joint]) * 1e-6);
+                                   (estimate.compliance[joint] * estimate.compliance[joint]) / unit.size);
 }
 
 void writeStiffnesses(const extended_model::ExtendedModel& model, const std::vector<identification::Method>& methods,
                       Out out) {
+  const StiffnessUnit unit = stiffnessUnit(model.with);
   fmt::format_to(out,
-                 "\nStiffness without and with, 1e6 Nm/rad, with its expanded uncertainty U; by effects: their part of "
+                 "\nStiffness without and with, {}, with its expanded uncertainty U; by effects: their part of "
                  "the\n  standard uncertainty\n  {:<14}",
-                 "");
+                 unit.text, "");
   for (int joint = 1; joint <= 6; ++joint) fmt::format_to(out, " {:>17}", fmt::format("k{}", joint));
   fmt::format_to(out, "\n");
   for (const identification::Method which : methods) {
     const auto row = [&](const char* name, const identification::MethodResult& method, const auto& cell) {
       if (!method.available) return;
       fmt::format_to(out, "  {:<14}", fmt::format("{} {}", namesOf(which).brief, name));
-      for (int joint = 0; joint < 6; ++joint) fmt::format_to(out, " {:>17}", cell(method.estimate, joint));
+      for (int joint = 0; joint < 6; ++joint) fmt::format_to(out, " {:>17}", cell(method.estimate, joint, unit));
       fmt::format_to(out, "\n");
     };
     row(model.hidden ? "apparent" : "without", model.without.of(which), stiffnessCell);
@@ -91,7 +92,7 @@ void writeStiffnesses(const extended_model::ExtendedModel& model, const std::vec
 
 void writeResiduals(const extended_model::ExtendedModel& model, const std::vector<identification::Method>& methods,
                     Out out) {
-  fmt::format_to(out, "\n  {:<14}{:>20}{:>26}{:>20}\n  {:<14}{:>20}{:>26}{:>20}\n", "", "rms residual (um)",
+  fmt::format_to(out, "\n  {:<14}{:>20}{:>26}{:>20}\n  {:<14}{:>20}{:>26}{:>20}\n", "", "rms residual (µm)",
                  "compensated at P_wrist", "at the reflectors", "", "", "held out (sd), %", "held out (sd), %");
   for (const identification::Method which : methods) {
     const auto row = [&](const char* name, const identification::MethodResult& method) {

@@ -39,7 +39,7 @@ void writeAxes(const frames::Frames& frames, Out out) {
     if (axis.measured) {
       double arc = 0.0;
       for (const metrology::AxisCircle& circle : axis.fit.circles) arc = std::max(arc, circle.arc);
-      fmt::format_to(out, "{:>6.0f}d{:>6.1f} um\n", arc / io::kDegree, axis.fit.rms / io::kMicrometre);
+      fmt::format_to(out, "{:>6.0f}d{:>6.1f} µm\n", arc / io::kDegree, axis.fit.rms / io::kMicrometre);
     } else {
       fmt::format_to(out, "  nominal: {}\n", words(axis.reason));
     }
@@ -133,7 +133,7 @@ void writeR0(const frames::Frames& frames, Out out) {
   const metrology::FrameError own = expanded(1.0) * frames.covariance.r0().diagonal().cwiseSqrt();
   const Eigen::Vector3d turn = 1e6 * own.head<3>(), origin = own.tail<3>() / io::kMillimetre;
   fmt::format_to(out,
-                 "  U about x0, y0, z0 {:.1f}, {:.1f}, {:.1f} urad; of the origin "
+                 "  U about x0, y0, z0 {:.1f}, {:.1f}, {:.1f} µrad; of the origin "
                  "{:.4f}, {:.4f}, {:.4f} mm\n",
                  turn.x(), turn.y(), turn.z(), origin.x(), origin.y(), origin.z());
 }

@@ -22,7 +22,7 @@ std::string whereText(const std::vector<diagnosis::WhereTable>& tables, const ch
   constexpr std::size_t kMostRows = 8;
   for (const diagnosis::WhereTable& table : tables) {
     if (table.rows.size() > kMostRows) continue;  // postures: in the JSON
-    fmt::format_to(out, "  {:<24}{:>10}{:>10}{:>9}{:>14}\n", "by " + table.by, "rms, um", "noise", "share", "sd above");
+    fmt::format_to(out, "  {:<24}{:>10}{:>10}{:>9}{:>14}\n", "by " + table.by, "rms, µm", "noise", "share", "sd above");
     for (const diagnosis::WhereRow& row : table.rows) {
       fmt::format_to(out, "    {:<22}{:>10.1f}{:>10.1f}{:>8.0f}%{:>14}\n", row.name, row.rms / io::kMicrometre,
                      row.noise / io::kMicrometre, 100.0 * row.share, deviateWords(row.significance));

@@ -23,12 +23,11 @@ namespace stiffscope::reports {
 
 namespace {
 
-std::string bounds(const identification::CoverageInterval& interval) {
-  if (std::isfinite(interval.low) && std::isfinite(interval.high)) {
-    return fmt::format("{:.4f} to {:.4f}", interval.low / kMega, interval.high / kMega);
-  }
-  if (std::isfinite(interval.low)) return fmt::format("above {:.4f}", interval.low / kMega);
-  if (std::isfinite(interval.high)) return fmt::format("below {:.4f}", interval.high / kMega);
+std::string bounds(const identification::CoverageInterval& interval, const StiffnessUnit& unit) {
+  const double low = interval.low / unit.size, high = interval.high / unit.size;
+  if (std::isfinite(low) && std::isfinite(high)) return fmt::format("{:.4f} to {:.4f}", low, high);
+  if (std::isfinite(low)) return fmt::format("above {:.4f}", low);
+  if (std::isfinite(high)) return fmt::format("below {:.4f}", high);
   return "unbounded";
 }
 
@@ -53,6 +52,7 @@ void forEachSeen(const identification::Identification& result, const std::vector
 std::string wideIntervals(const identification::Identification& result,
                           const std::vector<identification::Method>& methods) {
   std::string text;
+  const StiffnessUnit unit = stiffnessUnit(result);
   constexpr double kWide =
       0.2;  // relative half width: beyond it the two sides differ by a tenth of a standard deviation
   forEachSeen(
@@ -63,7 +63,7 @@ std::string wideIntervals(const identification::Identification& result,
         if (compliance.high - c < kWide * std::abs(c)) return;
         const bool open = compliance.low <= 0.0 && compliance.high >= 0.0;
         text += fmt::format("  {} k{}: 95 % interval {}{}\n", namesOf(which).brief, joint + 1,
-                            bounds(identification::stiffnessInterval(compliance)),
+                            bounds(identification::stiffnessInterval(compliance), unit),
                             open ? " (its compliance may be zero: this data only bounds it from below)" : "");
       });
   return text;
@@ -73,24 +73,26 @@ std::string bootstrapText(const identification::Identification& result,
                           const std::vector<identification::Method>& methods) {
   std::string rows;
   std::size_t draws = 0;
+  const StiffnessUnit unit = stiffnessUnit(result);
   forEachSeen(result, methods,
               [&](identification::Method which, const identification::MethodResult& method, int joint) {
                 if (method.bootstrap.compliances.empty()) return;
                 draws = method.bootstrap.compliances.size();
                 rows += fmt::format("  {:<5}k{} {:>26}{:>26}\n", namesOf(which).brief, joint + 1,
-                                    bounds(identification::stiffnessInterval(method.estimate, joint)),
-                                    bounds(method.bootstrap.stiffness(joint)));
+                                    bounds(identification::stiffnessInterval(method.estimate, joint), unit),
+                                    bounds(method.bootstrap.stiffness(joint), unit));
               });
   if (rows.empty()) return {};
   return fmt::format(
-      "\n95 % intervals, 1e6 Nm/rad: stated, and percentiles of {} draws of the postures\n  {:<5}   {:>26}{:>26}\n{}",
-      draws, "", "stated", "bootstrap", rows);
+      "\n95 % intervals, {}: stated, and percentiles of {} draws of the postures\n  {:<5}   {:>26}{:>26}\n{}",
+      unit.text, draws, "", "stated", "bootstrap", rows);
 }
 
 std::string stepsText(const identification::StepStudy& study, const identification::Identification& result,
                       const std::vector<identification::Method>& methods) {
   std::string text;
   const auto out = std::back_inserter(text);
+  const StiffnessUnit unit = stiffnessUnit(result);
   for (const identification::Method which : methods) {
     const identification::StepsOfMethod& own = study.methods[static_cast<std::size_t>(which)];
     if (own.steps.empty()) continue;
@@ -102,11 +104,11 @@ std::string stepsText(const identification::StepStudy& study, const identificati
       }
       fmt::format_to(out, "\n");
     };
-    fmt::format_to(out, "\n{} by load step, 1e6 Nm/rad +- U\n", namesOf(which).full);
+    fmt::format_to(out, "\n{} by load step, {} +- U\n", namesOf(which).full, unit.text);
     for (const identification::StepEstimate& one : own.steps) {
       row(fmt::format("{} ({:.0f} N)", one.step, one.mean_force), [&](int j) {
-        return fmt::format("{:.4f} +-{}", one.estimate.stiffness(j) / kMega,
-                           expandedCell(identification::expandedUncertainty(one.estimate, j) / kMega, 4));
+        return fmt::format("{:.4f} +-{}", one.estimate.stiffness(j) / unit.size,
+                           expandedCell(identification::expandedUncertainty(one.estimate, j) / unit.size, 4));
       });
     }
     row("change of 1/k", [&](int j) {
@@ -135,7 +137,7 @@ std::string posturesText(const campaign::Campaign& campaign, const identificatio
       "\nPostures at P_TCP by {}: softest and stiffest direction, what neglecting K_c costs\n"
       "  kappa: condition number of the posture's Jacobian by P_TCP, 1 at best\n"
       "  {:<12}{:>8}{:>16}{:>16}{:>12}\n",
-      namesOf(method).full, "pose", "kappa", "softest (N/um)", "stiffest", "K_c (um)");
+      namesOf(method).full, "pose", "kappa", "softest (N/µm)", "stiffest", "K_c (µm)");
   for (std::size_t i = 0; i < postures.size(); ++i) {
     const identification::PostureStiffness posture = postures.at(i);
     const auto& principal = posture.with_kc.principal;
@@ -150,19 +152,21 @@ namespace {
 
 using Out = std::back_insert_iterator<std::string>;
 
-std::string markedStiffnessCell(const identification::StiffnessEstimate& estimate, int joint) {
+std::string markedStiffnessCell(const identification::StiffnessEstimate& estimate, int joint,
+                                const StiffnessUnit& unit) {
   if (!estimate.identifiable[static_cast<std::size_t>(joint)]) return "-";
   const char* mark =
       estimate.mark(joint).empty() ? "" : (estimate.mark(joint).is(identification::RemarkId::negative) ? "!" : "?");
-  const double expanded = identification::expandedUncertainty(estimate, joint) * 1e-6;
-  return fmt::format("{:.4f} +-{}{}", estimate.stiffness(joint) * 1e-6, expandedCell(expanded, 4), mark);
+  const double expanded = identification::expandedUncertainty(estimate, joint) / unit.size;
+  return fmt::format("{:.4f} +-{}{}", estimate.stiffness(joint) / unit.size, expandedCell(expanded, 4), mark);
 }
 
 void writeStiffness(const identification::Identification& result, const std::vector<identification::Method>& methods,
                     Out out) {
+  const StiffnessUnit unit = stiffnessUnit(result);
   const bool weighed = std::any_of(result.methods.begin(), result.methods.end(),
                                    [](const auto& method) { return !method.estimate.stated.empty(); });
-  fmt::format_to(out, "\nStiffness, 1e6 Nm/rad, with its expanded uncertainty U (coverage 95 %, {})\n  {:<5}",
+  fmt::format_to(out, "\nStiffness, {}, with its expanded uncertainty U (coverage 95 %, {})\n  {:<5}", unit.text,
                  weighed ? "effects that could hide in it" : "Student's t", "");
   for (int joint = 1; joint <= 6; ++joint) fmt::format_to(out, " {:>17}", fmt::format("k{}", joint));
   fmt::format_to(out, "\n");
@@ -172,7 +176,7 @@ void writeStiffness(const identification::Identification& result, const std::vec
     if (!method.available) continue;
     fmt::format_to(out, "  {:<5}", namesOf(which).brief);
     for (int joint = 0; joint < 6; ++joint) {
-      fmt::format_to(out, " {:>17}", markedStiffnessCell(method.estimate, joint));
+      fmt::format_to(out, " {:>17}", markedStiffnessCell(method.estimate, joint, unit));
       if (!method.estimate.identifiable[static_cast<std::size_t>(joint)]) continue;
       negative |= method.estimate.mark(joint).is(identification::RemarkId::negative);
       imprecise |= method.estimate.mark(joint).is(identification::RemarkId::imprecise);
@@ -197,7 +201,7 @@ void writeStiffness(const identification::Identification& result, const std::vec
 
 void writeResiduals(const identification::Identification& result, const std::vector<identification::Method>& methods,
                     Out out) {
-  fmt::format_to(out, "\n  {:<5}{:>12}{:>20}{:>24}\n", "", "condition", "rms residual (um)", "over dof, sigma (um)");
+  fmt::format_to(out, "\n  {:<5}{:>12}{:>20}{:>24}\n", "", "condition", "rms residual (µm)", "over dof, sigma (µm)");
   for (const identification::Method which : methods) {
     const identification::MethodResult& method = result.of(which);
     if (!method.available) continue;

@@ -32,7 +32,7 @@ std::string importText(const interchange::ImportedDay& day) {
   }
   for (const interchange::ClockReport& clock : day.clocks) text += clockText(clock, day.start);
   if (day.stated_over_declared)
-    text += fmt::format("The uncertainties in the files, {:.1f} um, are {:.2g} times the declared noise (medians).\n",
+    text += fmt::format("The uncertainties in the files, {:.1f} µm, are {:.2g} times the declared noise (medians).\n",
                         1e6 * *day.stated_sigma, *day.stated_over_declared);
   std::map<std::string, std::size_t> left_out;
   for (const interchange::SkippedOrigin& row : day.skipped)

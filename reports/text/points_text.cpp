@@ -63,7 +63,7 @@ void pointsText(const std::vector<NamedPoints>& files, const io::ByteSink& sink)
     std::size_t width = 4;
     for (const interchange::PointReading& point : named.points.points) width = std::max(width, fullName(point).size());
     text += fmt::format("{:>7}  {:<{}} {:>5} {:>13} {:>13} {:>13} {:>8} {:>8} {:>8}  time\n", "line", "name", width,
-                        "occ.", "x mm", "y mm", "z mm", "u_x um", "u_y um", "u_z um");
+                        "occ.", "x mm", "y mm", "z mm", "u_x µm", "u_y µm", "u_z µm");
     for (const interchange::PointReading& point : named.points.points) {
       text += pointText(point, width);
       handOn(kPiece);

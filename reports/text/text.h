@@ -68,6 +68,7 @@ struct WorkspaceStiffness;
 namespace stiffscope::reports {
 
 struct ShapeFit;
+struct StatedComparison;
 
 /// The audit for people: a table of the checks, then what those that did not pass say, then the rejected
 /// readings.
@@ -86,6 +87,9 @@ std::string calibrationText(const campaign::Campaign& campaign, const calibratio
 /// across the axis, and the parameters to the next axis (theta_deg, d_mm, a_mm, alpha_deg, beta_deg) with the URDF's
 /// beside them.
 std::string calibrationCsv(const calibration::Calibration& calibration);
+
+/// The result of `compare` of two result files.
+std::string statedComparisonText(const StatedComparison& comparison);
 
 /// The result of `compare` for a terminal.
 std::string comparisonText(const campaign::Campaign& before, const campaign::Campaign& after,

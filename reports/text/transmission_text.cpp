@@ -14,17 +14,17 @@ namespace stiffscope::reports {
 
 namespace {
 
-std::string gearCell(const identification::StiffnessEstimate& gears, int joint) {
-  const double expanded = identification::expandedUncertainty(gears, joint) / kMega;
-  return fmt::format("{:.4f} +-{}", gears.stiffness(joint) / kMega,
+std::string gearCell(const identification::StiffnessEstimate& gears, int joint, const StiffnessUnit& unit) {
+  const double expanded = identification::expandedUncertainty(gears, joint) / unit.size;
+  return fmt::format("{:.4f} +-{}", gears.stiffness(joint) / unit.size,
                      std::isfinite(expanded) ? fmt::format("{:.4f}", expanded) : "?");
 }
 
-std::string structureCell(const identification::GearAndStructure& apart) {
+std::string structureCell(const identification::GearAndStructure& apart, const StiffnessUnit& unit) {
   const identification::CoverageInterval interval = identification::stiffnessInterval(apart.interval);
   if (!std::isfinite(interval.low)) return "not seen";
-  if (!std::isfinite(interval.high)) return fmt::format("above {:.4f}", interval.low / kMega);
-  return fmt::format("{:.4f} to {:.4f}", interval.low / kMega, interval.high / kMega);
+  if (!std::isfinite(interval.high)) return fmt::format("above {:.4f}", interval.low / unit.size);
+  return fmt::format("{:.4f} to {:.4f}", interval.low / unit.size, interval.high / unit.size);
 }
 
 }  // namespace
@@ -32,7 +32,14 @@ std::string structureCell(const identification::GearAndStructure& apart) {
 std::string transmissionText(const identification::Identification& result,
                              const std::vector<identification::Method>& methods) {
   const identification::Transmission& transmission = *result.transmission;
-  std::string text = "\nGears by their two encoders, without the tracker, 1e6 Nm/rad with U (coverage 95 %)\n";
+  std::vector<double> gears;
+  for (int joint = 0; joint < 6; ++joint) {
+    if (transmission.joints[static_cast<std::size_t>(joint)].measured)
+      gears.push_back(transmission.estimate.stiffness(joint));
+  }
+  const StiffnessUnit unit = stiffnessUnit(gears);
+  std::string text =
+      fmt::format("\nGears by their two encoders, without the tracker, {} with U (coverage 95 %)\n", unit.text);
   const auto out = std::back_inserter(text);
   if (transmission.measured()) {
     const auto method = std::find_if(methods.rbegin(), methods.rend(),
@@ -46,12 +53,12 @@ std::string transmissionText(const identification::Identification& result,
     for (int joint = 0; joint < 6; ++joint) {
       const identification::GearTorsion& gear = transmission.joints[static_cast<std::size_t>(joint)];
       if (!gear.measured) continue;
-      fmt::format_to(out, "  k{:<3}{:>20}{:>8}{:>11}", joint + 1, gearCell(transmission.estimate, joint), gear.states,
-                     wordsOf(gear.held));
+      fmt::format_to(out, "  k{:<3}{:>20}{:>8}{:>11}", joint + 1, gearCell(transmission.estimate, joint, unit),
+                     gear.states, wordsOf(gear.held));
       const auto apart =
           tracked ? identification::gearAndStructure(transmission, result.of(*method).estimate, joint) : std::nullopt;
       if (apart) {
-        fmt::format_to(out, "{:>24}{:>14}{:>9.0f} %\n       {}", structureCell(*apart),
+        fmt::format_to(out, "{:>24}{:>14}{:>9.0f} %\n       {}", structureCell(*apart, unit),
                        apart->in_series ? "in series" : "", 100.0 * apart->gear_share, wordsOf(apart->agreement));
       }
       fmt::format_to(out, "\n");

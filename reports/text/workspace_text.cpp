@@ -33,7 +33,7 @@ void addSlice(const workspace::StiffnessSlice& slice, std::string& text) {
     return a->at.of_model.front().stiffness() < b->at.of_model.front().stiffness();
   });
   for (const workspace::SlicePlace* one : {*least, *most}) {
-    text += fmt::format("  {} at radius {:g} mm, height {:g} mm: {} N/um in its softest direction\n",
+    text += fmt::format("  {} at radius {:g} mm, height {:g} mm: {} N/µm in its softest direction\n",
                         one == *least ? "softest " : "stiffest", one->radius / io::kMillimetre,
                         unsignedZero(one->height / io::kMillimetre, 0), stiffnessCell(one->at.of_model, true));
   }
@@ -43,7 +43,7 @@ void addSlice(const workspace::StiffnessSlice& slice, std::string& text) {
 
 std::string workspaceText(const campaign::Campaign& campaign, const workspace::WorkspaceStiffness& found) {
   std::string text =
-      fmt::format("{}: stiffness at P_TCP by {}, N/um [95 % interval]\n\n  {:<10}{:>26}{:>26}{:>24}\n", campaign.name,
+      fmt::format("{}: stiffness at P_TCP by {}, N/µm [95 % interval]\n\n  {:<10}{:>26}{:>26}{:>24}\n", campaign.name,
                   namesOf(found.method).full, "pose", "softest", "stiffest", "K_x alone, softest");
   for (const workspace::PointStiffness& one : found.postures)
     text += fmt::format(

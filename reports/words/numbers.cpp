@@ -5,16 +5,40 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <string_view>
 #include <utility>
 
 #include "core/identification/estimate.h"
+#include "core/identification/identification.h"
 #include "core/numerics/distributions.h"
 
 #include "core/io/units.h"
 
 namespace stiffscope::reports {
+
+StiffnessUnit stiffnessUnit(const std::vector<double>& stiffnesses) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const double one : stiffnesses) {
+    if (std::isfinite(one) && one != 0.0) least = std::min(least, std::abs(one));
+  }
+  constexpr double kKilo = 1e3, kLeastShown = 0.01;  // of the unit: two digits behind the leading zeros
+  if (least >= kLeastShown * kMega) return {};
+  if (least >= kLeastShown * kKilo) return {kKilo, "10³\u00a0Nm/rad", "1e3 Nm/rad"};
+  return {1.0, "Nm/rad", "Nm/rad"};
+}
+
+StiffnessUnit stiffnessUnit(const identification::Identification& result) {
+  std::vector<double> stiffnesses;
+  for (const identification::MethodResult& method : result.methods) {
+    for (int joint = 0; method.available && joint < 6; ++joint) {
+      if (method.estimate.identifiable[static_cast<std::size_t>(joint)])
+        stiffnesses.push_back(method.estimate.stiffness(joint));
+    }
+  }
+  return stiffnessUnit(stiffnesses);
+}
 
 Coverage coverageOf(const identification::StiffnessEstimate& estimate, int joint) {
   if (!estimate.stated.empty())  // an interval of its own: no Student's t
@@ -106,6 +130,26 @@ std::string withMicro(const std::string& text) {
   std::string words = text;
   for (const auto& [from, to] : kUnits) replaceWord(words, from, to);
   return words;
+}
+
+std::string microUnits(const std::string& text) {
+  std::string changed;
+  const auto letter = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || (c & 0x80) != 0;
+  };
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    const bool unit = text[at] == 'u' && (text.compare(at, 2, "um") == 0 || text.compare(at, 4, "urad") == 0);
+    const std::size_t end = at + (text.compare(at, 2, "um") == 0 ? 2 : 4);
+    if (!unit || (end < text.size() && letter(text[end])) || at == 0 || letter(text[at - 1])) {
+      changed += text[at];
+      continue;
+    }
+    const std::size_t before = text.find_last_not_of(" \n", at - 1);
+    const bool counts = before != std::string::npos && (std::isdigit(static_cast<unsigned char>(text[before])) != 0 ||
+                                                        text[before] == '(' || text[before] == '?');
+    changed += counts ? "µ" : "u";
+  }
+  return changed;
 }
 
 std::string wrapped(const std::string& text, std::size_t indent) {

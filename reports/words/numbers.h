@@ -2,15 +2,31 @@
 
 #include <fmt/format.h>
 #include <string>
+#include <vector>
 
 #include "core/identification/estimate.h"
 
 // Numbers as people read them: a real minus sign, no-break space before a unit, digits to the uncertainty.
 
+namespace stiffscope::identification {
+struct Identification;
+}
+
 namespace stiffscope::reports {
 
 inline constexpr double kMmPerM = 1e3;
 inline constexpr double kMega = 1e6;
+
+/// The unit in which a set of stiffnesses is printed, so that none begins with zeros: 10^6 Nm/rad of a large robot,
+/// 10^3 of one whose wrist has less than 0.01 10^6, Nm/rad of one with less than ten.
+struct StiffnessUnit {
+  double size = kMega;  ///< Nm/rad
+  const char* name = "10⁶\u00a0Nm/rad";
+  const char* text = "1e6 Nm/rad";  ///< on a terminal
+};
+/// Of values in Nm/rad; those that are not finite or zero are left out. Without any 10^6.
+StiffnessUnit stiffnessUnit(const std::vector<double>& stiffnesses);
+StiffnessUnit stiffnessUnit(const identification::Identification& result);  ///< of what its methods identify
 
 /// From standard to expanded uncertainty, U = k u (GUM, annex G): Student's t for 95 % at the effective degrees of
 /// freedom of a joint's compliance. NaN where none is left.
@@ -47,6 +63,10 @@ std::string percent(double share, int decimals = 1);
 /// A text of core with its units as people write them: um as µm, urad as µrad, +- as ±, chi2 as χ². Only
 /// whole words are changed.
 std::string withMicro(const std::string& text);
+
+/// For a terminal: "um" and "urad" behind a number or an opening bracket as µm and µrad; the rest stays as wide as it
+/// is, so that columns stay under each other.
+std::string microUnits(const std::string& text);
 
 /// `value` for printing with `decimals` places: what rounds to zero is zero, without the sign that would
 /// print as -0.000.

@@ -35,6 +35,60 @@ TEST(CompareCommand, TheSamplesAvoidAThirdOfTheDeflection) {
   }
 }
 
+TEST(CompareResults, SideBySideAsPageTextAndJson) {
+  const ScratchFolder scratch;
+  const std::string a = (scratch.path() / "a.json").string(), b = (scratch.path() / "b.json").string(),
+                    page = (scratch.path() / "c.html").string();
+  ASSERT_EQ(runProgram("identify '" + kInactive + "' --springs-only --json '" + a + "'", scratch.path()).status, 0);
+  ASSERT_EQ(runProgram("identify '" + kActive + "' --springs-only --json '" + b + "'", scratch.path()).status, 0);
+  const Ran ran = runProgram("compare '" + a + "' '" + b + "' --html '" + page + "' --json -", scratch.path());
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  const auto json = nlohmann::json::parse(ran.out);
+  const auto before = nlohmann::json::parse(contentsOf(a)), after = nlohmann::json::parse(contentsOf(b));
+  const std::string method = json["shown_first"];
+  for (const std::size_t joint : {1, 2}) {  // those that the encoders change most
+    const auto& row = json["methods"][method][joint];
+    const auto stated = [&](const auto& file) { return file["methods"][method]["compliance_rad_per_nm"][joint]; };
+    EXPECT_EQ(row["before_rad_per_nm"], stated(before));
+    EXPECT_EQ(row["after_rad_per_nm"], stated(after));
+    EXPECT_TRUE(row["change_rad_per_nm"]["significant"].template get<bool>());
+  }
+  EXPECT_TRUE(json["methods"][method][0]["change_rad_per_nm"].is_null());  // the load only hangs
+  EXPECT_EQ(json["postures"].size(), 19u);
+  const std::string html = contentsOf(page);
+  EXPECT_NE(html.find("Joints that differ significantly: "), std::string::npos);
+  EXPECT_NE(html.find("id=\"stiffness-both\""), std::string::npos);
+  EXPECT_NE(html.find("id=\"postures-both\""), std::string::npos);
+}
+
+TEST(CompareResults, ADayAgainstItselfHasNotChanged) {
+  const ScratchFolder scratch;
+  const std::string a = (scratch.path() / "a.json").string();
+  ASSERT_EQ(runProgram("identify '" + kActive + "' --springs-only --json '" + a + "'", scratch.path()).status, 0);
+  const Ran ran = runProgram("compare '" + a + "' '" + a + "'", scratch.path());
+  EXPECT_EQ(ran.status, 0);
+  EXPECT_NE(ran.out.find("No joint's stiffness differs significantly."), std::string::npos) << ran.out;
+}
+
+TEST(CompareResults, RefusesOtherMachinesAndOtherFiles) {
+  const ScratchFolder scratch;
+  const std::string a = (scratch.path() / "a.json").string(), b = (scratch.path() / "b.json").string(),
+                    page = (scratch.path() / "c.html").string();
+  ASSERT_EQ(runProgram("audit '" + kActive + "' --json '" + a + "'", scratch.path()).status, 0);
+  auto json = nlohmann::json::parse(contentsOf(a));
+  json["campaign"]["robot"] = "another";
+  std::ofstream(b) << json;
+  const Ran refused = runProgram("compare '" + a + "' '" + b + "' --html '" + page + "'", scratch.path());
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_NE(refused.out.find("the machines differ: m900ib700 before, another after"), std::string::npos) << refused.out;
+  EXPECT_FALSE(std::filesystem::exists(page));
+  std::ofstream(b) << "{\"a\": 1}";
+  const Ran other = runProgram("compare '" + a + "' '" + b + "'", scratch.path());
+  EXPECT_EQ(other.status, 2);
+  EXPECT_NE(other.err.find("b.json: expected results.json of `report`"), std::string::npos) << other.err;
+  EXPECT_EQ(runProgram("compare '" + a + "' '" + kActive + "'", scratch.path()).status, 2);
+}
+
 TEST(CompareCommand, TheSamplesDifferencesAreThoseTheyWereMadeWith) {
   // samples/*.xml; each alone is identified wrong by up to a factor of four, for the bearings that nobody modelled.
   const std::array<double, 6> inactive{4.0e6, 3.2e6, 2.6e6, 0.42e6, 0.23e6, 0.089e6};

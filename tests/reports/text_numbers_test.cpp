@@ -32,5 +32,17 @@ TEST(ImprovedText, MetresAreMicrometresAsInTheRest) {
   EXPECT_NE(text.find("3 +-2 N\n"), std::string::npos) << text;
 }
 
+TEST(MicroUnits, AreWrittenBehindNumbersAlone) {
+  EXPECT_EQ(reports::microUnits("9.6 um rms, +-2 urad, (um), 0.4\n    um"), "9.6 µm rms, +-2 µrad, (µm), 0.4\n    µm");
+  EXPECT_EQ(reports::microUnits("Messung um zehn, size_um, 5 umbra"), "Messung um zehn, size_um, 5 umbra");
+}
+
+TEST(StiffnessUnit, SuitsTheSmallestJoint) {
+  EXPECT_EQ(reports::stiffnessUnit(std::vector<double>{5.6e6, 78e3}).size, 1e6);    // a large robot
+  EXPECT_EQ(reports::stiffnessUnit(std::vector<double>{1.2e5, 6100.0}).size, 1e3);  // a small one's wrist
+  EXPECT_EQ(reports::stiffnessUnit(std::vector<double>{500.0, 4.0}).size, 1.0);
+  EXPECT_EQ(reports::stiffnessUnit(std::vector<double>{}).size, 1e6);
+}
+
 }  // namespace text_numbers_test
 }  // namespace stiffscope

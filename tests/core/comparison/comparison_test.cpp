@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 #include "core/comparison/compare.h"
+#include "core/comparison/stated_change.h"
 #include "reports/words/remark_words.h"
 #include "tests/fixtures/linear_machine.h"
 
@@ -308,6 +309,24 @@ TEST(DeflectionAvoided, TheIntervalCoversWhatMorePosturesWouldGive) {
   }
   EXPECT_GE(covered, 174);
   EXPECT_LT(covered, 200);
+}
+
+TEST(StatedChanges, AddUncertaintiesInSquares) {
+  using comparison::StatedCompliance;
+  const std::vector<std::optional<StatedCompliance>> before{StatedCompliance{10.0, {7.0, 12.0}},
+                                                            StatedCompliance{1.0, {0.9, 1.1}}, std::nullopt};
+  const std::vector<std::optional<StatedCompliance>> after{
+      StatedCompliance{30.0, {27.0, 34.0}}, StatedCompliance{1.0, {0.9, 1.1}}, StatedCompliance{2.0, {1.9, 2.1}}};
+  const auto changes = comparison::statedChanges(before, after);
+  ASSERT_EQ(changes.size(), 3u);
+  EXPECT_DOUBLE_EQ(changes[0]->difference.value, 20.0);
+  EXPECT_DOUBLE_EQ(changes[0]->difference.expanded(), 5.0);  // the farther ends, 3 and 4
+  EXPECT_TRUE(changes[0]->significant());
+  EXPECT_NEAR(changes[1]->p_value, 1.0, 1e-12);
+  EXPECT_FALSE(changes[1]->significant());
+  EXPECT_FALSE(changes[2].has_value());
+  // Two are compared: Holm doubles the smaller.
+  EXPECT_NEAR(changes[0]->p_holm, 2.0 * changes[0]->p_value, 1e-12);
 }
 
 }  // namespace comparison_test
