@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <map>
 #include <optional>
 #include <set>
 #include <span>
@@ -103,12 +104,28 @@ std::vector<Remark> unansweredBy(const std::set<std::string>& made, std::span<co
 
 /// Of days without a load: base, reflectors and axes, less what is a choice of frame, of what was read.
 std::optional<Remark> tooFewToCalibrate(const AuditInput& input) {
-  std::size_t readings = 0;
+  constexpr double kSamePosture = 1e-3;  // rad: nearer ones say the same of the geometry, however often they are read
+  struct Posture {
+    Vector6d q;
+    std::set<int> targets;
+  };
+  std::map<std::pair<int, int>, Vector6d> angles;
+  if (input.campaign.states)
+    for (const campaign::State& row : input.campaign.states->rows) angles.emplace(std::pair(row.pose, row.step), row.q);
+  const std::size_t parameters = 24 + 3 * input.campaign.targets.size();
+  std::vector<Posture> different;
+  std::size_t coordinates = 0;
   for (const campaign::StatePoints& state : input.states) {
-    if (state.source == campaign::StatePoints::Source::loading) readings += state.reflectors.size();
+    const auto row = angles.find({state.pose, state.step});
+    if (state.source != campaign::StatePoints::Source::loading || row == angles.end()) continue;
+    auto own = std::find_if(different.begin(), different.end(), [&](const Posture& one) {
+      return (one.q - row->second).cwiseAbs().maxCoeff() < kSamePosture;
+    });
+    if (own == different.end()) own = different.insert(different.end(), {row->second, {}});
+    for (const campaign::ReflectorMean& reflector : state.reflectors)
+      coordinates += own->targets.insert(reflector.target).second ? 3 : 0;
+    if (coordinates > parameters) return std::nullopt;
   }
-  const std::size_t coordinates = 3 * readings, parameters = 24 + 3 * input.campaign.targets.size();
-  if (coordinates > parameters) return std::nullopt;
   return Remark(RemarkId::too_few_to_calibrate, coordinates, parameters);
 }
 

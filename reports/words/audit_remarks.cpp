@@ -121,8 +121,9 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
       return "what a reading is worth (one of repeatability, rigid_tool, return_to_zero): read postures twice or more, "
              "or three reflectors in each";
     case audit::RemarkId::too_few_to_calibrate:
-      return fmt::format("whether the geometry is right: {} coordinates were read, and it has {} numbers",
-                         values.count(0), values.count(1));
+      return fmt::format(
+          "whether the geometry is right: {} coordinates were read in different postures, and it has {} numbers",
+          values.count(0), values.count(1));
     case audit::RemarkId::steps_follow:
       return "steps follow each other in time in every posture";
     case audit::RemarkId::steps_out_of_order:

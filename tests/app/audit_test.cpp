@@ -102,9 +102,30 @@ TEST(AuditCommand, TooFewUnloadedReadingsDoNotPass) {
   EXPECT_EQ(ran.status, 1) << ran.err;
   const auto json = nlohmann::json::parse(ran.out);
   EXPECT_EQ(json["verdict"], "not_testable");
-  EXPECT_NE(json["unanswered"].dump().find("30 coordinates were read, and it has 33 numbers"), std::string::npos)
+  EXPECT_NE(json["unanswered"].dump().find("30 coordinates were read in different postures, and it has 33 numbers"),
+            std::string::npos)
       << json["unanswered"];
   EXPECT_NE(json["unanswered"].dump().find("what a reading is worth"), std::string::npos) << json["unanswered"];
+}
+
+// Forty times the same posture are many readings and one equation of each kind.
+TEST(AuditCommand, OnePostureReadManyTimesDoesNotPass) {
+  const ScratchFolder scratch;
+  const fs::path day = partOfUnloaded(scratch, [](const std::string&) { return true; });
+  std::ifstream states(day / "states.csv");
+  std::string header, line, alike;
+  std::getline(states, header);
+  for (std::string first; std::getline(states, line);) {
+    const std::string angles = line.substr(line.find(',', line.find(',', line.find(',') + 1) + 1));
+    if (first.empty()) first = angles;
+    alike += line.substr(0, line.size() - angles.size()) + first + "\n";
+  }
+  states.close();
+  std::ofstream(day / "states.csv") << header << "\n" << alike;
+  const Ran ran = runProgram("audit '" + day.string() + "' --json -", scratch.path());
+  const auto json = nlohmann::json::parse(ran.out);
+  EXPECT_NE(json["unanswered"].dump().find("9 coordinates were read in different postures"), std::string::npos)
+      << json["unanswered"];
 }
 
 TEST(AuditCommand, ADayWithNothingToTestExitsWithOne) {
