@@ -120,7 +120,8 @@ std::vector<Target> readTargets(const io::XmlNode& node, std::vector<std::string
   for (const io::XmlNode& child : node.children("target")) {
     io::warnOfUnknown(child, {"id", "x_mm", "y_mm", "z_mm"}, {}, warnings);
     targets.push_back(readTarget(child));
-    if (targets.size() > kMost) child.refuse("id", targets.back().id, "expected at most 100 targets");
+    if (targets.size() > kMost)
+      child.refuse("id", targets.back().id, "expected at most 100 targets: each has a place that is fitted");
     const auto [first, added] = first_line.emplace(targets.back().id, child.line());
     if (!added) {
       child.refuse("id", targets.back().id,
