@@ -6,6 +6,7 @@
 #include "core/io/units.h"
 #include "core/mistakes/remarks.h"
 #include "core/mistakes/spring_fit.h"
+#include "reports/words/numbers.h"
 #include "reports/words/remark_words.h"
 #include "reports/words/remarks.h"
 
@@ -63,16 +64,19 @@ std::string originOff(const RemarkValues& values) {
   constexpr double kCentimetre = 1e-2;
   const int decimals = largest < kCentimetre ? 2 : 0;
   const std::vector<double>& unseen = values.numbers(2);
+  const auto triple = [](const std::vector<double>& all, std::size_t first, double unit, int places) {
+    std::string text;
+    for (std::size_t i = first; i < first + 3; ++i)
+      text += fmt::format("{}{:.{}f}", i == first ? "" : ", ", unsignedZero(all.at(i) / unit, places), places);
+    return "(" + text + ")";
+  };
   std::string directions;
   for (std::size_t i = 0; i + 2 < unseen.size(); i += 3)
-    directions += fmt::format("{}({:.2f}, {:.2f}, {:.2f})", directions.empty() ? "" : " and ", unseen[i], unseen[i + 1],
-                              unseen[i + 2]);
+    directions += (directions.empty() ? "" : " and ") + triple(unseen, i, 1.0, 2);
   return fmt::format(
-      "shift the origin of joint {} by ({:.{}f}, {:.{}f}, {:.{}f}) mm in base_link's axes, all joints at zero{}; or "
-      "the "
-      "URDF is another machine's",
-      values.count(0), millimetresOf(shift.at(0)), decimals, millimetresOf(shift.at(1)), decimals,
-      millimetresOf(shift.at(2)), decimals,
+      "shift the origin of joint {} by {} mm in base_link's axes, all joints at zero{}; or the URDF is another "
+      "machine's",
+      values.count(0), triple(shift, 0, io::kMillimetre, decimals),
       directions.empty() ? "" : ", and as far as it may be along " + directions + ", which the readings do not show");
 }
 
