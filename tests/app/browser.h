@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <sstream>
 #include <string>
 
 #include "tests/app/command.h"
@@ -26,6 +27,18 @@ inline Ran runBrowser(const std::string& words, const std::filesystem::path& scr
       "--disable-background-networking --enable-logging=stderr --user-data-dir='" +
           (scratch / "profile").string() + "' " + words,
       scratch);
+}
+
+/// What a page wrote to the console, out of what the browser logs. The graphics driver says there what it did slowly,
+/// which hangs on the machine and not on the page.
+inline std::string writtenToConsole(const std::string& log) {
+  std::istringstream lines(log);
+  std::string written;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.find("CONSOLE") != std::string::npos && line.find("GL Driver Message") == std::string::npos)
+      written += line + "\n";
+  }
+  return written;
 }
 
 }  // namespace stiffscope
