@@ -20,7 +20,7 @@ hold "$(offered stiffscope import template --ma)" "--maker"
 hold "$(offered stiffscope view --screen)" "--screenshot"
 hold "$(cd "$(dirname "$0")" && offered stiffscope identify completion_)" "completion_test.sh"
 for command in init audit fit frames identify calibrate compensate compare plan diagnose fleet blind simulate report; do
-  known=$("$program" "$command" --help | grep -oE '^ +(-h,)?--[a-z-]+' | sed 's/.*--/--/' | sort)
+  known=$("$program" "$command" --help | grep -oE '^ +(-[a-z],)?--[a-z-]+' | sed 's/.*--/--/' | sort)
   got=$(offered stiffscope "$command" -- | tr ' ' '\n' | sort)
   hold "$got" "$known"
 done
