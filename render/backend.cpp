@@ -28,7 +28,13 @@ std::filesystem::path findModule() {
 
 // RTLD_DEEPBIND: VTK in the module must find the module's OSMesa and not a GLX that the program has brought
 // along (OpenCV does). Sanitizers refuse that flag; their programs have osmesa_for_glx.cpp of their own.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(RTLD_DEEPBIND)
+#if defined(__has_feature)  // Clang says it this way, GCC by a macro
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define STIFFSCOPE_SANITIZED
+#endif
+#endif
+#if defined(STIFFSCOPE_SANITIZED) || defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || \
+    !defined(RTLD_DEEPBIND)
 constexpr int kFlags = RTLD_NOW | RTLD_LOCAL;
 #else
 constexpr int kFlags = RTLD_NOW | RTLD_LOCAL | RTLD_DEEPBIND;
