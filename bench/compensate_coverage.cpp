@@ -14,8 +14,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <exception>
-#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <map>
@@ -29,7 +27,6 @@
 #include "core/extended_model/effect_deflection.h"
 #include "core/extended_model/extend_model.h"
 #include "core/identification/known_stiffness.h"
-#include "core/numerics/parallel.h"
 #include "core/numerics/random.h"
 #include "core/preparation/prepare.h"
 #include "core/simulation/instruments.h"
@@ -166,12 +163,6 @@ void judge(const simulation::SimulationSpec& spec, const std::vector<TrueCase>& 
   }
 }
 
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-  return values[values.size() / 2];
-}
-
 void print(const std::string& family, const std::string& model, std::size_t direction, const std::vector<Row>& rows) {
   std::size_t all = 0, solved = 0;
   int coordinates = 0, held = 0, refused_coordinates = 0, refused_held = 0;
@@ -192,8 +183,9 @@ void print(const std::string& family, const std::string& model, std::size_t dire
   fmt::print(
       "{:<15}{:<9}{:<18} {:>4} of {:>4} compensated, hold {:5.1f} %, median deflection {:.3f} mm, U {:5.1f} %, "
       "error {:5.1f} %; refused hold {:5.1f} %",
-      family, model, kDirections[direction], solved, all, 100.0 * held / std::max(1, coordinates), median(sizes),
-      100.0 * median(widths), 100.0 * median(errors), 100.0 * refused_held / std::max(1, refused_coordinates));
+      family, model, kDirections[direction], solved, all, 100.0 * held / std::max(1, coordinates), bench::median(sizes),
+      100.0 * bench::median(widths), 100.0 * bench::median(errors),
+      100.0 * refused_held / std::max(1, refused_coordinates));
   for (const auto& [reason, count] : reasons) fmt::print("; {} because {}", count, reason);
   fmt::print("\n");
 }
@@ -208,33 +200,22 @@ int main(int argc, char** argv) {
   const std::string family = argv[1];
   const int count = std::stoi(argv[2]);
   const std::uint64_t base = std::stoull(argv[3]);
-  const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / fmt::format("compensate_coverage_{}", base);
-  std::filesystem::create_directories(folder);
   std::vector<Row> rows;
   std::mutex mutex;
-  numerics::onAllCores(static_cast<std::size_t>(count), [&](std::size_t machine) {
-    const int i = static_cast<int>(machine);
-    try {
-      const std::uint64_t seed = base * 1'000'000 + machine;
-      validation::BlindCase one = bench::drawMachine(family, i, seed, folder / fmt::format("{}_{}.urdf", family, i));
-      const double force = bench::hangWeights(*one.spec.loading);
-      constexpr int kPostures = 6;
-      const std::vector<TrueCase> cases =
-          trueCases(one.spec, force, bench::heldOutPostures(one.spec, kPostures, kLeastSinQ5));
-      Row like;
-      like.machine = i;
-      for (const validation::PlacedEffect& effect : one.effects)
-        like.effects += (effect.effect.empty() ? std::string("outside") : effect.effect) + " " + effect.detail + ";";
-      std::vector<Row> own;
-      judge(one.spec, cases, seed, like, own);
-      const std::lock_guard<std::mutex> lock(mutex);
-      rows.insert(rows.end(), own.begin(), own.end());
-    } catch (const std::exception& error) {
-      const std::lock_guard<std::mutex> lock(mutex);
-      std::cerr << family << ' ' << i << ": " << error.what() << '\n';
-    }
-  });
+  bench::onMachines("compensate_coverage", family, count, base,
+                    [&](int i, std::uint64_t seed, validation::BlindCase& one) {
+                      const double force = bench::hangWeights(*one.spec.loading);
+                      constexpr int kPostures = 6;
+                      const std::vector<TrueCase> cases =
+                          trueCases(one.spec, force, bench::heldOutPostures(one.spec, kPostures, kLeastSinQ5));
+                      Row like;
+                      like.machine = i;
+                      like.effects = bench::effectsOf(one);
+                      std::vector<Row> own;
+                      judge(one.spec, cases, seed, like, own);
+                      const std::lock_guard<std::mutex> lock(mutex);
+                      rows.insert(rows.end(), own.begin(), own.end());
+                    });
   for (const char* model : {"springs", "default"}) {
     for (std::size_t d = 0; d < kDirections.size(); ++d) print(family, model, d, rows);
   }

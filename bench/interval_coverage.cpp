@@ -13,8 +13,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <exception>
-#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <limits>
@@ -27,7 +25,6 @@
 #include "core/frames/frames.h"
 #include "core/identification/estimate.h"
 #include "core/identification/identify.h"
-#include "core/numerics/parallel.h"
 #include "core/preparation/prepare.h"
 #include "core/simulation/machine.h"
 
@@ -145,36 +142,25 @@ int main(int argc, char** argv) {
   const std::string family = argv[1];
   const int count = std::stoi(argv[2]);
   const std::uint64_t base = std::stoull(argv[3]);
-  const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / fmt::format("interval_coverage_{}", base);
-  std::filesystem::create_directories(folder);
   std::vector<Row> rows;
   Lengths springs_lengths, default_lengths;
   std::mutex mutex;
-  numerics::onAllCores(static_cast<std::size_t>(count), [&](std::size_t machine) {
-    const int i = static_cast<int>(machine);
-    try {
-      const std::uint64_t seed = base * 1'000'000 + machine;
-      const validation::BlindCase one =
-          bench::drawMachine(family, i, seed, folder / fmt::format("{}_{}.urdf", family, i));
-      const preparation::PreparedCampaign prepared = preparation::prepareCampaign(bench::dayOf(family, one, seed));
-      const identification::IdentifyOptions options = identification::valuesOnly();
-      const extended_model::ExtendedModel model = extended_model::supportedModel(prepared, prepared.campaign, options);
-      Row like;
-      like.machine = i;
-      for (const validation::PlacedEffect& effect : one.effects)
-        like.effects += (effect.effect.empty() ? std::string("outside") : effect.effect) + " " + effect.detail + ";";
-      const Vector6d truth = trueCompliance(one.spec.machine);
-      const std::lock_guard<std::mutex> lock(mutex);
-      addRows(model.without, "springs", truth, like, rows);
-      addRows(model.with, "default", truth, like, rows);
-      springs_lengths.add(model.without.frames, one.spec);
-      default_lengths.add(model.with.frames, one.spec);
-    } catch (const std::exception& error) {
-      const std::lock_guard<std::mutex> lock(mutex);
-      std::cerr << family << ' ' << i << ": " << error.what() << '\n';
-    }
-  });
+  bench::onMachines(
+      "interval_coverage", family, count, base, [&](int i, std::uint64_t seed, validation::BlindCase& one) {
+        const preparation::PreparedCampaign prepared = preparation::prepareCampaign(bench::dayOf(family, one, seed));
+        const identification::IdentifyOptions options = identification::valuesOnly();
+        const extended_model::ExtendedModel model =
+            extended_model::supportedModel(prepared, prepared.campaign, options);
+        Row like;
+        like.machine = i;
+        like.effects = bench::effectsOf(one);
+        const Vector6d truth = trueCompliance(one.spec.machine);
+        const std::lock_guard<std::mutex> lock(mutex);
+        addRows(model.without, "springs", truth, like, rows);
+        addRows(model.with, "default", truth, like, rows);
+        springs_lengths.add(model.without.frames, one.spec);
+        default_lengths.add(model.with.frames, one.spec);
+      });
   print(family, "springs", rows);
   print(family, "default", rows);
   print(family, "springs", springs_lengths);

@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <exception>
+#include <iostream>
+#include <mutex>
 #include <variant>
 
 #include "core/io/units.h"
+#include "core/numerics/parallel.h"
 #include "core/numerics/random.h"
 #include "core/simulation/measure.h"
 #include "core/simulation/postures.h"
@@ -138,6 +142,37 @@ campaign::Campaign dayOf(const std::string& family, const validation::BlindCase&
   robot::scaleMasses(factor, campaign.robot);
   campaign.mass_sigma = kMassSigma;
   return campaign;
+}
+
+void onMachines(const std::string& bench, const std::string& family, int count, std::uint64_t base,
+                const std::function<void(int i, std::uint64_t seed, validation::BlindCase& one)>& judge) {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / fmt::format("{}_{}", bench, base);
+  std::filesystem::create_directories(folder);
+  std::mutex mutex;
+  numerics::onAllCores(static_cast<std::size_t>(count), [&](std::size_t machine) {
+    const int i = static_cast<int>(machine);
+    try {
+      const std::uint64_t seed = base * 1'000'000 + machine;
+      validation::BlindCase one = drawMachine(family, i, seed, folder / fmt::format("{}_{}.urdf", family, i));
+      judge(i, seed, one);
+    } catch (const std::exception& error) {
+      const std::lock_guard<std::mutex> lock(mutex);
+      std::cerr << family << ' ' << i << ": " << error.what() << '\n';
+    }
+  });
+}
+
+std::string effectsOf(const validation::BlindCase& one) {
+  std::string effects;
+  for (const validation::PlacedEffect& effect : one.effects)
+    effects += (effect.effect.empty() ? std::string("outside") : effect.effect) + " " + effect.detail + ";";
+  return effects;
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+  return values[values.size() / 2];
 }
 
 }  // namespace stiffscope::bench

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -33,5 +34,17 @@ std::vector<Vector6d> heldOutPostures(simulation::SimulationSpec spec, int count
 
 /// The day of a machine; of the masses' family with a URDF whose masses are all off by one factor.
 campaign::Campaign dayOf(const std::string& family, const validation::BlindCase& one, std::uint64_t seed);
+
+/// Draws `count` machines of a family on all cores, by seeds that begin at `base` times a million, and hands each on
+/// with its number and its seed, from several threads at once. Their URDFs stand in a temporary folder of the bench's
+/// name. A machine that fails is said on standard error.
+void onMachines(const std::string& bench, const std::string& family, int count, std::uint64_t base,
+                const std::function<void(int i, std::uint64_t seed, validation::BlindCase& one)>& judge);
+
+/// What a machine has, for a table of machines.
+std::string effectsOf(const validation::BlindCase& one);
+
+/// 0 of none.
+double median(std::vector<double> values);
 
 }  // namespace stiffscope::bench

@@ -12,8 +12,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <exception>
-#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <mutex>
@@ -24,7 +22,6 @@
 #include "core/extended_model/effect_deflection.h"
 #include "core/extended_model/extend_model.h"
 #include "core/identification/known_stiffness.h"
-#include "core/numerics/parallel.h"
 #include "core/numerics/random.h"
 #include "core/preparation/prepare.h"
 #include "core/robot/cartesian_stiffness.h"
@@ -120,12 +117,6 @@ void judge(const simulation::SimulationSpec& spec, std::uint64_t seed, const Row
   }
 }
 
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-  return values[values.size() / 2];
-}
-
 void print(const std::string& family, std::size_t model, std::size_t place, int order, const std::vector<Row>& rows) {
   std::size_t all = 0, held = 0, below = 0;
   std::vector<double> widths, errors;
@@ -142,7 +133,7 @@ void print(const std::string& family, std::size_t model, std::size_t place, int 
       "%\n",
       family, kModels[model], kPlaces[place], order + 1, held, all,
       100.0 * static_cast<double>(held) / static_cast<double>(std::max<std::size_t>(1, all)), below,
-      100.0 * median(widths), 100.0 * median(errors));
+      100.0 * bench::median(widths), 100.0 * bench::median(errors));
 }
 
 }  // namespace
@@ -155,30 +146,19 @@ int main(int argc, char** argv) {
   const std::string family = argv[1];
   const int count = std::stoi(argv[2]);
   const std::uint64_t base = std::stoull(argv[3]);
-  const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / fmt::format("stiffness_coverage_{}", base);
-  std::filesystem::create_directories(folder);
   std::vector<Row> rows;
   std::mutex mutex;
-  numerics::onAllCores(static_cast<std::size_t>(count), [&](std::size_t machine) {
-    const int i = static_cast<int>(machine);
-    try {
-      const std::uint64_t seed = base * 1'000'000 + machine;
-      validation::BlindCase one = bench::drawMachine(family, i, seed, folder / fmt::format("{}_{}.urdf", family, i));
-      bench::hangWeights(*one.spec.loading);
-      Row like;
-      like.machine = i;
-      for (const validation::PlacedEffect& effect : one.effects)
-        like.effects += (effect.effect.empty() ? std::string("outside") : effect.effect) + " " + effect.detail + ";";
-      std::vector<Row> own;
-      judge(one.spec, seed, like, own);
-      const std::lock_guard<std::mutex> lock(mutex);
-      rows.insert(rows.end(), own.begin(), own.end());
-    } catch (const std::exception& error) {
-      const std::lock_guard<std::mutex> lock(mutex);
-      std::cerr << family << ' ' << i << ": " << error.what() << '\n';
-    }
-  });
+  bench::onMachines("stiffness_coverage", family, count, base,
+                    [&](int i, std::uint64_t seed, validation::BlindCase& one) {
+                      bench::hangWeights(*one.spec.loading);
+                      Row like;
+                      like.machine = i;
+                      like.effects = bench::effectsOf(one);
+                      std::vector<Row> own;
+                      judge(one.spec, seed, like, own);
+                      const std::lock_guard<std::mutex> lock(mutex);
+                      rows.insert(rows.end(), own.begin(), own.end());
+                    });
   for (std::size_t model = 0; model < kModels.size(); ++model) {
     for (std::size_t place = 0; place < kPlaces.size(); ++place) {
       for (int order = 0; order < 3; ++order) print(family, model, place, order, rows);
