@@ -1,4 +1,4 @@
-#include "python/campaign_tables.h"
+#include "python/to_python.h"
 
 #include <pybind11/numpy.h>
 #include <cmath>

@@ -20,7 +20,6 @@
 #include "core/io/input_error.h"
 #include "core/io/read_points.h"
 #include "core/io/units.h"
-#include "python/campaign_tables.h"
 #include "python/to_python.h"
 
 namespace py = pybind11;

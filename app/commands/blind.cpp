@@ -18,7 +18,7 @@
 #include "core/validation/run_blind.h"
 #include "reports/json/json.h"
 #include "reports/json/json_document.h"
-#include "reports/page/validation_page.h"
+#include "reports/page/pages.h"
 #include "reports/text/text.h"
 #include "reports/words/remark_words.h"
 

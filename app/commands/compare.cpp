@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "app/command_line.h"
-#include "app/commands/compare_results.h"
 #include "app/computations.h"
+#include "app/figures/result_charts.h"
 #include "app/model.h"
 #include "app/options.h"
 #include "app/output.h"
@@ -13,8 +13,10 @@
 #include "core/comparison/compare.h"
 #include "core/comparison/geometry_change.h"
 #include "core/io/input_error.h"
+#include "core/io/write_file.h"
 #include "reports/json/campaign_json.h"
 #include "reports/json/json.h"
+#include "reports/page/pages.h"
 #include "reports/report_content.h"
 #include "reports/stated_results.h"
 #include "reports/text/text.h"
@@ -66,6 +68,17 @@ int compareUnloaded(const preparation::PreparedCampaign& before, const preparati
         return reports::geometryChangeText(before.campaign, after.campaign, change) + preparationsText(before, after);
       });
   return change.reason.empty() ? kDone : kNotUsable;
+}
+
+/// Two result files. kNotUsable where the machines differ; then no page is written.
+int compareResults(const std::string& before, const std::string& after, const std::string& html, const Outlet& outlet) {
+  const reports::StatedComparison comparison =
+      reports::compareStated(reports::readStatedCampaign(before), reports::readStatedCampaign(after));
+  if (comparison.refused.empty() && !html.empty())
+    io::writeFileWhole(html, page::comparisonPage(comparison, statedCharts(comparison)));
+  outlet.deliver([&] { return reports::statedComparisonJson(comparison); },
+                 [&] { return reports::statedComparisonText(comparison); });
+  return comparison.refused.empty() ? kDone : kNotUsable;
 }
 
 }  // namespace

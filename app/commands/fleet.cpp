@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "app/command_line.h"
-#include "app/figures/fleet_charts.h"
+#include "app/figures/result_charts.h"
 #include "app/fleet/fleet_work.h"
 #include "app/fleet/slurm.h"
 #include "app/options.h"
@@ -12,7 +12,7 @@
 #include "core/io/write_file.h"
 #include "reports/csv/fleet_csv.h"
 #include "reports/json/fleet_json.h"
-#include "reports/page/fleet_page.h"
+#include "reports/page/pages.h"
 #include "reports/words/fleet_words.h"
 #include "reports/words/remark_words.h"
 #include "reports/words/rich_text.h"

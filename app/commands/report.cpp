@@ -36,7 +36,7 @@
 #include "reports/json/json.h"
 #include "reports/json/json_document.h"
 #include "reports/page/html.h"
-#include "reports/page/report_page.h"
+#include "reports/page/pages.h"
 #include "reports/report_content.h"
 #include "reports/words/calibration_words.h"
 #include "reports/words/day_words.h"

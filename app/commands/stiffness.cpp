@@ -15,7 +15,7 @@
 #include "core/io/write_file.h"
 #include "core/workspace/workspace_stiffness.h"
 #include "reports/csv/csv_table.h"
-#include "reports/csv/workspace_csv.h"
+#include "reports/csv/posture_tables.h"
 #include "reports/json/campaign_json.h"
 #include "reports/json/identification_json.h"
 #include "reports/json/json.h"

@@ -1,4 +1,4 @@
-#include "app/figures/fleet_charts.h"
+#include "app/figures/result_charts.h"
 
 #include <fmt/format.h>
 #include <algorithm>

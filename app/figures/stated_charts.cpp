@@ -1,4 +1,4 @@
-#include "app/figures/stated_charts.h"
+#include "app/figures/result_charts.h"
 
 #include <fmt/format.h>
 #include <cmath>

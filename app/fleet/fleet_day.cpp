@@ -1,4 +1,4 @@
-#include "app/fleet/fleet_day.h"
+#include "app/fleet/fleet_work.h"
 
 #include <algorithm>
 #include <cmath>

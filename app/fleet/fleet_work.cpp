@@ -12,7 +12,6 @@
 #include <stdexcept>
 #include <thread>
 
-#include "app/fleet/fleet_day.h"
 #include "app/fleet/processes.h"
 #include "app/terminal.h"
 #include "core/io/input_error.h"

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/fleet/campaign_result.h"
 #include "core/fleet/fleet.h"
 #include "core/numerics/shard.h"
 
@@ -39,5 +40,12 @@ fleet::Fleet fleetFrom(const FleetRequest& request, const std::vector<FoundCampa
 
 /// What a process of it does: the result of one campaign, or of two, into `file`.
 void writeOneResult(const std::vector<std::string>& folders, bool springs_only, const std::filesystem::path& file);
+
+/// What a fleet keeps of a campaign: audited; under loads identified (`springs_only`: without further effects in the
+/// model) and diagnosed; without a load calibrated and diagnosed. Throws what reading and computing throw.
+fleet::CampaignResult fleetDay(const std::string& folder, bool springs_only);
+
+/// Two days without a load of one machine.
+fleet::PairResult fleetPair(const std::string& before, const std::string& after);
 
 }  // namespace stiffscope::app

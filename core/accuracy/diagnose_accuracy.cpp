@@ -6,8 +6,7 @@
 #include <random>
 #include <utility>
 
-#include "core/accuracy/next_measurements.h"
-#include "core/accuracy/where.h"
+#include "core/accuracy/where_next.h"
 #include "core/numerics/resampling.h"
 
 namespace stiffscope::accuracy {

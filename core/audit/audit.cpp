@@ -9,8 +9,8 @@
 #include <span>
 #include <utility>
 
-#include "core/audit/check_noise.h"
 #include "core/audit/checks.h"
+#include "core/audit/redundancies.h"
 #include "core/audit/remarks.h"
 #include "core/campaign/state_points.h"
 #include "core/numerics/parallel.h"

@@ -1,4 +1,4 @@
-#include "core/audit/check_load.h"
+#include "core/audit/redundancies.h"
 
 #include <Eigen/Dense>
 #include <algorithm>

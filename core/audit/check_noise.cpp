@@ -1,10 +1,9 @@
-#include "core/audit/check_noise.h"
+#include "core/audit/redundancies.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "core/audit/check_load.h"
 #include "core/audit/checks.h"
 #include "core/audit/limits.h"
 #include "core/audit/remarks.h"

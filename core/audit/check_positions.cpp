@@ -3,9 +3,9 @@
 #include <cmath>
 #include <map>
 
-#include "core/audit/check_noise.h"
 #include "core/audit/checks.h"
 #include "core/audit/limits.h"
+#include "core/audit/redundancies.h"
 #include "core/audit/remarks.h"
 #include "core/campaign/row_names.h"
 #include "core/identification/identifiability.h"

@@ -1,4 +1,4 @@
-#include "core/audit/check_tool.h"
+#include "core/audit/redundancies.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "core/audit/check_wrist.h"
+#include "core/audit/redundancies.h"
 
 #include <Eigen/Dense>
 #include <algorithm>

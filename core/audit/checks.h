@@ -49,7 +49,7 @@ Findings checkCompleteness(const AuditInput& input);
 Findings checkRepeatability(const AuditInput& input);
 
 /// noise_declared, of the tracker and of the load cell: their declared noise against what the readings show
-/// (core/audit/check_noise.h). Warns where too large, because all limits are then as lax; fails where too small.
+/// (core/audit/redundancies.h). Warns where too large, because all limits are then as lax; fails where too small.
 Findings checkDeclaredNoise(const AuditInput& input);
 
 /// rigid_tool: distances between reflectors, over sweeps, postures and loads.

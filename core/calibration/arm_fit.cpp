@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/calibration/fit_sums.h"
+#include "core/calibration/fitted_day.h"
 #include "core/numerics/resampling.h"
 #include "metrology/linear_algebra.h"
 

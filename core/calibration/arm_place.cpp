@@ -1,4 +1,4 @@
-#include "core/calibration/arm_place.h"
+#include "core/calibration/fitted_arm.h"
 
 #include <algorithm>
 #include <limits>

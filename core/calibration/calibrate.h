@@ -1,12 +1,14 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/calibration/arm_fit.h"
-#include "core/calibration/compare_angles.h"
 #include "core/calibration/effect_selection.h"
+#include "core/calibration/fitted_arm.h"
 #include "core/calibration/held_out.h"
 #include "core/calibration/remarks.h"
 #include "core/calibration/unloaded_day.h"
@@ -14,6 +16,31 @@
 #include "metrology/remark.h"
 
 namespace stiffscope::calibration {
+
+/// How well the fullest model predicts held-out postures from the reported joint angles and from the commanded ones. A
+/// smaller model would judge by what it lacks, which is often larger than the difference of the angles.
+struct AngleComparison {
+  std::array<bool, 6> joints{};  ///< which have commanded angles in every unloaded posture
+  double largest = 0.0;          ///< largest difference between the two, rad
+  PositionErrors reported, commanded;
+  /// Mean over the postures of how much larger the squared error with the reported angles is, over its own standard
+  /// uncertainty: positive where the commanded ones fit better.
+  double significance = 0.0;
+  std::optional<JointAngles> better;  ///< empty: chance could have made the difference
+};
+
+/// The largest difference of the two kinds of angles in unloaded postures, rad; 0 where no joint has commanded ones.
+double largestDifference(const campaign::Campaign& campaign);
+
+/// What a calibration by one kind of angles makes of the day's readings, in their order.
+struct HeldOutReadings {
+  const std::vector<double>& weights;             ///< 0: rejected
+  const std::vector<Eigen::Vector3d>& residuals;  ///< of the fullest model, held out; not a number: not predicted, m
+};
+
+/// A reading that both reject is left out. Neither `joints` nor `largest` is filled.
+AngleComparison compareAngles(const UnloadedDay& day, const HeldOutReadings& reported,
+                              const HeldOutReadings& commanded);
 
 /// In the order in which they are fitted; each has what the one before it has, but for `effects`, which keeps of the
 /// own weight what the selection asks for.
@@ -58,5 +85,19 @@ struct Calibration {
 /// left. Held out: postures of one fold are predicted by models of which nothing was fitted or chosen with them. A
 /// reading that is rejected by the fit to all is left out of every figure.
 Calibration calibrate(const campaign::Campaign& campaign, const CalibrationOptions& options);
+
+/// Three numbers with their standard uncertainties, m or rad; 0: held.
+struct UncertainPoint {
+  Eigen::Vector3d value = Eigen::Vector3d::Zero(), sd = Eigen::Vector3d::Zero();
+};
+
+/// Where the tracker stands in base_link: its place p follows the base's parameters by dp = r x (p - centre) + s.
+UncertainPoint stationInBase(const UnloadedDay& day, const ArmFit& fit);
+
+/// Rotation vector from the readings' axes to base_link's; sd: of a small turn about base_link's axes.
+UncertainPoint turnOfStation(const ArmFit& fit);
+
+/// Each reflector in the flange's frame, as the fitted arm has it at zero, the arm's own uncertainty not in it.
+std::vector<UncertainPoint> targetsInFlange(const UnloadedDay& day, const ArmFit& fit);
 
 }  // namespace stiffscope::calibration

@@ -1,4 +1,4 @@
-#include "core/calibration/compare_angles.h"
+#include "core/calibration/calibrate.h"
 
 #include <algorithm>
 #include <cmath>

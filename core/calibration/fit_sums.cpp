@@ -1,4 +1,4 @@
-#include "core/calibration/fit_sums.h"
+#include "core/calibration/fitted_day.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "core/calibration/frame_uncertainty.h"
+#include "core/calibration/calibrate.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

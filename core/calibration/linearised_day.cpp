@@ -1,4 +1,4 @@
-#include "core/calibration/linearised_day.h"
+#include "core/calibration/family_fit.h"
 
 #include <algorithm>
 #include <cmath>

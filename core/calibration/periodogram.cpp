@@ -1,4 +1,4 @@
-#include "core/calibration/periodogram.h"
+#include "core/calibration/family_fit.h"
 
 #include <cmath>
 

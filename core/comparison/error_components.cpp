@@ -1,4 +1,4 @@
-#include "core/comparison/error_components.h"
+#include "core/comparison/paired_days.h"
 
 #include <Eigen/Dense>
 #include <algorithm>

@@ -5,9 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/campaign/read_table.h"
 #include "core/identification/load_case.h"
-#include "core/io/read_file.h"
 #include "core/io/units.h"
 #include "core/numerics/parallel.h"
 #include "core/robot/inverse_kinematics.h"
@@ -27,59 +25,6 @@ std::vector<Remark> implausibleCommands(const std::vector<CompensatedPosture>& p
     remarks.emplace_back(RemarkId::implausible_command, posture.posture.id, joint + 1, turn);
   }
   return remarks;
-}
-
-namespace {
-
-struct PostureRow {
-  std::string id;
-  Vector6d q = Vector6d::Zero();
-  Vector6d wrench_in_cell = Vector6d::Zero();
-  std::size_t line = 0;
-};
-
-const campaign::TableLayout<PostureRow>& posturesLayout() {
-  using Row = PostureRow;
-  static const campaign::TableLayout<Row> layout{
-      "postures",
-      campaign::joined<Row>({{{"pose", campaign::CellKind::text, [](Row& row) -> std::string& { return row.id; }}},
-                             campaign::jointColumns<Row>(),
-                             campaign::wrenchColumns<Row>()}),
-      {"pose"}};
-  return layout;
-}
-
-}  // namespace
-
-std::vector<PostureToCompensate> readPostures(const std::filesystem::path& file, std::vector<std::string>& warnings) {
-  const std::string bytes = io::readTextFile(file);
-  campaign::CampaignNames names;
-  std::vector<PostureToCompensate> postures;
-  for (PostureRow& row : campaign::readTable<PostureRow>({file.string(), bytes}, posturesLayout(), names, warnings)) {
-    postures.push_back({std::move(row.id), row.q, row.wrench_in_cell});
-  }
-  return postures;
-}
-
-std::vector<NamedReading> readWrenches(const std::filesystem::path& file, std::vector<std::string>& warnings) {
-  using Row = NamedReading;
-  static const campaign::TableLayout<Row> layout{
-      "wrenches",
-      campaign::joined<Row>({{{"pose", campaign::CellKind::text, [](Row& row) -> std::string& { return row.id; }}},
-                             campaign::wrenchColumns<Row>()}),
-      {"pose"}};
-  const std::string bytes = io::readTextFile(file);
-  campaign::CampaignNames names;
-  return campaign::readTable<Row>({file.string(), bytes}, layout, names, warnings);
-}
-
-std::vector<PostureToCompensate> campaignPostures(const campaign::Campaign& campaign, int step) {
-  std::vector<PostureToCompensate> postures;
-  for (const campaign::State& state : campaign.states->rows) {
-    if (state.step != step) continue;
-    postures.push_back({campaign.pose_ids[static_cast<std::size_t>(state.pose)], state.q, state.wrench_in_cell});
-  }
-  return postures;
 }
 
 namespace {

@@ -1,21 +1,92 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/campaign/campaign.h"
-#include "core/compensation/deflection_draws.h"
-#include "core/compensation/identified_range.h"
 #include "core/compensation/remarks.h"
 #include "core/effects/elastic_arm.h"
+#include "core/extended_model/extended_model.h"
+#include "core/frames/arm_geometry.h"
 #include "core/identification/estimate.h"
+#include "core/identification/identification.h"
+#include "core/robot/wrench.h"
 #include "metrology/remark.h"
 
 namespace stiffscope::compensation {
+
+/// Displacement of points of the flange body (R0, unloaded places) under a load by a unit of each parameter, to first
+/// order: three rows a point, one column a parameter, m per unit.
+using DisplacementByParameters = std::function<Eigen::MatrixXd(
+    const Vector6d& commands, const effects::FlangeLoad& load, const std::vector<Eigen::Vector3d>& points)>;
+
+/// What may be true of the arm instead of its model, a draw each column (Monte Carlo, JCGM 101). All draws are equally
+/// likely, and one draw is the same arm in all postures and under all loads: an effect that the day's loads could not
+/// see is small in no draw for that reason, and widens the prediction for the loads that rouse it.
+struct DeflectionDraws {
+  /// c less the model's, rad/Nm; of a draw of `springs_alone` c itself. A joint that the day cannot see is anywhere
+  /// between rigid and as weak as the weaker of its neighbours.
+  Eigen::Matrix<double, 6, Eigen::Dynamic> compliance;
+  Eigen::MatrixXd parameters;   ///< of what gives besides joint springs, less the model's
+  DisplacementByParameters by;  ///< null: the parameters are moves along EffectDeflection::varied
+  Eigen::VectorXd load;         ///< error of the wrench's size, a share
+  /// Whether the draw is an arm that gives at joint springs alone: where no model explains the day, half of them are.
+  std::vector<bool> springs_alone;
+  Eigen::Matrix3Xd model_error;  ///< standard normal numbers, for what the model leaves of a point
+
+  Eigen::Index size() const { return compliance.cols(); }
+};
+
+/// Joint springs alone. `covariance`: of their compliances, scaled to normal numbers (coveringCovariance). `load_sd`:
+/// of the load cell's scale. `varied`: further parameters, standard normal and independent.
+DeflectionDraws springDraws(const identification::StiffnessEstimate& estimate, const Matrix6d& covariance,
+                            double load_sd = 0.0, Eigen::Index varied = 0);
+
+/// The posterior predictive: each draw one of springs and effects together (extended_model/hidden_effects.h) with one
+/// of everything else. Where the effects were named by hand, nothing hides, and the draws are those of the fit. `model`
+/// must outlive the result.
+DeflectionDraws modelDraws(const extended_model::ExtendedModel& model, identification::Method method, double load_sd);
+
+/// What a prediction of three coordinates is uncertain by.
+struct PredictionSpread {
+  Eigen::Vector3d sd = Eigen::Vector3d::Zero();
+  std::array<identification::CoverageInterval, 3>
+      interval{};         ///< of the error of each coordinate, at the stated coverage
+  double expanded = 0.0;  ///< U: the error is shorter than this at the stated coverage
+};
+
+/// Of the errors of a prediction, a draw each column: moments about zero, and quantiles widened to hold zero. Not a
+/// number where some error is not.
+PredictionSpread spreadOf(const Eigen::Matrix3Xd& errors);
+
+/// The loads and postures that a day's stiffnesses come from, and what the model left of the day's own deflections.
+struct IdentifiedRange {
+  double force = 0.0;                                        ///< largest, N
+  double moment = 0.0;                                       ///< largest about the wrist, Nm
+  Vector6d torque = Vector6d::Zero();                        ///< largest of each joint by the load, Nm
+  Vector6d low = Vector6d::Zero(), high = Vector6d::Zero();  ///< joint angles, rad
+  double model_error = 0.0;  ///< rms per coordinate of a reflector, beyond noise, under the largest load, m
+  double tool_size = 0.0;    ///< rms distance of the reflectors from their middle, m
+};
+
+/// Of one method's load cases.
+///
+/// Model error: every posture is left out once (of more than 50, a fiftieth of them at a time), the springs are solved
+/// from the others, effects as they are, and s^2 = (sum r^2 - n noise^2) / sum of load^2 over the reflectors' residuals
+/// r of postures left out; never below zero. Load: as loadRatio.
+IdentifiedRange identifiedRange(const identification::Identification& result, identification::Method method);
+
+/// Where axes 5 and 6 come nearest to each other: what moments of a load are taken about.
+Eigen::Vector3d wristOf(const robot::ArmAxes& axes);
+
+/// How large a load is beside the largest of the day: the larger of the ratios of force and of moment about the wrist.
+double loadRatio(const IdentifiedRange& range, const robot::Wrench& wrench, const robot::ArmAxes& axes);
 
 /// A posture and the load-cell reading expected there (as in the `states` table).
 struct PostureToCompensate {

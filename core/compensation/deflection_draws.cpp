@@ -1,4 +1,4 @@
-#include "core/compensation/deflection_draws.h"
+#include "core/compensation/compensate.h"
 
 #include <Eigen/Dense>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "core/compensation/identified_range.h"
+#include "core/compensation/compensate.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "core/conformity/limits.h"
+#include "core/conformity/decide.h"
 
 #include <fmt/format.h>
 #include <algorithm>

@@ -12,7 +12,6 @@
 #include "core/diagnosis/geometry_error.h"
 #include "core/diagnosis/held_out.h"
 #include "core/diagnosis/localization.h"
-#include "core/diagnosis/significance.h"
 #include "core/diagnosis/verdict.h"
 #include "core/io/input_error.h"
 #include "core/preparation/subsample.h"

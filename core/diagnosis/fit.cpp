@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/diagnosis/joint_fit.h"
 #include "core/diagnosis/projection.h"
 #include "core/diagnosis/selection.h"
 #include "metrology/linear_algebra.h"

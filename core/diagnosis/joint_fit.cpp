@@ -1,4 +1,4 @@
-#include "core/diagnosis/joint_fit.h"
+#include "core/diagnosis/fit.h"
 
 #include <ceres/ceres.h>
 #include <Eigen/Dense>

@@ -1,4 +1,4 @@
-#include "core/diagnosis/significance.h"
+#include "core/diagnosis/verdict.h"
 
 #include <Eigen/Dense>
 #include <algorithm>

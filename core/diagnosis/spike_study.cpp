@@ -4,7 +4,6 @@
 #include <map>
 #include <mutex>
 
-#include "core/diagnosis/spiked_day.h"
 #include "core/numerics/parallel.h"
 #include "core/preparation/subsample.h"
 

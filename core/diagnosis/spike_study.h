@@ -1,15 +1,98 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/diagnosis/diagnose.h"
 #include "core/diagnosis/diagnosis.h"
+#include "core/diagnosis/diagnosis_input.h"
+#include "core/diagnosis/linear_system.h"
+#include "core/diagnosis/projection.h"
+#include "core/numerics/random.h"
+#include "core/preparation/prepare.h"
 
 namespace stiffscope::diagnosis {
+
+/// An effect to be added to a day, all but its size: which of its equations and parts, which direction.
+struct Spike {
+  effects::Effect effect = effects::Effect::link_compliance;
+  std::size_t model = 0;           ///< of effectModelsOf; none for the geometry
+  std::vector<std::string> parts;  ///< as the effect's record names them: "joint 3", "P12"; empty: it has no names
+  /// Parameters of the model, or of the geometry the zeros (rad) of joints 2 to 5 and the lengths (m) before them, as
+  /// they are at a size of 1 m.
+  Eigen::VectorXd parameters;
+  double largest = 0.0;  ///< size at which a parameter reaches its physical bound, m
+};
+
+/// A real day to which effects can be added.
+///
+/// What an effect adds to a reading is u = X(s) theta, X the columns of the effect's own record (effects::EffectModel)
+/// in the state s of that reading, at the stiffnesses, geometry and wrenches that identification finds: to readings of
+/// loading and sweeps u, to displacements u less that of the unloaded state; a drift moves the nests as well. Where an
+/// equation bends with its own size (friction, play), X is taken at that size. Wrenches, angles and all else stay as
+/// they were read, so that noise, drift and every effect that the day has stay in it. kinematic_error, whose record has
+/// no columns, turns or shifts what lies beyond a joint by a wrong zero or length, in every reading alike.
+///
+/// Size is in the unit of DetectableSize: sqrt(theta^T N theta / n) times the noise of one state's displacement, N the
+/// whitened normal equations of X over the day's n equations, theta at first order. For kinematic_error: rms per
+/// coordinate of what base and reflectors cannot follow in the unloaded positions (GeometryError::rms).
+///
+/// It shares its equations with the diagnosis. What it shows is whether an effect that follows them is seen and told
+/// from others in this day's readings; not whether the machine follows them.
+class SpikedDay {
+ public:
+  /// Throws InputError as diagnose does.
+  explicit SpikedDay(campaign::Campaign campaign);
+  SpikedDay(const SpikedDay&) = delete;
+  SpikedDay& operator=(const SpikedDay&) = delete;
+
+  /// Why nothing can be added; empty where it can.
+  const Remark& unusable() const { return start_.reason; }
+
+  /// An effect with a model, one part (two in a third of the draws, where its parts may be present together), signs
+  /// and proportions of the parameters drawn; parts that joint springs and geometry hide are not drawn. `largest`: size
+  /// that should be within the physical bounds of the parameters; where none of 40 draws is, the last one stands.
+  /// Empty where the effect has nothing that this day could show.
+  std::optional<Spike> draw(effects::Effect effect, double largest, numerics::RandomStream& random) const;
+
+  /// The day as it was read, with the effect in that size (m) added.
+  campaign::Campaign with(const Spike& spike, double size) const;
+
+ private:
+  /// Displacement of reflectors in R0, three rows a reflector of the state.
+  using Field = std::function<Eigen::VectorXd(const effects::PostureStates& posture, std::size_t state)>;
+
+  struct Part {
+    std::size_t model = 0, part = 0;
+    Eigen::Index first = 0;  ///< of its parameters among all effects'
+  };
+
+  std::vector<Part> seenParts(effects::Effect effect) const;
+  std::optional<Spike> drawGeometry(numerics::RandomStream& random) const;
+  Field fieldOf(const Spike& spike, double size) const;
+  Eigen::VectorXd byGeometry(const Eigen::VectorXd& errors, const effects::ArmState& state) const;
+  double geometryLeft(const Eigen::VectorXd& errors) const;  ///< GeometryError::rms that they make, m
+  effects::ArmState atRest(int target, const Vector6d& q, const Eigen::Vector3d& point, double time_s) const;
+  void moveLoading(const Field& field, campaign::Campaign& campaign) const;
+  void moveDisplacements(const Field& field, campaign::Campaign& campaign) const;
+  template <class Row>
+  void moveSweep(const Field& field, std::vector<Row>& rows) const;
+  void moveNests(const Field& field, campaign::Campaign& campaign) const;
+
+  campaign::Campaign campaign_;  ///< as read
+  preparation::PreparedCampaign prepared_;
+  DiagnosisInput start_;
+  SystemInput input_;
+  LinearSystem data_;
+  Eigen::MatrixXd normal_;  ///< of the effects' columns, nothing projected off
+  Projection projection_;
+};
 
 struct SpikeOptions {
   std::vector<effects::Effect> effects;              ///< empty: all

@@ -1,4 +1,4 @@
-#include "core/diagnosis/spiked_day.h"
+#include "core/diagnosis/spike_study.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "core/elastic_model/mjcf.h"
+#include "core/elastic_model/simulator_models.h"
 
 #include <tinyxml2.h>
 #include <algorithm>

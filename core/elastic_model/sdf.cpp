@@ -1,4 +1,4 @@
-#include "core/elastic_model/sdf.h"
+#include "core/elastic_model/simulator_models.h"
 
 #include <tinyxml2.h>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "core/extended_model/corrected_campaign.h"
+#include "core/extended_model/extend_model.h"
 
 #include <fmt/format.h>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "core/extended_model/course_of_day.h"
+#include "core/extended_model/hidden_effects.h"
 
 #include <Eigen/Dense>
 #include <algorithm>

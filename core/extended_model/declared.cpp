@@ -1,4 +1,4 @@
-#include "core/extended_model/declared.h"
+#include "core/extended_model/hidden_effects.h"
 
 namespace stiffscope::extended_model {
 

@@ -1,4 +1,4 @@
-#include "core/extended_model/evaluate_extended.h"
+#include "core/extended_model/extend_model.h"
 
 #include <Eigen/Dense>
 #include <algorithm>

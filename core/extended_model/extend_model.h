@@ -1,8 +1,13 @@
 #pragma once
 
+#include <vector>
+
 #include "core/diagnosis/diagnosis.h"
 #include "core/extended_model/extended_model.h"
+#include "core/extended_model/fitted_effects.h"
+#include "core/extended_model/method_equations.h"
 #include "core/identification/identify.h"
+#include "core/identification/load_case.h"
 #include "core/preparation/prepare.h"
 
 namespace stiffscope::extended_model {
@@ -24,5 +29,25 @@ ExtendedModel supportedModel(const preparation::PreparedCampaign& prepared, cons
 /// Puts the stiffnesses of the model's best method into a diagnosis of the same day: by springs alone, with the
 /// effects, and the interval, so that the same question has one answer. Nothing where no method is available.
 void stateStiffnesses(const ExtendedModel& model, diagnosis::Diagnosis& diagnosis);
+
+/// Judges the methods of `model.with` with the effects in the model: displacements are the machine's own, and on every
+/// subset of postures (all up to a thousand, else a thousand drawn, and
+/// fewer of a long day) effects and springs are fitted anew, the effects by
+/// one linear step, the equations following them to first order. Fills shares, residuals, `subsets`, and the bootstrap
+/// where it is asked for, of every available method, `model.spread.compliance`, and the displacements by case.
+void evaluateExtended(const identification::IdentifyOptions& options, const std::vector<CaseEffects>& cases,
+                      ExtendedModel& model);
+
+/// The campaign as it would have been read without the effects: what is left is the day of a machine with joint springs
+/// and nothing else, which frames, calibration and methods then stand on. Off every reading of loading, displacements
+/// and, where they took part in the fit, sweeps goes what the effects add in its state (PostureOffsets), own weight's
+/// part included. Effects that act through the wrench change the load cell's declared point (load_point_error) or the
+/// readings in `states` (misalignment, bias); a moved frame is undone by its finite motion.
+///
+/// Postures whose loaded readings the fit does not have (no reflector read in all load steps) cannot be corrected and
+/// are left out, named in `left_out`. Throws InputError where the load cell's point does not move with the flange and
+/// is to be corrected.
+campaign::Campaign correctedFor(const EffectFit& effects, const campaign::Campaign& campaign,
+                                std::vector<identification::LeftOutPosture>& left_out);
 
 }  // namespace stiffscope::extended_model

@@ -21,7 +21,7 @@ struct EffectSpread {
 
 /// Joint springs with further effects.
 ///
-/// The effects come from one joint fit (effect_fit.h). The readings are corrected for them once (corrected_campaign.h),
+/// The effects come from one joint fit (effect_fit.h). The readings are corrected for them once (extend_model.h),
 /// and the three methods run on the rest as on any campaign. All that asks for other sizes of the effects goes through
 /// the methods' equations A c + E theta = b (method_equations.h). What then stands in `with`:
 ///  - uncertainty: the scatter between postures that is left, what frames and calibration share, and, as a part of its

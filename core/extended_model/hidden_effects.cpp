@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "core/effects/gravity_equilibrium.h"
-#include "core/extended_model/effect_posterior.h"
 #include "core/extended_model/method_equations.h"
 #include "core/identification/estimate.h"
 #include "core/numerics/random.h"

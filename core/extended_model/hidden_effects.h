@@ -1,16 +1,46 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
+#include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/diagnosis/gap_study.h"
+#include "core/effects/effect.h"
 #include "core/extended_model/effect_offsets.h"
 #include "core/extended_model/fitted_effects.h"
-#include "core/extended_model/seen_combinations.h"
+#include "core/identification/estimate.h"
 #include "core/identification/identification.h"
+#include "core/identification/identify.h"
 
 namespace stiffscope::extended_model {
+
+/// A parameter of an effect that may hide, in words of effect_model.h.
+struct HiddenParameter {
+  effects::Effect effect = effects::Effect::link_compliance;
+  std::string name;  ///< "joint 3", "1/GJ of link 3"
+  std::string unit;  ///< SI
+  double fit = 0.0;  ///< what the model has of it; 0 where it has none
+};
+
+/// c_j + ratio theta: what the data determine where they tell neither from the other (1/k4 + L/GJ of the forearm).
+struct SeenCombination {
+  int joint = 0;  ///< 0-based
+  HiddenParameter parameter;
+  double ratio = 0.0;  ///< rad/Nm by the parameter's unit
+  double value = 0.0;  ///< rad/Nm
+  double sd = 0.0;     ///< standard uncertainty of `value`, rad/Nm
+};
+
+/// For each identifiable joint the parameter whose combination with the compliance is known best, where it is known at
+/// least three times better than the compliance itself: the ratio that leaves least of the draws, least squares about
+/// the fit. `moved` and `off`: how far the compliances (6 x draws) and the parameters (one a row) are from the fit;
+/// `own`: covariance of the compliances by everything else, which the combination keeps.
+std::vector<SeenCombination> seenCombinations(const std::vector<HiddenParameter>& parameters,
+                                              const Eigen::MatrixXd& moved, const Eigen::MatrixXd& off,
+                                              const Matrix6d& own, const identification::StiffnessEstimate& estimate);
 
 /// Where a part of a joint's uncertainty comes from.
 enum class BudgetSource {
@@ -23,7 +53,7 @@ enum class BudgetSource {
   load_cell_gain,  ///< as declared
   masses,          ///< the URDF's, as declared
   tracker_scale,   ///< as declared
-  standing_load,   ///< joints go on deflecting while a load stays on (course_of_day.h)
+  standing_load,   ///< joints go on deflecting while a load stays on (courseOfDay)
   over_day,        ///< compliances grow or shrink over the day
   apparent,        ///< between this model and joint springs alone, where no model explains the gap
 };
@@ -88,7 +118,7 @@ struct HiddenEffects {
 ///
 /// With theta the parameters of all effects that the campaign can show, a method's compliances are to first order c
 /// = c_fit - H (theta - theta_fit): H through the method's own equations (method_equations.h), theta_fit what `with`
-/// was corrected for, theta from its posterior on the study's equations (effect_posterior.h). Draws with a negative
+/// was corrected for, theta from its posterior on the study's equations (below). Draws with a negative
 /// stiffness are left out, and where c_fit itself has one the medians of the rest stand for it. With the scatter
 /// between postures, what frames and calibration share, and what is declared (Declared) they give each interval by its
 /// quantiles; it is widened to hold c_fit. Where angles or point of the load cell are declared with an uncertainty,
@@ -105,5 +135,65 @@ HiddenEffects weighHiddenEffects(const diagnosis::GapStudy& study, const EffectF
                                  const campaign::Campaign& seen_campaign, const identification::Identification& seen,
                                  const identification::Identification& without, const Declared& declared,
                                  identification::Identification& with);
+
+/// What `campaign` declares with a standard uncertainty, at the result `at` that was identified from it by `options`.
+/// Masses (the URDF's, all by one factor; the tool is weighed by itself) and the tracker's scale (distances from its
+/// station) act by a difference of the whole identification, one declared standard uncertainty up. Nothing is
+/// identified anew for what is not declared.
+Declared declaredOf(const campaign::Campaign& campaign, const identification::Identification& at,
+                    const identification::IdentifyOptions& options);
+
+/// What the readings' course says of the compliances themselves: one number a joint is meant, and they change.
+struct CourseOfDay {
+  /// Growth of the displacement between the first repeat of a standing load and the last, a share of it
+  /// (preparation::StandingMotion); 0 where chance makes as much.
+  double standing = 0.0;
+  /// Change of all compliances from the middle of the day to its ends, a share of them; 0 where chance makes as much.
+  double over_day = 0.0;
+  double over_day_t = 0.0;  ///< of that change over its standard uncertainty, which counts postures as wholes
+
+  bool any() const { return standing != 0.0 || over_day != 0.0; }
+};
+
+/// Change over the day: with s from -1 at the first posture to 1 at the last, y_p = A_p c (1 + beta s_p) by least
+/// squares over the reflectors of a method's equations, c and beta free, beta's uncertainty from the scatter between
+/// postures (sandwich). `at` was identified from `campaign`. Nothing where states have no times.
+CourseOfDay courseOfDay(const campaign::Campaign& campaign, const identification::Identification& at);
+
+/// As lines of the budget, of all methods of `at`: twice the growth, and twice the change from the middle of the day to
+/// its ends, as standard uncertainties. How far joints moved before the first reading nobody has read.
+void addCourse(const CourseOfDay& course, const identification::Identification& at, Declared& declared);
+
+/// What the data say of all effects' parameters together, stiffnesses and geometry fitted away: chi2(x) = x^T N x
+/// - 2 b^T x + const, x in units of the parameters' physical bounds (effect_model.h).
+struct EffectEvidence {
+  Eigen::MatrixXd normal;          ///< N, n x n, positive semidefinite
+  Eigen::VectorXd right;           ///< b, n
+  std::vector<std::size_t> group;  ///< the effect of each parameter, 0, 1, ...
+  std::vector<bool> positive;      ///< a compliance, a width: never negative
+  std::vector<double> known_sd;    ///< of each parameter beforehand, where that is declared; 0 or absent: it is not
+};
+
+struct PosteriorOptions {
+  int draws = 600, warm_up = 150;
+  std::uint64_t seed = 1;
+};
+
+/// Draws from the posterior of x: n rows, a draw each column.
+///
+/// Prior: the horseshoe (Carvalho, Polson and Scott, Biometrika 97, 2010, 465), x_i ~ N(0, l_i^2 t_g^2) with l_i ~
+/// C+(0, 1) for the parameter and t_g ~ C+(0, kUsual) for its effect g; x_i > 0 where that is physics. Most effects of
+/// a machine are too small to matter and some are large: this prior says just that. Where the data do not see a
+/// parameter it stays as small as its effect's others; where they see it, the heavy tails leave it as it is. The
+/// prior of a parameter that is declared with a standard uncertainty is normal with that.
+///
+/// By Gibbs sampling: the parameters of either sign jointly, those that are positive one after the other with the
+/// former integrated out, the scales by their inverse gamma mixtures (Makalic and Schmidt, IEEE Signal Processing
+/// Letters 23, 2016, 179). The same seed gives the same draws.
+Eigen::MatrixXd drawEffects(const EffectEvidence& evidence, const PosteriorOptions& options = {});
+
+/// Scale of an effect's size before anything is measured, as a share of the physical bounds. From a third to three
+/// times it, intervals hold the truth as often.
+inline constexpr double kUsual = 0.03;
 
 }  // namespace stiffscope::extended_model

@@ -1,16 +1,107 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "core/comparison/paired_fit.h"
 #include "core/fleet/campaign_result.h"
-#include "core/fleet/compliance_series.h"
 #include "metrology/remark.h"
 
 namespace stiffscope::fleet {
+
+/// A compliance that is another from one date on.
+struct Step {
+  int joint = 0;                     ///< 0..5
+  std::size_t first = 0;             ///< day from which the change holds
+  std::size_t begin = 0, end = 0;    ///< days that were looked at: [begin, first) against [first, end)
+  comparison::Uncertain difference;  ///< after - before, rad/Nm
+  double before = 0.0;               ///< mean compliance before, rad/Nm
+  double p_value = 1.0;              ///< of no difference, times the dates at which it could have been
+
+  Stated share() const;  ///< difference over `before`
+};
+
+/// A joint's compliance on the dates of one machine, as a control chart.
+struct ControlChart {
+  struct Point {
+    double value = kUnknown;     ///< compliance less the centre, over the centre
+    double expanded = kUnknown;  ///< U of that (95 %): what is not the same on every day
+    double limit = kUnknown;     ///< +-: chance is outside in kOutside of all days
+    bool outside = false;
+  };
+  double centre = kUnknown;  ///< mean compliance of the days before the first step, rad/Nm
+  std::vector<Point> points;
+  double scatter = kUnknown;  ///< of the dates between steps, over what is stated; not a number of few dates
+  double scatter_p = 1.0;     ///< chance of as much
+};
+
+/// Chance that a day of an unchanged machine is outside the limits of one joint's chart: three standard deviations.
+inline constexpr double kOutside = 0.0027;
+
+/// The compliances of one machine over its days, by one method and joint springs alone. A day's compliance errs by
+/// sum_p g_p over its postures and by what they share. With weights w_t that sum to zero
+///
+///   d = sum_t w_t c_t,   u^2(d) = sum_p (sum_t w_t g_t,p)^2 + sum_t w_t^2 v_t,
+///
+/// g_t,p the influence of posture p on day t, v_t the shared variance: what the model misses in a posture is the same
+/// on every day and cancels in value and uncertainty alike (PairedFit, for two days). Where all days have the same
+/// postures, the first sum is pooled over the dates between which nothing is said to have changed,
+///
+///   |w|^2 s^2,   s^2 = sum over segments, t, p of (g_t,p - mean of the segment)^2 / (days - segments),
+///
+/// with so many more degrees of freedom, unless the sum itself is larger than chance makes it (F, 1 %): then something
+/// changed that the springs do not hold, and the sum is taken. Days are assumed to err independently beyond this; an
+/// error of several days in a row (a load cell recalibrated) is a change like any other.
+class ComplianceSeries {
+ public:
+  /// Days in the order of time; `method` is available in all of them.
+  ComplianceSeries(const std::vector<const CampaignResult*>& days, identification::Method method);
+
+  std::size_t days() const { return days_.size(); }
+  /// Whether all days have all postures: pose id, angles and force, as comparison::matchPostures asks.
+  bool samePostures() const { return same_postures_; }
+  /// How many postures all days have.
+  std::size_t posturesOfAll() const;
+  /// Seen on every day.
+  bool has(int joint) const;
+
+  /// sum_t w_t c_t with its uncertainty; days of one segment are those between which nothing changed, `first_days` the
+  /// first of each, in order, beginning with 0.
+  comparison::Uncertain contrast(int joint, const Eigen::VectorXd& weights,
+                                 const std::vector<std::size_t>& first_days) const;
+
+  /// The day in (begin, end) at which a step is the largest against the scatter pooled over the dates, which is the
+  /// same for all of them; the sum's own would prefer the dates at which it is small by chance. Its p-value is by
+  /// contrast().
+  Step likeliestStep(int joint, std::size_t begin, std::size_t end) const;
+
+  /// All steps, in order of time: the likeliest of all days where its p-value is at most `level`, then the same before
+  /// and after it.
+  std::vector<Step> steps(int joint, double level) const;
+
+  /// Two-sided p-value of a number that is zero; 1 where it has no uncertainty.
+  static double pOfNothing(const comparison::Uncertain& number);
+
+  ControlChart chart(int joint, const std::vector<Step>& steps) const;
+
+ private:
+  const SpringsOfDay& springs(std::size_t day) const;
+  enum class Scatter { of_the_sum_where_larger, pooled };
+  comparison::Uncertain contrastBy(Scatter scatter, int joint, const Eigen::VectorXd& weights,
+                                   const std::vector<std::size_t>& first_days) const;
+  double pooledScatter(int joint, const std::vector<std::size_t>& first_days) const;
+  void findSteps(int joint, std::size_t begin, std::size_t end, double level, std::vector<Step>& found) const;
+
+  std::vector<const CampaignResult*> days_;
+  identification::Method method_;
+  std::vector<std::vector<std::size_t>> places_;  ///< by day and posture: equal where postures correspond
+  std::size_t place_count_ = 0;
+  bool same_postures_ = true;
+};
 
 /// Chance, over all questions of a fleet together, that something is said to have changed where nothing did.
 inline constexpr double kFleetLevel = 0.01;

@@ -1,4 +1,4 @@
-#include "core/identification/bootstrap.h"
+#include "core/identification/subsets.h"
 
 #include <algorithm>
 #include <random>

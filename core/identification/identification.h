@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "core/frames/geometry_calibration.h"
-#include "core/identification/bootstrap.h"
 #include "core/identification/complete_pose.h"
 #include "core/identification/noise_share.h"
 #include "core/identification/outliers.h"
@@ -95,7 +94,7 @@ struct Identification {
   frames::GeometryCalibration calibration;
   CharacteristicLength characteristic_length;
   std::vector<LengthSensitivity> length_sensitivity;
-  std::optional<LengthSensitivity> residual_length;  ///< at the L of the residual variances (length_sensitivity.h)
+  std::optional<LengthSensitivity> residual_length;  ///< at the L of the residual variances (method_runs.h)
   std::array<MethodResult, 3> methods;               ///< by Method
   std::optional<ShownFirst> shown_first;             ///< empty without an available method
   std::optional<NoiseShare> noise;

@@ -7,7 +7,6 @@
 #include "core/identification/decoupled_partial_pose.h"
 #include "core/identification/estimate.h"
 #include "core/identification/identification.h"
-#include "core/identification/length_sensitivity.h"
 #include "core/identification/loaded_arm.h"
 #include "core/identification/method_solution.h"
 #include "core/identification/remarks.h"

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "core/identification/equations.h"
-#include "core/identification/gear_line.h"
 #include "core/identification/gear_states.h"
 #include "core/identification/identifiability.h"
 #include "core/identification/load_case.h"

@@ -1,5 +1,7 @@
-#include "core/interchange/chord_check.h"
+#include "core/interchange/state_join.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
@@ -10,6 +12,8 @@
 #include <set>
 
 #include "core/campaign/joint_reading.h"
+#include "core/io/input_error.h"
+#include "core/io/units.h"
 #include "core/robot/kinematics.h"
 
 namespace stiffscope::interchange {
@@ -192,6 +196,43 @@ std::vector<OtherMeaning> otherMeanings(const robot::Robot& robot,
   const double most = std::max(kAsWell * meanings.front().misfit, kRight);
   std::erase_if(meanings, [most](const OtherMeaning& one) { return one.misfit > most; });
   return meanings;
+}
+
+namespace {
+
+/// What would have to be written in DAY.xml.
+std::string shownMeaning(const OtherMeaning& meaning) {
+  using Kind = OtherMeaning::Kind;
+  const int joint = meaning.joint + 1;
+  switch (meaning.kind) {
+    case Kind::unit:
+      return fmt::format("points times {:g}", meaning.value);
+    case Kind::sign:
+      return fmt::format("joint_reading joint=\"{}\" sign=\"{:g}\"", joint, meaning.value);
+    case Kind::offset:
+      return fmt::format("joint_reading joint=\"{}\" offset_deg=\"{:g}\"", joint, meaning.value / io::kDegree);
+    case Kind::coupling:
+      break;
+  }
+  return meaning.plus < 0 ? fmt::format("joint_reading joint=\"{}\" without plus", joint)
+                          : fmt::format("joint_reading joint=\"{}\" plus=\"{}\"", joint, meaning.plus + 1);
+}
+
+}  // namespace
+
+void requireMeaning(const JoinTask& task, const std::vector<PlacedReading>& placed, double misfit) {
+  // Arms differ from their nominal geometry, and bend, by a few millimetres; a wrong sign makes decimetres.
+  constexpr double kMisfit = 0.01, kClearly = 4.0;
+  if (misfit < kMisfit) return;
+  const auto others = otherMeanings(task.robot, task.day.xml.campaign.joint_readings, placed);
+  if (others.empty() || others.front().misfit * kClearly > misfit) return;
+  std::vector<std::string> shown;
+  for (const OtherMeaning& other : others) shown.push_back(shownMeaning(other));
+  throw io::InputError(
+      {task.day.file, task.source.line, "log"}, task.source.file,
+      fmt::format("expected joints that move the reflectors as they were read; distances between their places are "
+                  "off by {:.1f} mm, with {} by {:.1f} mm",
+                  misfit * 1e3, fmt::join(shown, " or "), others.front().misfit * 1e3));
 }
 
 }  // namespace stiffscope::interchange

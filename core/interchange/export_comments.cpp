@@ -213,4 +213,19 @@ ExportComments exportCommentsOf(const FileText& text) {
   return header;
 }
 
+double statedUnitOf(const FileText& text, const ExportComments& header, std::vector<std::string>& warnings) {
+  const std::string& stated = text.options.unit;
+  if (!header.unit) {
+    if (stated.empty() && !header.unit_word.empty())
+      throw io::InputError({text.file, 0, "unit"}, header.unit_word,
+                           "expected the unit in the comment of the axes, as X, Y, Z (mm); this one stands elsewhere: "
+                           "state the unit (option unit)");
+    return unitOrMillimetres(text.file, stated, warnings);
+  }
+  if (!stated.empty() && metresIn(stated) != header.unit)
+    throw io::InputError({text.file, 0, "unit"}, stated,
+                         "expected no unit, or that of the file's comments, which state another");
+  return *header.unit;
+}
+
 }  // namespace stiffscope::interchange

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/interchange/point_formats.h"
 
@@ -22,5 +23,9 @@ struct ExportComments {
 /// Throws InputError, with the line, for axes that are not Cartesian, a unit that is none, and where exports that were
 /// appended to each other state another frame, unit or coverage.
 ExportComments exportCommentsOf(const FileText& text);
+
+/// Metres in the unit of the axes. Throws InputError for a unit that the comments name elsewhere, or another than the
+/// user's: neither is to be taken for granted.
+double statedUnitOf(const FileText& text, const ExportComments& header, std::vector<std::string>& warnings);
 
 }  // namespace stiffscope::interchange

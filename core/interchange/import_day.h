@@ -39,7 +39,7 @@ struct ImportedDay {
   std::vector<SkippedOrigin> skipped;
   std::vector<ClockReport> clocks;
   std::vector<std::string> warnings;
-  std::map<std::string, double> misfit;  ///< by table, m: chord_check.h
+  std::map<std::string, double> misfit;  ///< by table, m: state_join.h
   std::string start;  ///< the tracker's date and time at time_s = 0, ISO 8601; empty where its times have no date
   std::optional<double> stated_sigma;          ///< m, median of the files' standard uncertainties, rms of x, y, z
   std::optional<double> stated_over_declared;  ///< the same over the noise declared of the tracker, median

@@ -1,4 +1,4 @@
-#include "core/interchange/name_pattern.h"
+#include "core/interchange/day_description.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

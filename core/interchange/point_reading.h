@@ -10,10 +10,56 @@
 #include <utility>
 #include <vector>
 
-#include "core/interchange/text_decoding.h"
-#include "core/interchange/timestamp.h"
-
 namespace stiffscope::interchange {
+
+/// How a file's bytes stand for characters. Programs of trackers and robots run on Windows: what is not UTF-8 there is
+/// UTF-16 or the Western code page, or the Japanese one.
+enum class Encoding { utf8, utf16_le, utf16_be, cp1252, cp932 };
+
+/// utf-8, utf-16le, utf-16be, cp1252, cp932.
+const std::vector<std::string>& encodingNames();
+std::string nameOf(Encoding encoding);
+
+/// The encoding of that name. Throws InputError, naming `option`, for another.
+Encoding encodingNamed(const std::string& name, const std::string& option);
+
+struct DecodedText {
+  Encoding encoding = Encoding::utf8;
+  std::string_view own;   ///< of a file in UTF-8: its bytes, which have to live as long
+  std::string converted;  ///< of another
+
+  /// UTF-8, without a byte-order mark.
+  std::string_view text() const { return encoding == Encoding::utf8 ? own : std::string_view(converted); }
+};
+
+/// Bytes as UTF-8. Without `wanted` the encoding is what the file shows: a byte-order mark; zeros in every second byte;
+/// UTF-8 where all of it is; else CP1252, or CP932 where a byte is none of CP1252 and all are CP932. Throws InputError,
+/// with the line, where bytes are none of an encoding, where some characters are UTF-8 and others are not (two files
+/// put together), and where the file shows another encoding than the one wanted. `file` is its name for messages.
+DecodedText decodeText(const std::string& file, std::string_view bytes, std::optional<Encoding> wanted = std::nullopt);
+
+/// When something was read, by the clock of the program that wrote it down. Clocks know no zone here: of two of them
+/// only the difference matters, and that is found (day_description.h).
+struct Timestamp {
+  double seconds = 0.0;     ///< since 1970-01-01 00:00 of that clock; of a clock without a date since its start
+  bool dated = false;       ///< of a calendar
+  double resolution = 0.0;  ///< the last digit written, s
+};
+
+/// A date and a time as programs write them: `MM/DD/YY hh:mm:ss` (month first where there are slashes), `DD.MM.YYYY
+/// hh:mm:ss.fff` (day first where there are points), `YYYY-MM-DDThh:mm:ss`, fourteen digits; with an apostrophe before
+/// it, as a spreadsheet keeps text. AM or PM may follow. nullopt where `text` is none, or no day of the calendar.
+std::optional<Timestamp> parseTimestamp(std::string_view text);
+
+/// Digits as the date alone, or the time alone, is written. For rows that have them in cells of their own.
+bool isDate(std::string_view text);
+bool isTimeOfDay(std::string_view text);
+
+/// 00:00:00, which programs write where nothing was measured.
+bool isNoTime(std::string_view text);
+
+/// ISO 8601, with the digits the resolution has: 2025-02-12T16:38:29.
+std::string isoTime(const Timestamp& time);
 
 /// Dialects of files of points. `columns` is any table whose columns the user names.
 enum class PointFormat { sa, leica, openindy, xyz, columns };

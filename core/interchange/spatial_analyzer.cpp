@@ -6,7 +6,6 @@
 #include <type_traits>
 
 #include "core/interchange/export_comments.h"
-#include "core/interchange/length_unit.h"
 #include "core/interchange/point_formats.h"
 #include "core/io/input_error.h"
 #include "core/io/numbers.h"
@@ -210,23 +209,6 @@ class PossibleNames {
       std::string("expected up to three names, x y z with the same decimals, and behind them cells as in "
                   "the other rows, and a time") +
           (cut ? "; the file ends in the middle of this line" : ""));
-}
-
-/// Metres in the unit of the axes. A unit that the comments name elsewhere, or another than the user's, is no unit to
-/// be taken for granted.
-double saUnitOf(const FileText& text, const ExportComments& header, std::vector<std::string>& warnings) {
-  const std::string& stated = text.options.unit;
-  if (!header.unit) {
-    if (stated.empty() && !header.unit_word.empty())
-      throw io::InputError({text.file, 0, "unit"}, header.unit_word,
-                           "expected the unit in the comment of the axes, as X, Y, Z (mm); this one stands elsewhere: "
-                           "state the unit (option unit)");
-    return unitOrMillimetres(text.file, stated, warnings);
-  }
-  if (!stated.empty() && metresIn(stated) != header.unit)
-    throw io::InputError({text.file, 0, "unit"}, stated,
-                         "expected no unit, or that of the file's comments, which state another");
-  return *header.unit;
 }
 
 /// A line as a row.
@@ -441,7 +423,7 @@ PointFile readSpatialAnalyzer(const FileText& text) {
   SaColumns columns = survey.columns();
   if (columns.others) findUncertainties(text, separator, survey.most(), columns);
   survey.requireWhole();
-  const double unit = saUnitOf(text, header, points.warnings);
+  const double unit = statedUnitOf(text, header, points.warnings);
   if (!header.uncertainties)
     points.warnings.push_back(
         io::inputMessage({text.file, 0, ""}, "", "no comment names the axes: Cartesian x y z are taken"));

@@ -1,4 +1,4 @@
-#include "core/interchange/standstill.h"
+#include "core/interchange/day_description.h"
 
 #include <Eigen/SVD>
 #include <algorithm>

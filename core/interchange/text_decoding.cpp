@@ -1,4 +1,4 @@
-#include "core/interchange/text_decoding.h"
+#include "core/interchange/point_reading.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,8 +1,10 @@
-#include "core/mistakes/load_mistakes.h"
+#include "core/mistakes/load_search.h"
 
 #include <Eigen/Dense>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <utility>
 
 #include "core/io/units.h"
@@ -247,6 +249,54 @@ LoadMistake movedCell(const campaign::Campaign& campaign, const Vector3d& to) {
   mistake.where = Remark(RemarkId::in_cell, std::string("xyz_mm"));
   mistake.remedy = Remark(RemarkId::move_cell, listed(campaign.load_cell->parent_from_cell.translation()), listed(to));
   return mistake;
+}
+
+bool forcesStandOut(const campaign::Campaign& campaign) {
+  if (!campaign.states) return false;
+  struct Sum {
+    double squares = 0.0, count = 0.0;
+  };
+  std::map<int, Sum> by_step;
+  for (const campaign::State& row : campaign.states->rows) {
+    Sum& sum = by_step[row.step];
+    sum.squares += row.wrench_in_cell.head<3>().squaredNorm();
+    sum.count += 1.0;
+  }
+  double least = std::numeric_limits<double>::infinity(), most = 0.0;  // N^2
+  for (const auto& [step, sum] : by_step) {
+    least = std::min(least, sum.squares / sum.count);
+    most = std::max(most, sum.squares / sum.count);
+  }
+  constexpr double kStandsOut = 3.0;
+  return by_step.size() == 1 || most > kStandsOut * kStandsOut * least;
+}
+
+std::optional<std::pair<int, int>> posesOfEqualWrenches(const campaign::Campaign& campaign) {
+  if (campaign.load_cell->axes_link) return std::nullopt;  // a weight in base_link's axes may be written without noise
+  std::map<int, std::vector<const campaign::State*>> postures;
+  for (const campaign::State& row : campaign.states->rows) {
+    if (row.step != 0) postures[row.pose].push_back(&row);
+  }
+  // Postures of like wrenches, earlier ones first: of ten thousand not each is held against each.
+  std::map<std::vector<double>, std::vector<int>> alike;
+  for (const auto& [pose, rows] : postures) {
+    std::vector<double> digits;
+    bool all_of_six = true;
+    for (const campaign::State* row : rows) {
+      digits.push_back(row->step);
+      digits.insert(digits.end(), row->wrench_in_cell.begin(), row->wrench_in_cell.end());
+      all_of_six &= (row->wrench_in_cell.array().abs() > 0.0).all();  // nor is one NaN
+    }
+    if (!all_of_six) continue;
+    std::vector<int>& earlier = alike[std::move(digits)];
+    for (const int other : earlier) {
+      constexpr double kOtherPosture = 2.0 * io::kDegree;
+      if ((rows.front()->q - postures.at(other).front()->q).cwiseAbs().maxCoeff() >= kOtherPosture)
+        return std::pair{other, pose};
+    }
+    earlier.push_back(pose);
+  }
+  return std::nullopt;
 }
 
 }  // namespace stiffscope::mistakes

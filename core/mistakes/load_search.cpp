@@ -11,7 +11,6 @@
 #include "core/campaign/row_names.h"
 #include "core/io/units.h"
 #include "core/mistakes/arm_mistakes.h"
-#include "core/mistakes/load_mistakes.h"
 #include "core/mistakes/remarks.h"
 #include "core/numerics/parallel.h"
 #include "core/numerics/resampling.h"
@@ -308,46 +307,23 @@ class LoadSearcher {
     }
   }
 
-  /// Wrenches of a posture that are those of another, digit by digit in all steps, where the flange stands otherwise:
-  /// no cell repeats to the last digit of six columns.
+  /// Wrenches of a posture that are those of another, in all steps.
   bool searchRepeatedWrenches() {
-    if (declared_.axes_link) return false;  // a weight in base_link's axes may be written without its noise
-    std::map<int, std::vector<const campaign::State*>> postures;
-    for (const campaign::State& row : campaign_.states->rows) {
-      if (row.step != 0) postures[row.pose].push_back(&row);
-    }
-    // Postures of like wrenches, earlier ones first: of ten thousand not each is held against each.
-    std::map<std::vector<double>, std::vector<int>> alike;
-    for (const auto& [pose, rows] : postures) {
-      std::vector<double> digits;
-      bool all_of_six = true;
-      for (const campaign::State* row : rows) {
-        digits.push_back(row->step);
-        digits.insert(digits.end(), row->wrench_in_cell.begin(), row->wrench_in_cell.end());
-        all_of_six &= (row->wrench_in_cell.array().abs() > 0.0).all();  // nor is one NaN
-      }
-      if (!all_of_six) continue;
-      std::vector<int>& earlier = alike[std::move(digits)];
-      for (const int other : earlier) {
-        constexpr double kOtherPosture = 2.0 * io::kDegree;
-        if ((rows.front()->q - postures.at(other).front()->q).cwiseAbs().maxCoeff() < kOtherPosture) continue;
-        // The later of two is the one that was not updated, unless the springs say otherwise.
-        const auto left = [&](int of) {
-          const auto at = std::find(loads_.poses().begin(), loads_.poses().end(), of);
-          return at == loads_.poses().end()
-                     ? 0.0
-                     : found_.fit.pose_left[static_cast<std::size_t>(at - loads_.poses().begin())];
-        };
-        const bool later = left(pose) >= left(other);
-        const int stale = later ? pose : other, own = later ? other : pose;
-        found_.cures.push_back({"row_order", whereOf(stale),
-                                Remark(RemarkId::wrenches_repeated, nameOf(stale), nameOf(own)),
-                                Remark(RemarkId::loads_left, left(stale), left(own)), left(stale), left(own)});
-        return true;
-      }
-      earlier.push_back(pose);
-    }
-    return false;
+    const std::optional<std::pair<int, int>> poses = posesOfEqualWrenches(campaign_);
+    if (!poses) return false;
+    // The later of two is the one that was not updated, unless the springs say otherwise.
+    const auto left = [&](int of) {
+      const auto at = std::find(loads_.poses().begin(), loads_.poses().end(), of);
+      return at == loads_.poses().end() ? 0.0
+                                        : found_.fit.pose_left[static_cast<std::size_t>(at - loads_.poses().begin())];
+    };
+    const auto [earlier, later] = *poses;
+    const bool of_later = left(later) >= left(earlier);
+    const int stale = of_later ? later : earlier, own = of_later ? earlier : later;
+    found_.cures.push_back({"row_order", whereOf(stale),
+                            Remark(RemarkId::wrenches_repeated, nameOf(stale), nameOf(own)),
+                            Remark(RemarkId::loads_left, left(stale), left(own)), left(stale), left(own)});
+    return true;
   }
 
   // Load steps: two exchanged, or one apart from the others.
@@ -460,26 +436,6 @@ class LoadSearcher {
 };
 
 }  // namespace
-
-bool forcesStandOut(const campaign::Campaign& campaign) {
-  if (!campaign.states) return false;
-  struct Sum {
-    double squares = 0.0, count = 0.0;
-  };
-  std::map<int, Sum> by_step;
-  for (const campaign::State& row : campaign.states->rows) {
-    Sum& sum = by_step[row.step];
-    sum.squares += row.wrench_in_cell.head<3>().squaredNorm();
-    sum.count += 1.0;
-  }
-  double least = std::numeric_limits<double>::infinity(), most = 0.0;  // N^2
-  for (const auto& [step, sum] : by_step) {
-    least = std::min(least, sum.squares / sum.count);
-    most = std::max(most, sum.squares / sum.count);
-  }
-  constexpr double kStandsOut = 3.0;
-  return by_step.size() == 1 || most > kStandsOut * kStandsOut * least;
-}
 
 LoadSearch searchLoads(const campaign::Campaign& campaign, const ReadingsOfDay& day, const NominalFit& arm) {
   if (!campaign.load_cell || !campaign.states || !arm.done) return {};

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/campaign/campaign.h"
@@ -9,8 +10,32 @@
 #include "core/mistakes/readings_of_day.h"
 #include "core/mistakes/spring_fit.h"
 #include "core/mistakes/suspected.h"
+#include "metrology/remark.h"
 
 namespace stiffscope::mistakes {
+
+/// One way in which a load cell's readings, or how they are declared, are usually wrong: what takes it back.
+struct LoadMistake {
+  MistakeId id;
+  int things = 1;  ///< how many things it asks to be wrong
+  CellReading meant;
+  Remark where, remedy;
+  double mends = 0.5;          ///< it has to bring what springs leave to that share, where nothing else speaks for it
+  bool of_one_posture = true;  ///< whether it can be in the rows of one posture
+};
+
+/// The table of them: signs, order, units of forces and moments, the cell's axes and point, rows.
+std::vector<LoadMistake> loadMistakes(const campaign::Campaign& campaign);
+
+/// The remedy that turns the declared cell about axes of its own.
+LoadMistake turnedCell(const campaign::Campaign& campaign, const Eigen::Matrix3d& turn);
+
+/// The remedy that moves its point, in the axes of its parent, m.
+LoadMistake movedCell(const campaign::Campaign& campaign, const Eigen::Vector3d& to);
+
+/// Two postures, the earlier first, whose wrenches are the same digit by digit in all steps although the joints are
+/// not: no load cell repeats to the last digit of six columns. None where the cell's axes do not turn with the flange.
+std::optional<std::pair<int, int>> posesOfEqualWrenches(const campaign::Campaign& campaign);
 
 /// Whether the forces of some load step are three times those of another (rms): a load of couples alone leaves the
 /// same noise in all of them, loaded or not, of which no lever and no stiffness follows. The ratio does not ask for
@@ -25,7 +50,7 @@ struct LoadSearch {
   std::vector<Suspected> cures;
 };
 
-/// Tries the table of mistakes (load_mistakes.h), always where forces stand out: a fit takes a fraction of a
+/// Tries the table of mistakes, always where forces stand out: a fit takes a fraction of a
 /// millisecond. One is believed where, with it, one of these holds and none of them gets worse:
 ///
 /// - the forces of all states pull down, and as declared they do not: a load that hangs;

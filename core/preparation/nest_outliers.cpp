@@ -1,4 +1,3 @@
-#include "core/preparation/nest_outliers.h"
 
 #include <Eigen/Dense>
 #include <algorithm>

@@ -12,7 +12,7 @@
 #include "core/frames/joint_axes.h"
 #include "core/numerics/parallel.h"
 #include "core/preparation/drift_nests.h"
-#include "core/preparation/nest_outliers.h"
+#include "core/preparation/nest_network.h"
 #include "core/preparation/remarks.h"
 #include "core/preparation/repeatability.h"
 
@@ -88,7 +88,7 @@ struct Screening {
 /// Takes out, one kind after the other: points at exactly (0, 0, 0), which a tracker writes when it has lost
 /// its beam; points that repeat another's coordinates to the last digit, which is the other reading copied or
 /// the beam still on the other reflector; repeats of one state that stand apart from the others by more
-/// than noise; and single readings of floor nests that the other nests contradict (core/preparation/nest_outliers.h).
+/// than noise; and single readings of floor nests that the other nests contradict (core/preparation/nest_network.h).
 Screening screenReadings(campaign::Campaign campaign) {
   Screening result{std::move(campaign), {}, {}, {}};
   const auto screen = [&](const std::string& id, AuditVerdict verdict, const std::vector<RejectedReading>& found,

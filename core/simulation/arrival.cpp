@@ -1,4 +1,4 @@
-#include "core/simulation/arrival.h"
+#include "core/simulation/gears.h"
 
 #include <algorithm>
 #include <cmath>

@@ -101,7 +101,7 @@ struct MachineState {
   Vector6d q = Vector6d::Zero();           ///< reported joint angles the motors hold, rad
   Vector6d held = Vector6d::Zero();        ///< what the controller holds: q, but for joints with a gear (gears.h)
   Vector6d motor_side = Vector6d::Zero();  ///< motors' angles over the gear ratio; q but for joints with a gear
-  Vector6d ahead = Vector6d::Zero();       ///< of links with play, beyond q (arrival.h)
+  Vector6d ahead = Vector6d::Zero();       ///< of links with play, beyond q (gears.h)
   Eigen::VectorXd deformation;             ///< elastic coordinates, chain order, m and rad
   std::array<Eigen::Isometry3d, 7> body_motions;  ///< nominal place at all joints zero -> place now; [0] base
   Eigen::Isometry3d base_from_flange = Eigen::Isometry3d::Identity();

@@ -9,7 +9,6 @@
 #include "core/io/input_error.h"
 #include "core/io/units.h"
 #include "core/numerics/random.h"
-#include "core/simulation/arrival.h"
 #include "core/simulation/equilibrium.h"
 #include "core/simulation/gears.h"
 #include "core/simulation/instruments.h"

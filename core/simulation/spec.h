@@ -12,16 +12,26 @@
 
 #include "core/campaign/campaign.h"
 #include "core/robot/robot.h"
-#include "core/simulation/temperature.h"
 
 // How one joint deflects and turns. SI and radians.
-
 // The described machine: how it deflects, how its geometry and masses differ from nominal. SI and radians.
-
 // A described machine and the day it is measured, in SI and radians: what read_spec.h reads from XML.
 // Everything that is drawn at random is a sigma here; machine.h and measure.h draw it from `seed`.
 
 namespace stiffscope::simulation {
+
+/// The temperature through a day: stated at times, straight lines between them, constant before the first and after the
+/// last.
+struct TemperatureCourse {
+  std::vector<double> times_s;  ///< rising; at least one
+  std::vector<double> celsius;  ///< as many
+
+  double at(double time_s) const;
+
+  /// What follows it with a lag of first order, in balance at time 0: L' = (T - L) / lag, L(0) = T(0). Exact for
+  /// straight lines; without a lag T itself.
+  double lagged(double time_s, double lag_s) const;
+};
 
 /// Friction inside a joint: `sliders` Jenkins elements in parallel, of equal rate, whose limits rise evenly
 /// (1 : 2 : ... : n); `torque` is what all of them hold, `rate` what they add while all stick. The motor's

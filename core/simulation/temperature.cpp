@@ -1,4 +1,4 @@
-#include "core/simulation/temperature.h"
+#include "core/simulation/spec.h"
 
 #include <algorithm>
 #include <cmath>

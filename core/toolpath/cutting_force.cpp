@@ -1,4 +1,4 @@
-#include "core/toolpath/cutting_force.h"
+#include "core/toolpath/tool_path.h"
 
 #include <cmath>
 #include <numbers>

@@ -1,4 +1,4 @@
-#include "core/toolpath/joint_path.h"
+#include "core/toolpath/compensate_path.h"
 
 #include <algorithm>
 #include <cmath>

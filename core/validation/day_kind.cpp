@@ -1,10 +1,10 @@
-#include "core/validation/day_kind.h"
+#include "core/validation/case.h"
 
 #include <memory>
 #include <stdexcept>
 
 #include "core/effects/effect.h"
-#include "core/validation/geometry_sizer.h"
+#include "core/validation/effect_size.h"
 
 namespace stiffscope::validation {
 

@@ -1,4 +1,3 @@
-#include "core/validation/draw.h"
 
 #include <fmt/format.h>
 #include <algorithm>

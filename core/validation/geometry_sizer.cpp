@@ -1,4 +1,4 @@
-#include "core/validation/geometry_sizer.h"
+#include "core/validation/effect_size.h"
 
 #include <Eigen/QR>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "core/workspace/placement.h"
+#include "core/workspace/workspace_stiffness.h"
 
 #include <fmt/format.h>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "render/vtk/projection.h"
+#include "render/vtk/scene_stage.h"
 
 #include <vtkCamera.h>
 #include <vtkRenderer.h>

@@ -1,4 +1,4 @@
-#include "reports/csv/posture_csv.h"
+#include "reports/csv/posture_tables.h"
 
 #include "core/io/units.h"
 #include "reports/words/names.h"

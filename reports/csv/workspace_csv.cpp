@@ -1,4 +1,4 @@
-#include "reports/csv/workspace_csv.h"
+#include "reports/csv/posture_tables.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

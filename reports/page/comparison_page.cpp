@@ -1,4 +1,4 @@
-#include "reports/page/comparison_page.h"
+#include "reports/page/pages.h"
 
 #include <stdexcept>
 

@@ -1,4 +1,4 @@
-#include "reports/page/report_page.h"
+#include "reports/page/pages.h"
 
 #include <fmt/format.h>
 #include <algorithm>

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "core/io/units.h"
-#include "reports/csv/workspace_csv.h"
+#include "reports/csv/posture_tables.h"
 #include "reports/page/html.h"
 #include "reports/page/sections.h"
 #include "reports/words/names.h"

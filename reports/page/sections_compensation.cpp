@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <cmath>
 
-#include "reports/csv/posture_csv.h"
+#include "reports/csv/posture_tables.h"
 #include "reports/page/html.h"
 #include "reports/page/sections.h"
 #include "reports/words/names.h"

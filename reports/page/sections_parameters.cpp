@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/calibration/calibrate.h"
 #include "core/calibration/denavit_hartenberg.h"
-#include "core/calibration/frame_uncertainty.h"
 #include "core/io/units.h"
 #include "reports/page/html.h"
 #include "reports/page/sections.h"

@@ -1,4 +1,4 @@
-#include "reports/page/validation_page.h"
+#include "reports/page/pages.h"
 
 #include <fmt/format.h>
 #include <numeric>

@@ -5,7 +5,7 @@
 #include "app/figures/arm_scenes.h"
 #include "app/figures/figures.h"
 #include "core/campaign/read_campaign.h"
-#include "reports/page/report_page.h"
+#include "reports/page/pages.h"
 #include "tests/reports/small_result.h"
 
 namespace stiffscope {

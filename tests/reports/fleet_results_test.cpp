@@ -6,7 +6,7 @@
 #include "core/fleet/fleet.h"
 #include "reports/csv/fleet_csv.h"
 #include "reports/json/fleet_json.h"
-#include "reports/page/fleet_page.h"
+#include "reports/page/pages.h"
 #include "tests/core/fleet/made_days.h"
 
 namespace stiffscope::reports {

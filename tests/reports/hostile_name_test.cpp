@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <tinyxml2.h>
 #include "reports/page/html.h"
-#include "reports/page/report_page.h"
+#include "reports/page/pages.h"
 #include "reports/report_content.h"
 #include "reports/words/names.h"
 #include "reports/words/verdict.h"

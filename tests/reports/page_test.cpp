@@ -8,7 +8,7 @@
 #include "core/campaign/read_campaign.h"
 #include "core/identification/remarks.h"
 #include "core/preparation/remarks.h"
-#include "reports/page/report_page.h"
+#include "reports/page/pages.h"
 #include "reports/words/verdict.h"
 #include "tests/reports/small_result.h"
 

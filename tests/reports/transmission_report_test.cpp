@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 #include "reports/json/identification_json.h"
-#include "reports/page/report_page.h"
+#include "reports/page/pages.h"
 #include "reports/report_content.h"
 #include "reports/text/text.h"
 #include "tests/reports/small_result.h"

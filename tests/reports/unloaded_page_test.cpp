@@ -5,7 +5,7 @@
 #include "core/accuracy/diagnose_accuracy.h"
 #include "core/calibration/remarks.h"
 #include "reports/json/json.h"
-#include "reports/page/report_page.h"
+#include "reports/page/pages.h"
 #include "reports/words/accuracy_words.h"
 #include "reports/words/day_words.h"
 #include "reports/words/verdict.h"

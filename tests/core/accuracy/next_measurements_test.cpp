@@ -1,4 +1,4 @@
-#include "core/accuracy/next_measurements.h"
+#include "core/accuracy/where_next.h"
 
 #include <gtest/gtest.h>
 

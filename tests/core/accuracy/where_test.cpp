@@ -1,4 +1,4 @@
-#include "core/accuracy/where.h"
+#include "core/accuracy/where_next.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "core/audit/check_load.h"
+#include "core/audit/redundancies.h"
 #include "core/audit/remarks.h"
 #include "tests/fixtures/chain_arm.h"
 

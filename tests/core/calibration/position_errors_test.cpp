@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/calibration/frame_uncertainty.h"
+#include "core/calibration/calibrate.h"
 #include "tests/fixtures/unloaded_day.h"
 
 namespace stiffscope {

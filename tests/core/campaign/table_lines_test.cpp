@@ -1,4 +1,4 @@
-#include "core/campaign/table_lines.h"
+#include "core/campaign/read_table.h"
 
 #include <gtest/gtest.h>
 

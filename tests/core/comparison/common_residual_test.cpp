@@ -1,4 +1,4 @@
-#include "core/comparison/common_residual.h"
+#include "core/comparison/compare.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <numbers>
 #include "core/numerics/random.h"
-#include "core/validation/draw.h"
+#include "core/validation/effect_draw.h"
 
 namespace stiffscope::simulated_pairs {
 

@@ -6,7 +6,8 @@
 #include "core/simulation/spec.h"
 
 // One machine in two states, measured on two days: what `compare` is judged on. Machines are those of the blind
-// validation (core/validation/draw.h), measured by the simulator, which shares no formula with the identification.
+// validation (drawMachine of core/validation/effect_draw.h), measured by the simulator, which shares no formula with
+// the identification.
 
 namespace stiffscope::simulated_pairs {
 

@@ -2,7 +2,7 @@
 
 #include <fstream>
 
-#include "core/conformity/limits.h"
+#include "core/conformity/decide.h"
 #include "core/io/input_error.h"
 
 namespace stiffscope {

@@ -1,4 +1,4 @@
-#include "core/diagnosis/joint_fit.h"
+#include "core/diagnosis/fit.h"
 
 #include <gtest/gtest.h>
 #include "tests/fixtures/extended_day.h"

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <map>
 #include "core/diagnosis/spike_study.h"
-#include "core/diagnosis/spiked_day.h"
 #include "core/effects/all.h"
 #include "core/preparation/subsample.h"
 #include "tests/fixtures/extended_day.h"

@@ -5,8 +5,7 @@
 #include <set>
 
 #include "core/effects/all.h"
-#include "core/elastic_model/mjcf.h"
-#include "core/elastic_model/sdf.h"
+#include "core/elastic_model/simulator_models.h"
 #include "core/elastic_model/written.h"
 #include "core/io/xml.h"
 #include "reports/words/remark_words.h"

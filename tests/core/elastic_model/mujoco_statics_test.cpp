@@ -10,7 +10,7 @@ TEST(MujocoStatics, IsNotBuilt) { GTEST_SKIP() << "MuJoCo is not here"; }
 #include "core/campaign/read_campaign.h"
 #include "core/compensation/compensate.h"
 #include "core/elastic_model/elastic_model.h"
-#include "core/elastic_model/mjcf.h"
+#include "core/elastic_model/simulator_models.h"
 #include "core/extended_model/effect_deflection.h"
 #include "core/io/read_file.h"
 #include "core/robot/body_inertia.h"

@@ -1,4 +1,4 @@
-#include "core/extended_model/effect_posterior.h"
+#include "core/extended_model/hidden_effects.h"
 
 #include <gtest/gtest.h>
 #include <Eigen/Dense>

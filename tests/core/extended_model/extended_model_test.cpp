@@ -7,7 +7,6 @@
 #include <numeric>
 #include "core/compensation/compensate.h"
 #include "core/effects/all.h"
-#include "core/extended_model/corrected_campaign.h"
 #include "core/extended_model/effect_deflection.h"
 #include "core/identification/estimate.h"
 #include "core/io/input_error.h"

@@ -1,4 +1,4 @@
-#include "core/extended_model/seen_combinations.h"
+#include "core/extended_model/hidden_effects.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/fleet/compliance_series.h"
+#include "core/fleet/fleet.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/identification/gear_line.h"
+#include "core/identification/gear_states.h"
 
 #include <gtest/gtest.h>
 

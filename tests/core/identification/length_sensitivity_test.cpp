@@ -1,4 +1,4 @@
-#include "core/identification/length_sensitivity.h"
+#include "core/identification/method_runs.h"
 
 #include <gtest/gtest.h>
 

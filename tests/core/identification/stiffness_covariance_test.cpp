@@ -3,13 +3,13 @@
 #include <cmath>
 #include <numeric>
 #include <random>
-#include "core/identification/bootstrap.h"
 #include "core/identification/estimate.h"
 #include "core/identification/identify.h"
 #include "core/identification/load_dependence.h"
 #include "core/identification/method_runs.h"
 #include "core/identification/method_solution.h"
 #include "core/identification/remarks.h"
+#include "core/identification/subsets.h"
 #include "core/simulation/measure.h"
 #include "core/simulation/read_spec.h"
 #include "tests/fixtures/on_one_core.h"

@@ -1,4 +1,4 @@
-#include "core/interchange/chord_check.h"
+#include "core/interchange/state_join.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/interchange/column_table.h"
-#include "core/interchange/text_decoding.h"
+#include "core/interchange/point_reading.h"
 #include "tests/core/interchange/refusal.h"
 
 namespace stiffscope {

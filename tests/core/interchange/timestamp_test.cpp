@@ -1,4 +1,4 @@
-#include "core/interchange/timestamp.h"
+#include "core/interchange/point_reading.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/mistakes/load_mistakes.h"
+#include "core/mistakes/load_search.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/planning/unloaded_information.h"
+#include "core/planning/unloaded_plan.h"
 
 #include <gtest/gtest.h>
 

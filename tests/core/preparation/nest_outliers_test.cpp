@@ -1,4 +1,4 @@
-#include "core/preparation/nest_outliers.h"
+#include "core/preparation/nest_network.h"
 
 #include <gtest/gtest.h>
 #include "core/preparation/drift_nests.h"

@@ -1,9 +1,9 @@
 #include <cmath>
-#include "core/simulation/arrival.h"
+#include "core/simulation/gears.h"
 #include "core/simulation/instruments.h"
 #include "core/simulation/postures.h"
 #include "core/simulation/rotation.h"
-#include "core/simulation/temperature.h"
+#include "core/simulation/spec.h"
 #include "tests/fixtures/simulation_fixture.h"
 
 namespace stiffscope {

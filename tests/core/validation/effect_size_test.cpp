@@ -4,7 +4,7 @@
 #include <numbers>
 #include "core/simulation/postures.h"
 #include "core/validation/case.h"
-#include "core/validation/draw.h"
+#include "core/validation/effect_draw.h"
 
 namespace stiffscope {
 

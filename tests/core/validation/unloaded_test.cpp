@@ -5,8 +5,8 @@
 #include "core/io/read_file.h"
 #include "core/numerics/random.h"
 #include "core/simulation/measure.h"
-#include "core/validation/day_kind.h"
-#include "core/validation/geometry_sizer.h"
+#include "core/validation/case.h"
+#include "core/validation/effect_size.h"
 #include "core/validation/run_blind.h"
 
 namespace stiffscope {

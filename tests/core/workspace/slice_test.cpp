@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include "core/io/input_error.h"
-#include "core/workspace/placement.h"
 #include "core/workspace/slice.h"
+#include "core/workspace/workspace_stiffness.h"
 #include "tests/fixtures/known_arm.h"
 
 namespace stiffscope {

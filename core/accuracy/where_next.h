@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "core/accuracy/accuracy_diagnosis.h"
 #include "core/calibration/fitted_arm.h"
 #include "core/diagnosis/diagnosis.h"
 
@@ -12,5 +13,9 @@ namespace stiffscope::accuracy {
 /// joint (what a turn of that joint would explain, posture by posture; shares overlap), quarter of the day, height and
 /// reach in the workspace (quarters of the readings), and posture. Readings of weight 0 take no part.
 std::vector<diagnosis::WhereTable> whereLeft(const calibration::UnloadedDay& day, const calibration::ArmFit& fit);
+
+/// What to measure next: what separates the members of each class of the verdict, what makes something testable, and
+/// what would find an unknown cause.
+std::vector<Remark> nextMeasurements(const AccuracyDiagnosis& diagnosis);
 
 }  // namespace stiffscope::accuracy

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/workspace/workspace_stiffness.h"
+#include "reports/report_content.h"
 #include "reports/words/table.h"
 
 namespace stiffscope::reports {
@@ -12,5 +13,9 @@ DataTable stiffnessPlaces(const workspace::WorkspaceStiffness& found, bool postu
 
 /// A row an offset of the workpiece.
 DataTable placementTable(const workspace::PlacementStudy& study);
+
+/// A row a posture, load step, measured point (reflectors, P_wrist) and available method: the displacement as it was
+/// measured (effects of the model taken off), what the method predicts of it, and what is left, R0, mm.
+DataTable postureTable(const ReportCampaign& one);
 
 }  // namespace stiffscope::reports
