@@ -173,7 +173,7 @@ int compensateProgram(const MotionRequest& request, const CampaignSource& source
   const campaign::JointConvention convention(prediction.campaign().joint_readings);
   std::vector<compensation::PostureToCompensate> targets;
   for (const interchange::JointSample& sample : program.log.samples)
-    targets.push_back({sample.name, convention.angles(sample.figures), {}});
+    targets.push_back({sample.name, convention.angles(sample.figures)});
   addTargetLoads(request, prediction, targets, outlet);
   const std::vector<compensation::CompensatedPosture> rows = prediction.compensate(targets);
   std::vector<std::optional<Vector6d>> figures;

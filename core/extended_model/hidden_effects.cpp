@@ -237,7 +237,7 @@ class MethodWeigher {
     addEffectLines(gain, off, moved, in_model, budget);
     Vector6d more = Vector6d::Zero(), by_columns = Vector6d::Zero();
     const auto addLine = [&](BudgetSource source, const Vector6d& variance) {
-      budget.push_back({source, std::nullopt, false, false, variance, {}});
+      budget.push_back({source, std::nullopt, false, false, variance, Vector6d::Zero()});
       more += variance;
     };
     if (declared_.gain_sd > 0.0)
@@ -281,14 +281,17 @@ class MethodWeigher {
       while (end < hidden_.effect.size() && hidden_.effect[end] == hidden_.effect[first]) ++end;
       const auto from = static_cast<Eigen::Index>(first), count = static_cast<Eigen::Index>(end - first);
       const effects::Effect effect = hidden_.effect[first];
-      BudgetLine line{BudgetSource::effect, effect, false, hidden_.declared[first], {}, {}};
+      BudgetLine line;
+      line.source = BudgetSource::effect;
+      line.effect = effect;
+      line.declared = hidden_.declared[first];
       line.in_model = std::find(in_model.begin(), in_model.end(), effect) != in_model.end();
       line.variance = meanSquare(gain.middleCols(from, count) * off.middleRows(from, count));
       common -= line.variance;
       budget.push_back(line);
       first = end;
     }
-    budget.push_back({BudgetSource::correlation, std::nullopt, false, false, common, {}});
+    budget.push_back({BudgetSource::correlation, std::nullopt, false, false, common, Vector6d::Zero()});
   }
 
   /// A draw of the effects each, with some of everything else. `own`: uncertainty without effects; `by_columns`:
