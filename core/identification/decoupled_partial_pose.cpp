@@ -97,7 +97,7 @@ Vector6d solveDecoupled(const NormalEquations& wrist_sum, const NormalEquations&
   const Vector6d arm = solveNormal(wrist_sum, armOf(unknown));
   // A^T (b - A c_arm) = A^T b - (A^T A) c_arm: the arm's model subtracted, (37).
   const NormalEquations rest{reflector_sum.matrix, reflector_sum.right - reflector_sum.matrix * arm};
-  return arm + solveNormal(rest, wristOf(unknown));
+  return arm + solveNormal(rest, wristOf(unknown));  // (33), (38)
 }
 
 StiffnessEstimate decoupledPartialPose(const std::vector<CaseEquations>& wrist_equations,

@@ -55,7 +55,8 @@ void runCompletePose(MethodRuns& runs, Identification& result);
 void runPartialPose(MethodRuns& runs, Identification& result);
 void runDecoupledPartialPose(MethodRuns& runs, Identification& result);
 
-/// Adds what all postures share to the covariances of the methods that have run (shared_uncertainty.cpp).
+/// Adds what all postures share to the covariances of the methods that have run: scatter is theirs
+/// already, the parts come from sweptParts.
 void addSharedUncertainty(const MethodRuns& runs, Identification& result);
 
 /// The L of the residual variances, m: feasible generalised least squares of Complete Pose. Displacements weigh by the

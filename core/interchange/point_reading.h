@@ -61,10 +61,12 @@ bool isNoTime(std::string_view text);
 /// ISO 8601, with the digits the resolution has: 2025-02-12T16:38:29.
 std::string isoTime(const Timestamp& time);
 
-/// Dialects of files of points. `columns` is any table whose columns the user names.
+/// Dialects of files of points, names in the order of the enumeration. `columns` is any table whose columns the user
+/// names.
 enum class PointFormat { sa, leica, openindy, xyz, columns };
 
 inline constexpr std::array<const char*, 5> kPointFormatNames{"sa", "leica", "openindy", "xyz", "columns"};
+static_assert(kPointFormatNames.size() == static_cast<std::size_t>(PointFormat::columns) + 1);
 
 inline const char* nameOf(PointFormat format) { return kPointFormatNames[static_cast<std::size_t>(format)]; }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include "core/audit/audit.h"
 #include "core/audit/remarks.h"
+#include "core/preparation/finding.h"
 #include "core/preparation/remarks.h"
 #include "reports/words/remark_words.h"
 #include "tests/fixtures/clean_day.h"
@@ -83,7 +84,7 @@ TEST(Evidence, AnEmptyCampaignIsNotTestable) {
   const audit::AuditReport report = audit::audit(SimulatedLab().empty());
   EXPECT_EQ(report.verdict, preparation::AuditVerdict::not_testable);
   EXPECT_EQ(report.made, 0);
-  EXPECT_EQ(report.of, 34);
+  EXPECT_EQ(report.of, static_cast<int>(preparation::kAuditCheckIds.size()));
   EXPECT_EQ(report.unanswered.size(), 4u);
   for (const preparation::AuditCheck& check : report.checks)
     EXPECT_EQ(check.verdict, preparation::AuditVerdict::not_testable) << check.id;
