@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace stiffscope::diagnosis {
@@ -62,7 +63,9 @@ Projection project(const Eigen::MatrixXd& normal, Eigen::Index effects_at) {
   result.by_effects = solved.leftCols(effects);
   result.by_nothing = solved.col(effects);
   const Eigen::MatrixXd transposed = across.leftCols(effects).transpose();
-  result.matrix = normal.block(effects_at, effects_at, effects, effects) - transposed * result.by_effects;
+  result.matrix = normal.block(effects_at, effects_at, effects, effects);
+  result.matrix.triangularView<Eigen::Lower>() -= transposed * result.by_effects;
+  result.matrix.triangularView<Eigen::StrictlyUpper>() = result.matrix.transpose();
   result.right = normal.col(end).segment(effects_at, effects) - transposed * result.by_nothing;
   result.before = normal.diagonal().segment(effects_at, effects);
   const Eigen::MatrixXd inverse = factor.solve(Eigen::MatrixXd::Identity(effects_at, 6));
@@ -203,6 +206,11 @@ double GrowingSubset::drop() const {
   GrowingSubset fewer = *this;
   fewer.remove(static_cast<std::size_t>(worst));
   return fewer.drop();
+}
+
+double GrowingSubset::mostDrop() const {
+  if (unknowns_.empty()) return 0.0;
+  return unknowns_.back().sound ? unknowns_.back().drop : std::numeric_limits<double>::infinity();
 }
 
 double GrowingSubset::dropOfSubset() const {

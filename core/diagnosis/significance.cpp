@@ -57,7 +57,8 @@ Eigen::VectorXd weighedByMeasuring(const SystemInput& input, const GapFit& fit) 
     return fit.projection.before;
   state.model_error = 0.0;
   state.position_inflation = state.sweep_inflation = 1.0;
-  const LinearSystem data = linearSystem(input, state, {});
+  LinearSystem data = fit.data;
+  weighAgain(input, state, data);
   const Eigen::MatrixXd normal = sumOf(data, std::vector<double>(data.postures.size(), 1.0));
   return normal.diagonal().segment(data.layout.effects, data.layout.end - data.layout.effects);
 }
