@@ -101,9 +101,9 @@ void fitOnce(const SystemInput& input, const std::vector<bool>& allowed, const F
 }
 
 /// The equations where the fit stands, the ones it had let go first.
-void remake(const SystemInput& input, const ContainedEffects& contained, GapFit& fit) {
+void remake(const SystemInput& input, const ContainedEffects& contained, GapFit& fit, Weighed weighed = Weighed::once) {
   fit.data = {};
-  fit.data = linearSystem(input, fit.state, contained);
+  fit.data = linearSystem(input, fit.state, contained, weighed);
 }
 
 GapFit settle(const SystemInput& input, const SystemState& start, const std::vector<bool>& allowed,
@@ -115,13 +115,15 @@ GapFit settle(const SystemInput& input, const SystemState& start, const std::vec
   double last_chi2 = 0.0;
   constexpr int kMostRounds = 9;
   for (fit.rounds = 1; fit.rounds <= kMostRounds; ++fit.rounds) {
-    remake(input, contained, fit);
-    if (input.absolute && fit.rounds > kAlone) {
+    const bool inflates = input.absolute && fit.rounds > kAlone;
+    remake(input, contained, fit, inflates ? Weighed::again : Weighed::once);
+    if (inflates) {
       const SystemState before = fit.state;
       estimateInflation(input, fit.data, fit.state);
       if (fit.state.position_inflation != before.position_inflation ||
           fit.state.sweep_inflation != before.sweep_inflation)
         weighAgain(input, fit.state, fit.data);
+      fit.data.as_read = {};
     }
     fitOnce(input, allowed, rules, fit);
     const ModelsAndParts now = namesOf(fit.set);

@@ -41,13 +41,13 @@ void addPostureEquations(const SystemInput& input, const SystemState& state, con
 /// Whitens each posture by its own covariance: fills `normal` and what else follows from that, and `state_noise`.
 void whitenPostures(const SystemInput& input, const SystemState& state, LinearSystem& data);
 
-/// Fills `data.swept` by the equations of circle and wrist sweeps, whitened reading by reading: absolute positions of
-/// unloaded postures, y = sag + geometry + own weights + effects + noise.
+/// Fills `data.as_read` with the equations of circle and wrist sweeps: absolute positions of unloaded postures,
+/// y = sag + geometry + own weights + effects + noise.
 void addSweepEquations(const SystemInput& input, const SystemState& state, const ContainedEffects& effects_now,
                        LinearSystem& data);
 
-/// Joins the sweeps, inflated, to what is known beforehand.
-void joinSweeps(const SystemState& state, LinearSystem& data);
+/// Their normal equations, whitened reading by reading.
+Eigen::MatrixXd sweepNormal(const SystemInput& input, const SystemState& state, SweepEquations equations);
 
 namespace {
 
@@ -182,26 +182,26 @@ GapLayout gapLayout(const std::vector<effects::EffectModel>& models, std::size_t
   return layout;
 }
 
-LinearSystem linearSystem(const SystemInput& input, const SystemState& state, const ContainedEffects& effects_now) {
+LinearSystem linearSystem(const SystemInput& input, const SystemState& state, const ContainedEffects& effects_now,
+                          Weighed weighed) {
   LinearSystem data;
   data.layout = gapLayout(input.models, input.campaign.targets.size());
   addPostureEquations(input, state, effects_now, data);
   whitenPostures(input, state, data);
   data.beforehand.setZero(data.layout.end + 1, data.layout.end + 1);
   addPriors(input, data);
-  if (input.sweeps) addSweepEquations(input, state, effects_now, data);
-  joinSweeps(state, data);
+  data.sweeps = data.beforehand;
+  if (!input.sweeps) return data;
+  addSweepEquations(input, state, effects_now, data);
+  data.sweeps += sweepNormal(input, state, weighed == Weighed::again ? data.as_read : std::move(data.as_read));
   return data;
 }
 
 void weighAgain(const SystemInput& input, const SystemState& state, LinearSystem& data) {
   whitenPostures(input, state, data);
-  joinSweeps(state, data);
-}
-
-void joinSweeps(const SystemState& state, LinearSystem& data) {
   data.sweeps = data.beforehand;
-  if (data.swept.size() > 0) data.sweeps += data.swept / state.sweep_inflation;
+  if (input.sweeps) data.sweeps += sweepNormal(input, state, std::move(data.as_read));
+  data.as_read = {};
 }
 
 namespace {
@@ -385,10 +385,10 @@ void whitenPostures(const SystemInput& input, const SystemState& state, LinearSy
 
 namespace {
 
-/// [A y] of one posture, whitened reading by reading.
-Eigen::MatrixXd sweptEquations(const SystemInput& input, const SystemState& state, const ContainedEffects& now,
-                               const GapLayout& layout, const PositionByGeometry& by_geometry, const SweepRows& one) {
-  Eigen::MatrixXd both = Eigen::MatrixXd::Zero(one.position.size(), layout.end + 1);
+/// [A y] of one posture, unwhitened.
+template <class Rows>
+void fill(const SystemInput& input, const SystemState& state, const ContainedEffects& now, const GapLayout& layout,
+          const PositionByGeometry& by_geometry, const SweepRows& one, Rows both) {
   both.leftCols(6) = one.sag_by_compliance;
   both.middleCols(layout.geometry, layout.weights - layout.geometry) = by_geometry.of(one.state);
   both.middleCols(layout.weights, effects::kBodies) = effects::gravityDeflectionByBody(state.at, one.state);
@@ -397,16 +397,9 @@ Eigen::MatrixXd sweptEquations(const SystemInput& input, const SystemState& stat
     const Eigen::MatrixXd columns = input.models[m].columns(state.at, alone, 0);
     both.middleCols(layout.model_at[m], columns.cols()) = columns;
   }
-  auto right = both.col(layout.end);
+  auto right = both.col(both.cols() - 1);
   right = one.position + one.sag_by_compliance * state.at.compliance;
   if (now.in_positions.size() > 0) right += both.middleCols(layout.effects, now.in_positions.size()) * now.in_positions;
-  Eigen::Index row = 0;
-  for (const Eigen::Vector3d& point : one.state.points) {
-    const Eigen::Matrix3d covariance = readingCovariance(input.noise, state.r0_from_sweeps, point);
-    both.middleRows<3>(row) = covariance.llt().matrixL().solve(both.middleRows<3>(row)).eval();
-    row += 3;
-  }
-  return both;
 }
 
 }  // namespace
@@ -420,14 +413,25 @@ void addSweepEquations(const SystemInput& input, const SystemState& state, const
   for (const SweepRows& one : rows) {
     first.push_back(total);
     total += one.position.size();
+    data.as_read.points.insert(data.as_read.points.end(), one.state.points.begin(), one.state.points.end());
   }
-  Eigen::MatrixXd equations(total, data.layout.end + 1);
+  data.as_read.rows.setZero(total, data.layout.end + 1);
   numerics::onAllCores(rows.size(), [&](std::size_t i) {
-    equations.middleRows(first[i], rows[i].position.size()) =
-        sweptEquations(input, state, effects_now, data.layout, by_geometry, rows[i]);
+    fill(input, state, effects_now, data.layout, by_geometry, rows[i],
+         data.as_read.rows.middleRows(first[i], rows[i].position.size()));
   });
-  data.swept = numerics::normalMatrix(equations);
   data.sweep_rows += total;
+}
+
+Eigen::MatrixXd sweepNormal(const SystemInput& input, const SystemState& state, SweepEquations equations) {
+  Eigen::Index row = 0;
+  for (const Eigen::Vector3d& point : equations.points) {
+    const Eigen::Matrix3d covariance =
+        state.sweep_inflation * readingCovariance(input.noise, state.r0_from_sweeps, point);
+    equations.rows.middleRows<3>(row) = covariance.llt().matrixL().solve(equations.rows.middleRows<3>(row)).eval();
+    row += 3;
+  }
+  return numerics::normalMatrix(equations.rows);
 }
 
 }  // namespace stiffscope::diagnosis

@@ -78,13 +78,19 @@ struct GapPosture {
   double noiseSquares(Eigen::Index first, Eigen::Index rows) const;
 };
 
+/// Equations of the sweeps, [A y], as they are read: three rows a reading.
+struct SweepEquations {
+  Eigen::MatrixXd rows;
+  std::vector<Eigen::Vector3d> points;  ///< of the readings, in R0
+};
+
 /// All equations of the gap at one point of linearisation.
 struct LinearSystem {
   GapLayout layout;
   std::vector<GapPosture> postures;
   Eigen::MatrixXd sweeps;      ///< [A y]^T [A y] of the sweeps, and of what is known beforehand
   Eigen::MatrixXd beforehand;  ///< of what is known beforehand alone
-  Eigen::MatrixXd swept;       ///< of the sweeps alone, as the readings' noise weighs them; empty: none
+  SweepEquations as_read;      ///< kept where they may be weighed again: tens of megabytes
   Eigen::Index sweep_rows = 0;
   Eigen::Index loading_rows = 0;
   double state_noise = 0.0;  ///< rms noise of one state's displacement, per coordinate, m
@@ -96,12 +102,16 @@ struct ContainedEffects {
   Eigen::VectorXd in_positions, in_deflections;
 };
 
+/// Whether equations will be weighed again.
+enum class Weighed { once, again };
+
 /// Fills the equations. What `state` contains is added back: the right sides are those of whole effects, not
 /// of the rest.
-LinearSystem linearSystem(const SystemInput& input, const SystemState& state, const ContainedEffects& effects_now);
+LinearSystem linearSystem(const SystemInput& input, const SystemState& state, const ContainedEffects& effects_now,
+                          Weighed weighed = Weighed::once);
 
 /// Weighs the equations made at `state` anew, where since then nothing but variances has changed in it: its factors on
-/// those of absolute positions, and the error of the model.
+/// those of absolute positions, and the error of the model. Lets the sweeps' equations go.
 void weighAgain(const SystemInput& input, const SystemState& state, LinearSystem& data);
 
 GapLayout gapLayout(const std::vector<effects::EffectModel>& models, std::size_t targets);

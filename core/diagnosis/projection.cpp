@@ -63,9 +63,7 @@ Projection project(const Eigen::MatrixXd& normal, Eigen::Index effects_at) {
   result.by_effects = solved.leftCols(effects);
   result.by_nothing = solved.col(effects);
   const Eigen::MatrixXd transposed = across.leftCols(effects).transpose();
-  result.matrix = normal.block(effects_at, effects_at, effects, effects);
-  result.matrix.triangularView<Eigen::Lower>() -= transposed * result.by_effects;
-  result.matrix.triangularView<Eigen::StrictlyUpper>() = result.matrix.transpose();
+  result.matrix = normal.block(effects_at, effects_at, effects, effects) - transposed * result.by_effects;
   result.right = normal.col(end).segment(effects_at, effects) - transposed * result.by_nothing;
   result.before = normal.diagonal().segment(effects_at, effects);
   const Eigen::MatrixXd inverse = factor.solve(Eigen::MatrixXd::Identity(effects_at, 6));

@@ -51,8 +51,7 @@ class Selector {
 
   /// Every model alone on top of `base`, its parts chosen greedily; best score first. Those that cannot score below
   /// `limit` may be missing.
-  std::vector<FittedSet> ranked(const FittedSet& base,
-                                double limit = std::numeric_limits<double>::infinity()) const;
+  std::vector<FittedSet> ranked(const FittedSet& base, double limit = std::numeric_limits<double>::infinity()) const;
   FittedSet nothing() const;
   FittedSet given() const;
   FittedSet select() const;

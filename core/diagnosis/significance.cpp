@@ -57,8 +57,7 @@ Eigen::VectorXd weighedByMeasuring(const SystemInput& input, const GapFit& fit) 
     return fit.projection.before;
   state.model_error = 0.0;
   state.position_inflation = state.sweep_inflation = 1.0;
-  LinearSystem data = fit.data;
-  weighAgain(input, state, data);
+  const LinearSystem data = linearSystem(input, state, {});
   const Eigen::MatrixXd normal = sumOf(data, std::vector<double>(data.postures.size(), 1.0));
   return normal.diagonal().segment(data.layout.effects, data.layout.end - data.layout.effects);
 }

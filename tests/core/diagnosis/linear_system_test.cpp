@@ -15,7 +15,7 @@ TEST(LinearSystem, IsWeighedAgainAsItIsMadeAgain) {
   const diagnosis::SystemInput& input = *effects.input;
   diagnosis::SystemState state = effects.fit.state;
   ASSERT_TRUE(input.absolute && input.sweeps);
-  diagnosis::LinearSystem data = diagnosis::linearSystem(input, state, {});
+  diagnosis::LinearSystem data = diagnosis::linearSystem(input, state, {}, diagnosis::Weighed::again);
   const std::vector<double> ones(data.postures.size(), 1.0);
   const Eigen::MatrixXd before = diagnosis::sumOf(data, ones);
   state.position_inflation *= 1.7;
@@ -27,6 +27,7 @@ TEST(LinearSystem, IsWeighedAgainAsItIsMadeAgain) {
   EXPECT_NE(diagnosis::sumOf(data, ones), before);
   EXPECT_EQ(data.sweep_rows, made.sweep_rows);
   EXPECT_EQ(data.state_noise, made.state_noise);
+  EXPECT_EQ(data.as_read.rows.size(), 0);
 }
 
 }  // namespace linear_system_test
