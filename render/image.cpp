@@ -1,11 +1,14 @@
 #include "render/image.h"
 
+#include <libdeflate.h>
 #include <png.h>
 
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
+#include <memory>
 #include <stdexcept>
 #include <string>
 
@@ -80,13 +83,37 @@ std::vector<png_color> chosenColours(std::vector<Cell> cells) {
   return palette;
 }
 
+/// Pixels of one colour, one after the other: pictures are drawn in flat colours.
+struct Run {
+  std::size_t end = 0;  ///< of the pixels
+  unsigned cell = 0;
+};
+
+std::vector<Run> runsOf(const Image& image) {
+  constexpr std::size_t kBlock = 24;  // bytes compared at once
+  const std::uint8_t *begin = image.rgb.data(), *end = begin + image.rgb.size();
+  std::vector<Run> runs;
+  for (const std::uint8_t* at = begin; at < end;) {
+    const std::uint8_t* next = at + 3;
+    while (end - next >= static_cast<std::ptrdiff_t>(kBlock) && std::memcmp(next - 3, next, kBlock) == 0)
+      next += kBlock;
+    while (next < end && std::memcmp(at, next, 3) == 0) next += 3;
+    runs.push_back({static_cast<std::size_t>(next - begin) / 3, cellOf(at)});
+    at = next;
+  }
+  return runs;
+}
+
 Palettised palettisedOf(const Image& image) {
-  const std::size_t pixels = image.rgb.size() / 3;
+  const std::vector<Run> runs = runsOf(image);
   std::vector<Cell> all(kCells);
-  for (std::size_t i = 0; i < pixels; ++i) {
-    const std::uint8_t* at = &image.rgb[3 * i];
-    Cell& cell = all[cellOf(at)];
-    if (cell.pixels++ == 0) cell.colour = {at[0], at[1], at[2]};
+  std::size_t from = 0;
+  for (const Run& run : runs) {
+    Cell& cell = all[run.cell];
+    const std::uint8_t* at = &image.rgb[3 * from];
+    if (cell.pixels == 0) cell.colour = {at[0], at[1], at[2]};
+    cell.pixels += static_cast<std::uint32_t>(run.end - from);
+    from = run.end;
   }
   std::vector<Cell> cells;
   std::vector<unsigned> keys;
@@ -95,7 +122,7 @@ Palettised palettisedOf(const Image& image) {
     cells.push_back(all[key]);
     keys.push_back(key);
   }
-  Palettised result{chosenColours(cells), std::vector<std::uint8_t>(pixels)};
+  Palettised result{chosenColours(cells), std::vector<std::uint8_t>(image.rgb.size() / 3)};
   std::vector<std::uint8_t> nearest(kCells);
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const auto best =
@@ -104,8 +131,24 @@ Palettised palettisedOf(const Image& image) {
         });
     nearest[keys[i]] = static_cast<std::uint8_t>(best - result.palette.begin());
   }
-  for (std::size_t i = 0; i < pixels; ++i) result.indices[i] = nearest[cellOf(&image.rgb[3 * i])];
+  auto at = result.indices.begin();
+  for (const Run& run : runs) {
+    const auto end = result.indices.begin() + static_cast<std::ptrdiff_t>(run.end);
+    std::fill(at, end, nearest[run.cell]);
+    at = end;
+  }
   return result;
+}
+
+/// As zlib has it, by libdeflate: half its time or less, for it has the whole picture at once.
+std::vector<std::uint8_t> deflated(const std::vector<std::uint8_t>& bytes) {
+  constexpr int kLevel = 6;
+  const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
+      libdeflate_alloc_compressor(kLevel), libdeflate_free_compressor);
+  if (!compressor) throw std::runtime_error("cannot encode PNG: libdeflate did not start");
+  std::vector<std::uint8_t> out(libdeflate_zlib_compress_bound(compressor.get(), bytes.size()));
+  out.resize(libdeflate_zlib_compress(compressor.get(), bytes.data(), bytes.size(), out.data(), out.size()));
+  return out;
 }
 
 /// Rows of `depth` bytes a pixel; with a palette where that is not empty.
@@ -122,13 +165,18 @@ std::vector<std::uint8_t> encoded(const Image& image, const std::uint8_t* rows, 
   png_set_IHDR(writer.png, writer.info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), 8,
                palette.empty() ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_PALETTE, PNG_INTERLACE_NONE,
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-  // Flat colours compress best unfiltered, and soonest.
-  png_set_filter(writer.png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
-  png_set_compression_level(writer.png, 6);
   if (!palette.empty()) png_set_PLTE(writer.png, writer.info, palette.data(), static_cast<int>(palette.size()));
   png_write_info(writer.png, writer.info);
-  for (std::size_t y = 0; y < height; ++y) png_write_row(writer.png, rows + depth * width * y);
-  png_write_end(writer.png, nullptr);
+  // Flat colours compress best unfiltered, and soonest: before each row stands a zero.
+  std::vector<std::uint8_t> unfiltered(height * (depth * width + 1));
+  for (std::size_t y = 0; y < height; ++y)
+    std::copy_n(rows + depth * width * y, depth * width, &unfiltered[y * (depth * width + 1) + 1]);
+  const std::vector<std::uint8_t> data = deflated(unfiltered);
+  const auto chunk = [&](const char* name, const std::uint8_t* begin, std::size_t length) {
+    png_write_chunk(writer.png, reinterpret_cast<png_const_bytep>(name), begin, length);
+  };
+  chunk("IDAT", data.data(), data.size());
+  chunk("IEND", nullptr, 0);
   return bytes;
 }
 

@@ -40,7 +40,7 @@ struct Image {
 
 /// `image` as a PNG file in memory: 8-bit RGB, no time stamp or text chunk, so equal images give equal bytes.
 /// Throws std::invalid_argument when the size and the number of bytes of `image` disagree, std::runtime_error
-/// when libpng fails.
+/// when libpng or libdeflate fails.
 std::vector<std::uint8_t> encodePng(const Image& image);
 
 /// The same in 256 colours at most, a third as large and as long to make: for pictures of which a page carries dozens.

@@ -61,6 +61,9 @@ struct PredictionSpread {
   double expanded = 0.0;  ///< U: the error is shorter than this at the stated coverage
 };
 
+/// Quantiles of one coordinate's errors at the stated coverage, widened to hold zero; NaN where one is. Reorders them.
+identification::CoverageInterval intervalOf(std::vector<double>& errors);
+
 /// Of the errors of a prediction, a draw each column: moments about zero, and quantiles widened to hold zero. Not a
 /// number where some error is not.
 PredictionSpread spreadOf(const Eigen::Matrix3Xd& errors);

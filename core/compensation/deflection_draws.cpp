@@ -122,6 +122,15 @@ DeflectionDraws modelDraws(const extended_model::ExtendedModel& model, identific
   return springDraws(springs, identification::coveringCovariance(springs), load_sd, model.spread.parameters.cols());
 }
 
+identification::CoverageInterval intervalOf(std::vector<double>& errors) {
+  constexpr double kBeyond = 0.5 * (1.0 - identification::kStatedCoverage);
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  if (!std::all_of(errors.begin(), errors.end(), [](double error) { return std::isfinite(error); }))
+    return {kNone, kNone};
+  const double low = quantile(errors, kBeyond), high = quantile(errors, 1.0 - kBeyond);
+  return {std::min(low, 0.0), std::max(high, 0.0)};
+}
+
 PredictionSpread spreadOf(const Eigen::Matrix3Xd& errors) {
   PredictionSpread spread;
   spread.sd = (errors.rowwise().squaredNorm() / static_cast<double>(errors.cols())).cwiseSqrt();
@@ -132,12 +141,10 @@ PredictionSpread spreadOf(const Eigen::Matrix3Xd& errors) {
     spread.expanded = kNone;
     return spread;
   }
-  constexpr double kBeyond = 0.5 * (1.0 - identification::kStatedCoverage);
   std::vector<double> values(static_cast<std::size_t>(errors.cols()));
   for (int k = 0; k < 3; ++k) {
     Eigen::VectorXd::Map(values.data(), errors.cols()) = errors.row(k);
-    const double low = quantile(values, kBeyond), high = quantile(values, 1.0 - kBeyond);
-    spread.interval[static_cast<std::size_t>(k)] = {std::min(low, 0.0), std::max(high, 0.0)};
+    spread.interval[static_cast<std::size_t>(k)] = intervalOf(values);
   }
   Eigen::VectorXd::Map(values.data(), errors.cols()) = errors.colwise().norm();
   spread.expanded = quantile(values, identification::kStatedCoverage);

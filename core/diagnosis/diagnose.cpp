@@ -142,7 +142,9 @@ class Diagnoser {
         input_(*study.input),
         allowed_(study.allowed),
         given_(study.given),
+        held_out_(study.held_out),
         fit_(study.fit) {
+    if (study.alone) alone_ = *study.alone;
     result_.not_testable = study.not_testable;
   }
 
@@ -166,7 +168,7 @@ class Diagnoser {
 
  private:
   void describe() {
-    alone_ = withoutEffects(input_, start_.state, fit_);
+    if (alone_.data.postures.empty()) alone_ = withoutEffects(input_, start_.state, fit_);
     result_.usable = true;
     result_.postures = static_cast<int>(fit_.data.postures.size());
     for (const GapPosture& posture : fit_.data.postures) result_.states += static_cast<int>(posture.states.size());
@@ -237,10 +239,20 @@ class Diagnoser {
     }
   }
 
-  void shrink() {
-    std::vector<FitRecipe> recipes{{true, {}}};
+  /// Of the whole selection, which may be known, then of each class.
+  std::vector<HeldOutShrink> heldOut() const {
+    const bool known = held_out_ && held_out_->detect == fit_.rules.detect &&
+                       held_out_->resamples == options_.resamples && held_out_->seed == options_.seed;
+    std::vector<FitRecipe> recipes;
+    if (!known) recipes.push_back({true, {}});
     for (const auto& models : recipes_) recipes.push_back({false, models});
-    const auto held_out = heldOutShrinks(input_, alone_, fit_, allowed_, recipes, options_.resamples, options_.seed);
+    auto held_out = heldOutShrinks(input_, alone_, fit_, allowed_, recipes, options_.resamples, options_.seed);
+    if (known) held_out.insert(held_out.begin(), held_out_->shrink);
+    return held_out;
+  }
+
+  void shrink() {
+    const std::vector<HeldOutShrink> held_out = heldOut();
     result_.shrink_together = held_out[0].deflection;
     HeldOutShrink station;
     if (!station_.empty()) {
@@ -273,6 +285,7 @@ class Diagnoser {
   const SystemInput& input_;
   const std::vector<bool>& allowed_;
   const std::vector<std::size_t>& given_;
+  const std::optional<StudyHeldOut>& held_out_;
   GapFit fit_;    // with the effects chosen, a copy: the limit of a finding is put into its rules
   GapFit alone_;  // joint stiffnesses alone
   StiffnessesAlone before_;

@@ -7,6 +7,7 @@
 #include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/diagnosis_input.h"
 #include "core/diagnosis/fit.h"
+#include "core/diagnosis/held_out.h"
 #include "core/preparation/prepare.h"
 
 namespace stiffscope::diagnosis {
@@ -15,6 +16,15 @@ struct GapOptions {
   double noise_share = 0.5;                            ///< see FitRules
   double deflection_share = 0.002;                     ///< the same
   std::optional<effects::Effect> only = std::nullopt;  ///< the one effect that may be chosen
+};
+
+/// How the fit does in postures that it has not seen, the selection repeated in each sample (heldOutShrinks), and what
+/// that depends on beside the study.
+struct StudyHeldOut {
+  double detect = 0.0;  ///< SelectionRules
+  int resamples = 0;
+  std::uint64_t seed = 0;
+  HeldOutShrink shrink;
 };
 
 /// The joint fit that a diagnosis stands on: every effect that the campaign can show in the equations, and of them the
@@ -27,6 +37,8 @@ struct GapStudy {
   std::vector<std::size_t> given;               ///< models that the nests put in
   std::vector<NotTestable> not_testable;        ///< effects, and what is missing to show them
   GapFit fit;                                   ///< empty where `start->reason` says why there is no gap
+  std::optional<GapFit> alone;                  ///< withoutEffects beside it, where that was asked for already
+  std::optional<StudyHeldOut> held_out;         ///< the same: it takes as long as the fit
 
   bool usable() const { return start->reason.empty(); }
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <random>
 #include <span>
 
@@ -124,9 +125,61 @@ double noiseSquares(const GapPosture& posture) {
   return posture.noiseSquares(posture.position_rows, rows);
 }
 
-std::vector<HeldOutShrink> heldOutShrinks(const SystemInput& input, const GapFit& alone, const GapFit& fit,
-                                          const std::vector<bool>& allowed, const std::vector<FitRecipe>& recipes,
-                                          int resamples, std::uint64_t seed) {
+namespace {
+
+/// Equations of some effects alone, with the recipes in their numbers: of fixed recipes all that is fitted.
+struct Narrowed {
+  SystemInput input;
+  GapFit fit;
+  std::vector<FitRecipe> recipes;
+};
+
+GapPosture narrowed(const GapPosture& posture, const std::vector<Eigen::Index>& columns, Eigen::Index end) {
+  GapPosture own;
+  own.columns = posture.columns(Eigen::all, columns);
+  own.right = posture.right;
+  own.position_rows = posture.position_rows;
+  own.noise = posture.noise;
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(end + 1, end + 1);
+  posture.normal.addTo(1.0, normal);
+  std::vector<Eigen::Index> both = columns;
+  both.push_back(end);
+  own.normal = numerics::LowerTriangle(normal(both, both));
+  return own;
+}
+
+Narrowed narrowed(const SystemInput& input, const GapFit& fit, const std::vector<FitRecipe>& recipes) {
+  Narrowed own{input, {}, recipes};
+  own.input.models.clear();
+  std::vector<Eigen::Index> columns(static_cast<std::size_t>(fit.data.layout.effects));
+  std::iota(columns.begin(), columns.end(), Eigen::Index{0});
+  for (std::size_t m = 0; m < input.models.size(); ++m) {
+    bool taken = false;
+    for (std::size_t r = 0; r < recipes.size(); ++r) {
+      for (std::size_t k = 0; k < recipes[r].models.size(); ++k) {
+        if (recipes[r].models[k].model != m) continue;
+        own.recipes[r].models[k].model = own.input.models.size();
+        taken = true;
+      }
+    }
+    if (!taken) continue;
+    own.input.models.push_back(input.models[m]);
+    for (std::size_t k = 0; k < input.models[m].parameters(); ++k)
+      columns.push_back(fit.data.layout.model_at[m] + static_cast<Eigen::Index>(k));
+  }
+  const Eigen::Index end = fit.data.layout.end;
+  own.fit.rules = fit.rules;
+  own.fit.rules.given.clear();
+  own.fit.data.layout = gapLayout(own.input.models, input.campaign.targets.size());
+  for (const GapPosture& posture : fit.data.postures) own.fit.data.postures.push_back(narrowed(posture, columns, end));
+  columns.push_back(end);
+  own.fit.data.sweeps = fit.data.sweeps(columns, columns);
+  return own;
+}
+
+std::vector<HeldOutShrink> shrinks(const SystemInput& input, const GapFit& alone, const GapFit& fit,
+                                   const std::vector<bool>& allowed, const std::vector<FitRecipe>& recipes,
+                                   int resamples, std::uint64_t seed) {
   const std::size_t postures = fit.data.postures.size();
   std::vector<HeldOutShrink> result(recipes.size());
   if (postures < 4) return result;
@@ -175,6 +228,20 @@ std::vector<HeldOutShrink> heldOutShrinks(const SystemInput& input, const GapFit
         gap > 0.05 * noise ? std::clamp((sum.deflection_before - sum.deflection_after) / gap, -1.0, 1.0) : 0.0;
   }
   return result;
+}
+
+}  // namespace
+
+std::vector<HeldOutShrink> heldOutShrinks(const SystemInput& input, const GapFit& alone, const GapFit& fit,
+                                          const std::vector<bool>& allowed, const std::vector<FitRecipe>& recipes,
+                                          int resamples, std::uint64_t seed) {
+  if (recipes.empty()) return {};
+  const auto chooses = [](const FitRecipe& recipe) { return recipe.choose; };
+  if (std::any_of(recipes.begin(), recipes.end(), chooses))
+    return shrinks(input, alone, fit, allowed, recipes, resamples, seed);
+  const Narrowed own = narrowed(input, fit, recipes);
+  const std::vector<bool> all(own.input.models.size(), true);
+  return shrinks(own.input, alone, own.fit, all, own.recipes, resamples, seed);
 }
 
 }  // namespace stiffscope::diagnosis

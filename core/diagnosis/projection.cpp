@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace stiffscope::diagnosis {
@@ -203,6 +204,11 @@ double GrowingSubset::drop() const {
   GrowingSubset fewer = *this;
   fewer.remove(static_cast<std::size_t>(worst));
   return fewer.drop();
+}
+
+double GrowingSubset::mostDrop() const {
+  if (unknowns_.empty()) return 0.0;
+  return unknowns_.back().sound ? unknowns_.back().drop : std::numeric_limits<double>::infinity();
 }
 
 double GrowingSubset::dropOfSubset() const {

@@ -67,6 +67,8 @@ class GrowingSubset {
   void cutTo(std::size_t size);  ///< the first so many of the parameters
   std::size_t size() const { return unknowns_.size(); }
   double drop() const;
+  /// What the fall can be at most: none of them bounded; infinite where rounding hides it.
+  double mostDrop() const;
 
  private:
   struct Unknown {

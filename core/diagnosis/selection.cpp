@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/numerics/parallel.h"
 
@@ -40,6 +41,14 @@ FittedSet Selector::nothing() const {
   return none;
 }
 
+/// Which model, and which of its parts, was looked for: a choice among so many.
+double Selector::penaltyOfModel() const { return 2.0 * std::log(static_cast<double>(models_.size())); }
+
+double Selector::penaltyOfPart(std::size_t model, std::size_t parameters) const {
+  return 2.0 * std::log(static_cast<double>(models_[model].parts.size())) +
+         std::log(postures_) * static_cast<double>(parameters);
+}
+
 FittedSet Selector::fit(const std::vector<ChosenModel>& models) const {
   FittedSet set = nothing();
   set.models = models;
@@ -47,12 +56,10 @@ FittedSet Selector::fit(const std::vector<ChosenModel>& models) const {
   std::vector<bool> positive;
   for (const ChosenModel& one : models) {
     const effects::EffectModel& model = models_[one.model];
-    // Which model, and which of its parts, was looked for: a choice among so many.
-    set.penalty += 2.0 * std::log(static_cast<double>(models_.size()));
+    set.penalty += penaltyOfModel();
     for (const std::size_t p : one.parts) {
       const effects::EffectPart& part = model.parts[p];
-      set.penalty += 2.0 * std::log(static_cast<double>(model.parts.size()));
-      set.penalty += std::log(postures_) * static_cast<double>(part.most.size());
+      set.penalty += penaltyOfPart(one.model, part.most.size());
       for (std::size_t k = 0; k < part.most.size(); ++k) {
         indices.push_back(part_at_[one.model][p] + static_cast<Eigen::Index>(k));
         positive.push_back(part.positive);
@@ -180,10 +187,29 @@ std::optional<FittedSet> Selector::grown(const FittedSet& base, std::size_t mode
   return plausible;
 }
 
-std::vector<FittedSet> Selector::ranked(const FittedSet& base) const {
+/// Whether any parts of the model on top of `base` may: all that are seen, none of them bounded, bring as much as those
+/// that would be chosen, and the smallest part alone costs as little.
+bool Selector::mayScoreBelow(double limit, const FittedSet& base, std::size_t model) const {
+  if (std::isinf(limit)) return true;
+  const std::vector<effects::EffectPart>& parts = models_[model].parts;
+  GrowingSubset subset = subsetOf(base.models);
+  std::size_t smallest = std::numeric_limits<std::size_t>::max();
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    if (!isSeen(model, p)) continue;
+    addPart(model, p, subset);
+    smallest = std::min(smallest, parts[p].most.size());
+  }
+  if (smallest == std::numeric_limits<std::size_t>::max()) return false;  // nothing to choose from
+  const double penalty = base.penalty + penaltyOfModel() + penaltyOfPart(model, smallest);
+  constexpr double kRough = 1e-6;  // far above what mostDrop is off by
+  return projection_.chi2_none * (1.0 - kRough) - subset.mostDrop() + penalty < limit;
+}
+
+std::vector<FittedSet> Selector::ranked(const FittedSet& base, double limit) const {
   std::vector<std::optional<FittedSet>> by_model(models_.size());
   numerics::onAllCores(models_.size(), [&](std::size_t m) {
-    if (allowed_[m] && !base.has(models_, models_[m].effect)) by_model[m] = grown(base, m);
+    if (allowed_[m] && !base.has(models_, models_[m].effect) && mayScoreBelow(limit, base, m))
+      by_model[m] = grown(base, m);
   });
   std::vector<FittedSet> sets;
   for (std::optional<FittedSet>& set : by_model) {
@@ -237,20 +263,24 @@ FittedSet Selector::select() const {
   std::vector<FittedSet> singles;
   constexpr std::size_t kFew = 6;
   for (std::size_t count = 0; count < rules_.most_effects; ++count) {
-    std::vector<FittedSet> next = ranked(current);
-    if (next.empty()) break;
-    FittedSet best = next.front();
-    if (count == 0) singles = std::move(next);
+    // A set that is worth it scores lower than this: see worth. Of the first, the next best are wanted too.
+    double limit = current.score() - rules_.detect;
+    std::optional<FittedSet> best;
+    const auto take = [&](const std::vector<FittedSet>& sets) {
+      if (sets.empty() || (best && sets.front().score() >= best->score())) return;
+      best = sets.front();
+      limit = std::min(limit, best->score());
+    };
+    if (count == 0) take(singles = ranked(current));
+    if (count > 0) take(ranked(current, limit));
     if (count == 1) {
       // All pairs of the best few, single and second, may beat the forward pair.
       for (std::size_t a = 0; a < std::min(kFew, singles.size()); ++a) {
-        if (singles[a].models == current.models) continue;  // `next` already
-        const std::vector<FittedSet> pairs = ranked(singles[a]);
-        if (!pairs.empty() && pairs.front().score() < best.score()) best = pairs.front();
+        if (singles[a].models != current.models) take(ranked(singles[a], limit));  // else seen already
       }
     }
-    if (!worth(best, current)) break;
-    current = pruned(regrown(std::move(best)));
+    if (!best || !worth(*best, current)) break;
+    current = pruned(regrown(std::move(*best)));
   }
   return current;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -48,8 +49,9 @@ class Selector {
   Selector(const std::vector<effects::EffectModel>& models, const GapLayout& layout, const Projection& projection,
            double postures, const SelectionRules& rules, const std::vector<bool>& allowed);
 
-  /// Every model alone on top of `base`, its parts chosen greedily; best score first.
-  std::vector<FittedSet> ranked(const FittedSet& base) const;
+  /// Every model alone on top of `base`, its parts chosen greedily; best score first. Those that cannot score below
+  /// `limit` may be missing.
+  std::vector<FittedSet> ranked(const FittedSet& base, double limit = std::numeric_limits<double>::infinity()) const;
   FittedSet nothing() const;
   FittedSet given() const;
   FittedSet select() const;
@@ -61,6 +63,9 @@ class Selector {
   double misfit(const FittedSet& set) const;
 
  private:
+  double penaltyOfModel() const;
+  double penaltyOfPart(std::size_t model, std::size_t parameters) const;
+  bool mayScoreBelow(double limit, const FittedSet& base, std::size_t model) const;
   std::optional<FittedSet> grown(const FittedSet& base, std::size_t model) const;
   std::optional<FittedSet> withBestPart(std::vector<ChosenModel> models, GrowingSubset& subset) const;
   void addPart(std::size_t model, std::size_t part, GrowingSubset& subset) const;

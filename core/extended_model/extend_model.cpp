@@ -104,10 +104,11 @@ EffectFit chosenEffects(const preparation::PreparedCampaign& prepared, const dia
 
 /// Gap and shrink as the diagnosis states them, of the study's own fit, the selection repeated inside the shrink. What
 /// the nests put in is off the readings here and not there, so then the fit's own stand.
-void describeAsDiagnosed(const diagnosis::GapStudy& study, EffectFit& chosen) {
+void describeAsDiagnosed(diagnosis::GapStudy& study, EffectFit& chosen) {
   if (chosen.free.empty() || !study.given.empty()) return;
   const diagnosis::GapFit& fit = study.fit;
-  const diagnosis::GapFit alone = diagnosis::withoutEffects(*study.input, study.start->state, fit);
+  const diagnosis::GapFit& alone =
+      study.alone.emplace(diagnosis::withoutEffects(*study.input, study.start->state, fit));
   const diagnosis::StiffnessesAlone before =
       diagnosis::stiffnessesAlone(alone.data, std::vector<double>(alone.data.postures.size(), 1.0), alone.projection);
   chosen.gap = diagnosis::deflectionGap(alone, before, fit, diagnosis::allParameters(fit.nuisances, fit.set.effects));
@@ -115,6 +116,7 @@ void describeAsDiagnosed(const diagnosis::GapStudy& study, EffectFit& chosen) {
   const diagnosis::HeldOutShrink held_out = diagnosis::heldOutShrinks(*study.input, alone, fit, study.allowed,
                                                                       {{true, {}}}, as_there.resamples, as_there.seed)
                                                 .front();
+  study.held_out = {fit.rules.detect, as_there.resamples, as_there.seed, held_out};
   chosen.shrink = held_out.deflection;
   chosen.explained = held_out.explained;
 }
@@ -160,8 +162,8 @@ ExtendedModel supportedModel(const preparation::PreparedCampaign& prepared, cons
   const bool thinned = diagnosis::isLong(prepared.campaign);
   std::optional<preparation::PreparedCampaign> spread;
   if (thinned) spread = diagnosis::spreadForDiagnosis(prepared);
-  auto whole = std::make_unique<const diagnosis::GapStudy>(diagnosis::studyGap(spread ? *spread : prepared));
-  const diagnosis::GapStudy& study = *whole;
+  auto whole = std::make_unique<diagnosis::GapStudy>(diagnosis::studyGap(spread ? *spread : prepared));
+  diagnosis::GapStudy& study = *whole;
   if (!study.usable()) {
     EffectFit none;
     none.notes.emplace_back(RemarkId::diagnosis_has_no_gap, study.start->reason);

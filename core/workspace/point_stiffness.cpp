@@ -98,10 +98,10 @@ double varianceOfFit(const DeflectingArm& arm, const Vector6d& q, const Matrix36
 
 /// What 68.27 % of the errors do not exceed, the standard uncertainty of normal ones: of a few draws of a large effect
 /// their root mean square would speak, which is no scale of the others.
-double middleError(const Eigen::RowVectorXd& errors) {
+double middleError(const std::vector<double>& errors) {
   constexpr double kOneSigma = 0.6827;
-  if (!errors.allFinite()) return std::numeric_limits<double>::quiet_NaN();
-  std::vector<double> sizes(errors.cwiseAbs().begin(), errors.cwiseAbs().end());
+  std::vector<double> sizes(errors.size());
+  std::transform(errors.begin(), errors.end(), sizes.begin(), [](double error) { return std::abs(error); });
   std::sort(sizes.begin(), sizes.end());
   return numerics::quantile(sizes, kOneSigma);
 }
@@ -113,15 +113,16 @@ DirectionalCompliance withInterval(const DeflectingArm& arm, const Matrix36d& ja
                                    double more = 0.0) {
   const compensation::DeflectionDraws& draws = arm.certainty->draws;
   const Vector6d moves = jacobian.transpose() * direction;
-  Eigen::Matrix3Xd errors = Eigen::Matrix3Xd::Zero(3, draws.size());
-  errors.row(0) = moves.cwiseAbs2().transpose() * draws.compliance;
-  if (by.cols() > 0) errors.row(0) += by * draws.parameters;
+  std::vector<double> errors(static_cast<std::size_t>(draws.size()));
+  Eigen::Map<Eigen::RowVectorXd> row(errors.data(), draws.size());
+  row = moves.cwiseAbs2().transpose() * draws.compliance;
+  if (by.cols() > 0) row += by * draws.parameters;
   for (std::size_t d = 0; d < draws.springs_alone.size(); ++d) {
-    if (draws.springs_alone[d]) errors(0, static_cast<Eigen::Index>(d)) -= compliance;
+    if (draws.springs_alone[d]) errors[d] -= compliance;
   }
-  identification::CoverageInterval off = compensation::spreadOf(errors).interval[0];
-  if (by.cols() > 0) {
-    const double half = identification::kNormalFactor * std::sqrt(std::pow(middleError(errors.row(0)), 2) + more);
+  identification::CoverageInterval off = compensation::intervalOf(errors);
+  if (by.cols() > 0 && std::isfinite(off.low)) {
+    const double half = identification::kNormalFactor * std::sqrt(std::pow(middleError(errors), 2) + more);
     off = {std::min(off.low, -half), std::max(off.high, half)};
   }
   return {direction, compliance, {compliance + off.low, compliance + off.high}};

@@ -157,6 +157,37 @@ TEST(Selector, FindsBothOfTwo) {
   }
 }
 
+// What a limit leaves out cannot score below it: the rest, in its order, is what ranking everything gives to the bit.
+TEST(Selector, ALimitLeavesOutNothingBelowIt) {
+  Noise noise(11);
+  auto table = models();
+  for (effects::EffectPart& part : table[2].parts) part.positive = true;
+  const std::vector<bool> allowed(table.size(), true);
+  std::size_t tried = 0, all_of_them = 0;
+  for (int draw = 0; draw < 40; ++draw) {
+    const Made made(noise);
+    const Eigen::VectorXd right = white(noise) + 0.02 * draw * (made.columns.col(6) + made.columns.col(13));
+    const diagnosis::Projection projection = made.projection(right);
+    const diagnosis::Selector selector(table, made.layout, projection, 24.0, rules(), allowed);
+    for (const diagnosis::FittedSet& base : {selector.nothing(), selector.fit({{1, {0, 2}}})}) {
+      const std::vector<diagnosis::FittedSet> all = selector.ranked(base);
+      for (const double limit : {base.score() - 50.0, base.score() - 10.0, base.score()}) {
+        const std::vector<diagnosis::FittedSet> some = selector.ranked(base, limit);
+        std::size_t at = 0;
+        for (const diagnosis::FittedSet& one : all) {
+          if (one.score() >= limit) break;
+          ASSERT_LT(at, some.size());
+          EXPECT_EQ(some[at].models, one.models);
+          EXPECT_EQ(some[at++].score(), one.score());
+        }
+        tried += some.size();
+        all_of_them += all.size();
+      }
+    }
+  }
+  EXPECT_LT(2 * tried, all_of_them);
+}
+
 TEST(Selector, AColumnThatTheStiffnessesSoakUpIsNotTried) {
   Noise noise(9);
   Made made(noise);
