@@ -127,7 +127,10 @@ render::SpreadChart subsetSpreads(const reports::ReportCampaign& one, bool with_
   chart.title = fmt::format("Joint stiffness over {}", subsetsOf(one));
   chart.subtitle = reports::asIs(one.campaign.name);
   const reports::StiffnessUnit unit = reports::stiffnessUnit(one.identification);
-  chart.y_title = fmt::format("Stiffness ({})", unit.name);
+  std::string name = unit.name;  // a picture has no line to break
+  if (const std::string gap = "\u00a0"; name.find(gap) != std::string::npos)
+    name.replace(name.find(gap), gap.size(), " ");
+  chart.y_title = fmt::format("Stiffness ({})", name);
   std::vector<identification::Method> methods;
   for (const identification::Method method : identification::kMethods) {
     const identification::MethodResult& result = one.identification.of(method);
