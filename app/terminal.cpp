@@ -1,12 +1,15 @@
 #include "app/terminal.h"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -116,11 +119,57 @@ std::string withVerdictColours(std::string_view text) {
 
 using Clock = std::chrono::steady_clock;
 
+namespace {
+
+/// Whether a line stands on the terminal that is to be cleared, for who ends the program by a signal.
+std::atomic<bool> line_stands = false;
+
+constexpr std::array kEndingSignals{SIGINT, SIGTERM, SIGHUP};
+
+/// Clears the line and ends the program as the signal does without this; what is called here is allowed in a handler.
+extern "C" void clearAndEnd(int signal) {
+  constexpr std::string_view kClear = "\r\x1b[K";
+  if (line_stands.exchange(false) && ::write(STDERR_FILENO, kClear.data(), kClear.size()) < 0) {
+  }  // nobody is left to be told
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
+
+/// Columns of the terminal on standard error, 80 where it does not say.
+std::size_t terminalWidth() {
+  winsize size{};
+  return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+}
+
+}  // namespace
+
+std::string shortenedLine(std::string text, std::size_t columns) {
+  const auto begins = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; };  // a letter of UTF-8
+  const auto letters = static_cast<std::size_t>(std::count_if(text.begin(), text.end(), begins));
+  if (letters <= columns) return text;
+  constexpr std::string_view kGap = "...";
+  if (columns <= 2 * kGap.size()) return {};
+  const std::size_t kept = columns - kGap.size(), head = 2 * kept / 3;
+  std::string shortened;
+  std::size_t letter = 0;
+  for (const char c : text) {
+    if (begins(c)) ++letter;
+    if (letter == head + 1 && begins(c)) shortened += kGap;
+    if (letter <= head || letter > letters - (kept - head)) shortened += c;
+  }
+  return shortened;
+}
+
 /// Written by a thread of its own, so that a computation of minutes shows that it lives.
 struct ProgressLine {
   explicit ProgressLine(std::string name) : command(std::move(name)) {
     shown = isatty(STDERR_FILENO) != 0 && !isDumb() && manner().verbosity == Verbosity::usual;
-    if (shown) writer = std::thread([this] { run(); });
+    if (!shown) return;
+    for (const int signal : kEndingSignals) {
+      struct sigaction own {};
+      if (::sigaction(signal, nullptr, &own) == 0 && own.sa_handler == SIG_DFL) std::signal(signal, clearAndEnd);
+    }
+    writer = std::thread([this] { run(); });
   }
 
   void run() {
@@ -138,16 +187,19 @@ struct ProgressLine {
   void write() {
     std::string text =
         fmt::format("stiffscope {}: {:.0f} s{}{}", command, seconds(started), stage.empty() ? "" : ", ", stage);
-    constexpr std::size_t kMost = 78;  // a longer line would wrap, and could not be written anew
-    if (text.size() > kMost) text.resize(kMost);
+    text = shortenedLine(std::move(text), terminalWidth() - 1);  // one that wraps could not be written anew
+    if (written && text == last) return;
+    line_stands = true;
     std::fprintf(stderr, "\r\x1b[K%s", text.c_str());
     std::fflush(stderr);
     written = true;
+    last = std::move(text);
   }
 
   void clear() {
     if (written) std::fprintf(stderr, "\r\x1b[K"), std::fflush(stderr);
     written = false;
+    line_stands = false;
   }
 
   /// The time of a stage that was counted is said where it is counted.
@@ -156,7 +208,7 @@ struct ProgressLine {
     std::fprintf(stderr, "stiffscope: %s: %.1f s\n", stage.c_str(), seconds(stage_started));
   }
 
-  std::string command, stage;
+  std::string command, stage, last;
   bool shown = false, written = false, done = false;
   const Clock::time_point started = Clock::now();
   Clock::time_point stage_started = started;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -34,9 +35,12 @@ bool coloursText();
 /// The text with its verdicts in colour: `pass` green, `warn` and cautions yellow, `fail` red. Letters stay the same.
 std::string withVerdictColours(std::string_view text);
 
+/// A line that fits these columns: of a longer one its head and its end, where the names of files differ.
+std::string shortenedLine(std::string text, std::size_t columns);
+
 /// Says on standard error what the program is about, where that is a terminal: one line, from two seconds on, written
-/// anew as work goes on, and cleared at the end. With --verbose a line of each stage with its time, wherever standard
-/// error goes. With --quiet nothing. One at a time.
+/// anew as work goes on, and cleared at the end, by Ctrl-C, too. With --verbose a line of each stage with its time,
+/// wherever standard error goes. With --quiet nothing. One at a time.
 class Progress {
  public:
   explicit Progress(const std::string& command);

@@ -89,19 +89,18 @@ reports::Figure describeStiffnessIntervals(const reports::ReportCampaign& one) {
 
 namespace {
 
-constexpr double kMega = 1e6;
-
 bool hasSpread(const identification::MethodResult& method, int joint) {
   return method.available && !method.subsets.compliances.empty() &&
          method.estimate.identifiable[static_cast<std::size_t>(joint)];
 }
 
-std::optional<render::Spread> spreadIn(const identification::MethodResult& method, int joint) {
+std::optional<render::Spread> spreadIn(const identification::MethodResult& method, int joint,
+                                       const reports::StiffnessUnit& unit) {
   if (!hasSpread(method, joint)) return std::nullopt;
   const identification::StiffnessSpread spread = identification::spreadOf(method.subsets, joint);
   if (!std::isfinite(spread.mean)) return std::nullopt;
-  return render::Spread{spread.low / kMega,           spread.quartile_low / kMega, spread.median / kMega,
-                        spread.quartile_high / kMega, spread.high / kMega,         spread.mean / kMega};
+  return render::Spread{spread.low / unit.size,           spread.quartile_low / unit.size, spread.median / unit.size,
+                        spread.quartile_high / unit.size, spread.high / unit.size,         spread.mean / unit.size};
 }
 
 /// Whether a reference can be drawn without squashing the boxes: within three widths of what they cover.
@@ -127,7 +126,11 @@ render::SpreadChart subsetSpreads(const reports::ReportCampaign& one, bool with_
   render::SpreadChart chart;
   chart.title = fmt::format("Joint stiffness over {}", subsetsOf(one));
   chart.subtitle = reports::asIs(one.campaign.name);
-  chart.y_title = "Stiffness (10⁶ Nm/rad)";
+  const reports::StiffnessUnit unit = reports::stiffnessUnit(one.identification);
+  std::string name = unit.name;  // a picture has no line to break
+  if (const std::string gap = "\u00a0"; name.find(gap) != std::string::npos)
+    name.replace(name.find(gap), gap.size(), " ");
+  chart.y_title = fmt::format("Stiffness ({})", name);
   std::vector<identification::Method> methods;
   for (const identification::Method method : identification::kMethods) {
     const identification::MethodResult& result = one.identification.of(method);
@@ -139,12 +142,13 @@ render::SpreadChart subsetSpreads(const reports::ReportCampaign& one, bool with_
     render::SpreadPanel panel;
     panel.title = reports::jointName(joint);
     for (const identification::Method method : methods)
-      panel.spreads.push_back(spreadIn(one.identification.of(method), joint));
+      panel.spreads.push_back(spreadIn(one.identification.of(method), joint, unit));
     for (const identification::Method method : methods) {
       if (!with_paper) break;
       const auto paper = reports::paperStiffness(one.campaign.double_encoder, method, joint);
-      const bool drawn = paper && fits(panel, paper->mean);
-      panel.references.push_back(drawn ? std::optional<double>(paper->mean) : std::nullopt);
+      const double mean = paper ? paper->mean * reports::kMega / unit.size : 0.0;
+      const bool drawn = paper && fits(panel, mean);
+      panel.references.push_back(drawn ? std::optional<double>(mean) : std::nullopt);
       if (drawn) chart.reference_name = "mean in the paper's Table II, where it is near";
     }
     const bool any =

@@ -172,7 +172,7 @@ std::string statedCell(const Stated& one, double unit) {
                      reports::toPlaceOf(one.low / unit, width), reports::toPlaceOf(one.high / unit, width));
 }
 
-reports::Row campaignRow(const fleet::FleetCampaign& one) {
+reports::Row campaignRow(const fleet::FleetCampaign& one, const reports::StiffnessUnit& unit) {
   reports::Row row{asIs(one.date)};
   if (!one.result) {
     row.emplace_back("no result");
@@ -181,7 +181,7 @@ reports::Row campaignRow(const fleet::FleetCampaign& one) {
   }
   const fleet::CampaignResult& day = *one.result;
   row.emplace_back(reports::auditWord(day.audit));
-  for (const Stated& k : day.stiffness) row.emplace_back(statedCell(k, reports::kMega));
+  for (const Stated& k : day.stiffness) row.emplace_back(statedCell(k, unit.size));
   row.emplace_back(statedCell(day.compensated, 0.01));
   row.emplace_back(
       statedCell(day.kind == fleet::DayKind::unloaded ? day.calibrated : Stated{}, 1.0 / reports::kMmPerM));
@@ -192,16 +192,30 @@ reports::Row campaignRow(const fleet::FleetCampaign& one) {
 void writeDays(Html& html, const Fleet& fleet) {
   const auto section = html.element("section", {{"id", "dates"}});
   html.leaf("h2", "Stiffness and accuracy by machine and date");
+  std::vector<reports::StiffnessUnit> units;  // a machine's own, by its size
+  bool one_unit = true;
+  for (const fleet::Machine& machine : fleet.machines) {
+    std::vector<double> stiffnesses;
+    for (const std::size_t one : machine.campaigns) {
+      if (!fleet.campaigns[one].result) continue;
+      for (const Stated& k : fleet.campaigns[one].result->stiffness) stiffnesses.push_back(k.value);
+    }
+    units.push_back(reports::stiffnessUnit(stiffnesses));
+    one_unit = one_unit && units.back().size == units.front().size;
+  }
   reports::Table table{
-      "Stiffness in 10^{6} Nm/rad, deflection compensated on postures held out in %, calibrated accuracy "
-      "in mm; in brackets the 95 % interval",
+      fmt::format("Stiffness in {}, deflection compensated on postures held out in\u00a0%, calibrated accuracy "
+                  "in\u00a0mm; in brackets the 95\u00a0% interval",
+                  units.empty() || one_unit ? (units.empty() ? reports::StiffnessUnit{} : units.front()).name
+                                            : "the unit beside the machine"),
       {"", "date", "audit", "k_{1}", "k_{2}", "k_{3}", "k_{4}", "k_{5}", "k_{6}", "compensated", "accuracy",
        "besides joint springs"},
       {}};
   for (const fleet::Machine& machine : fleet.machines) {
     if (table.groups.size() == kMostMachinesShown) break;
-    reports::RowGroup group{asIs(machine.name), {}};
-    for (const std::size_t one : machine.campaigns) group.rows.push_back(campaignRow(fleet.campaigns[one]));
+    const reports::StiffnessUnit& unit = units[table.groups.size()];
+    reports::RowGroup group{asIs(machine.name) + (one_unit ? std::string() : fmt::format(" ({})", unit.name)), {}};
+    for (const std::size_t one : machine.campaigns) group.rows.push_back(campaignRow(fleet.campaigns[one], unit));
     table.groups.push_back(std::move(group));
   }
   writeTable(html, table);

@@ -363,6 +363,10 @@ void writeAcceptance(Html& html, const reports::ReportContent& content) {
   html.paragraph(reports::decisionRuleWords(), "faint");
 }
 
+bool auditFails(const reports::ReportCampaign& one) {
+  return one.audit != nullptr && one.audit->verdict == preparation::AuditVerdict::fail;
+}
+
 /// What the audit says of the readings, once where it says the same of all; an unloaded day's verdict has it already.
 void writeJudgements(Html& html, const reports::ReportContent& content) {
   std::vector<std::string> sentences;
@@ -373,9 +377,7 @@ void writeJudgements(Html& html, const reports::ReportContent& content) {
   if (sentences.empty()) return;
   const bool same =
       std::all_of(sentences.begin(), sentences.end(), [&](const auto& one) { return one == sentences.front(); });
-  const bool fails = std::any_of(content.campaigns.begin(), content.campaigns.end(), [](const auto& one) {
-    return one.audit != nullptr && one.audit->verdict == preparation::AuditVerdict::fail;
-  });
+  const bool fails = std::any_of(content.campaigns.begin(), content.campaigns.end(), auditFails);
   const char* css_class = fails ? "judgement bad" : "judgement";
   if (same) {
     html.paragraph(sentences.size() > 1 ? "Both days: " + sentences.front() : sentences.front(), css_class);
@@ -387,6 +389,36 @@ void writeJudgements(Html& html, const reports::ReportContent& content) {
     if (content.campaigns[i].audit == nullptr || !isLoaded(content.campaigns[i])) continue;
     html.paragraph(fmt::format("{}: {}", names[i], sentences[next++]), css_class);
   }
+}
+
+/// What a reader does with the result, the most pressing first; nothing where nothing is known to be open.
+void writeNext(Html& html, const reports::ReportContent& content) {
+  std::vector<std::string> steps;
+  const auto& campaigns = content.campaigns;
+  if (std::any_of(campaigns.begin(), campaigns.end(), auditFails)) {
+    steps.emplace_back(
+        "See under Audit which readings fail and why; measure them again, or state why the result stands without "
+        "them.");
+  }
+  for (const reports::ReportCampaign& one : campaigns) {
+    std::vector<std::string> own;
+    if (one.diagnosis != nullptr && one.diagnosis->usable) own = diagnosisActions(*one.diagnosis);
+    if (isCalibrated(one)) own = reports::accuracyActions(*one.accuracy);
+    for (std::string& step : own) {
+      if (std::find(steps.begin(), steps.end(), step) == steps.end()) steps.push_back(std::move(step));
+    }
+  }
+  if (steps.empty()) return;
+  constexpr std::size_t kMost = 3;
+  const bool more = steps.size() > kMost;
+  if (more) steps.resize(kMost);
+  const auto paragraph = html.element("p", {{"class", "next"}});
+  html.leaf("b", "Next:");
+  html.rich(fmt::format(" {}", fmt::join(steps, " ")));
+  if (more)
+    html.rich(fmt::format(" More under {}.", reports::anyOfKind(campaigns, reports::DayKind::loaded)
+                                                 ? "What the model misses"
+                                                 : "What to do next"));
 }
 
 }  // namespace
@@ -402,6 +434,7 @@ void writeOpening(Html& html, const reports::ReportContent& content) {
     html.paragraph(diagnosis, "verdict");
   if (!loaded) html.paragraph(content.verdict, "verdict");
   if (content.campaigns.empty()) return;
+  writeNext(html, content);
   if (const std::vector<KeyNumber> numbers = keyNumbers(content); !numbers.empty()) {
     const auto list = html.element("ul", {{"class", "numbers"}});
     for (const KeyNumber& number : numbers) {

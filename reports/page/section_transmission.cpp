@@ -16,18 +16,19 @@ namespace stiffscope::page {
 
 namespace {
 
-std::string intervalCell(const identification::CoverageInterval& compliance) {
+std::string intervalCell(const identification::CoverageInterval& compliance, const reports::StiffnessUnit& unit) {
   const identification::CoverageInterval stiffness = identification::stiffnessInterval(compliance);
   if (!std::isfinite(stiffness.low)) return "not seen";
-  const std::string low = reports::significant(stiffness.low / reports::kMega, 3);
+  const std::string low = reports::significant(stiffness.low / unit.size, 3);
   if (!std::isfinite(stiffness.high)) return "above " + low;
-  return fmt::format("{} to {}", low, reports::significant(stiffness.high / reports::kMega, 3));
+  return fmt::format("{} to {}", low, reports::significant(stiffness.high / unit.size, 3));
 }
 
 reports::Table gearTable(const identification::Identification& result) {
   const identification::Transmission& transmission = *result.transmission;
   const auto shown = reports::shownMethod(result);
-  reports::Table table{"Gear stiffness k ± U by the two encoders, 10⁶\u00a0Nm/rad",
+  const reports::StiffnessUnit unit = reports::stiffnessUnit(transmission);
+  reports::Table table{fmt::format("Gear stiffness k ± U by the two encoders, {}", unit.name),
                        {"Joint", "Gear", "States", "Residual (10⁻⁶\u00a0rad)", "Held under load"},
                        {{}}};
   table.id = "transmission";
@@ -52,18 +53,18 @@ reports::Table gearTable(const identification::Identification& result) {
     if (!gear.measured) continue;
     const identification::StiffnessEstimate& gears = transmission.estimate;
     const double expanded = identification::expandedUncertainty(gears, joint);
-    reports::Row row{
-        reports::jointName(joint),
-        reports::Cell(reports::withUncertainty(gears.stiffness(joint) / reports::kMega, expanded / reports::kMega),
-                      reports::words(gears.mark(joint))),
-        std::to_string(gear.states), reports::significant(1e6 * gear.rms_residual, 3), reports::wordsOf(gear.held)};
+    reports::Row row{reports::jointName(joint),
+                     reports::Cell(reports::withUncertainty(gears.stiffness(joint) / unit.size, expanded / unit.size),
+                                   reports::words(gears.mark(joint))),
+                     std::to_string(gear.states), reports::significant(1e6 * gear.rms_residual, 3),
+                     reports::wordsOf(gear.held)};
     std::vector<reports::DataCell> cells{joint + 1.0,       gears.stiffness(joint),
                                          expanded,          static_cast<double>(gear.states),
                                          gear.rms_residual, std::string(reports::wordsOf(gear.held))};
     cells.resize(data.columns.size());
     if (shown) {
       const auto apart = identification::gearAndStructure(transmission, result.of(*shown).estimate, joint);
-      row.emplace_back(apart ? intervalCell(apart->interval) : "–");
+      row.emplace_back(apart ? intervalCell(apart->interval, unit) : "–");
       row.emplace_back(apart ? reports::percent(apart->gear_share, 0) : "–");
       row.emplace_back(apart ? reports::wordsOf(apart->agreement) : "–");
     }

@@ -7,6 +7,7 @@
 #include "reports/page/sections.h"
 #include "reports/words/names.h"
 #include "reports/words/numbers.h"
+#include "reports/words/rich_text.h"
 #include "reports/words/workspace_words.h"
 
 namespace stiffscope::page {
@@ -52,7 +53,8 @@ void writeWorkspace(Html& html, const reports::ReportContent& content) {
   writeForEach(html, content, "workspace", "Stiffness over the workspace", hasWorkspace,
                [&](const reports::ReportCampaign& one) {
                  const workspace::WorkspaceStiffness& found = *one.workspace;
-                 for (const std::string& note : reports::workspaceNotes(found)) html.paragraph(reports::asIs(note));
+                 for (const std::string& note : reports::workspaceNotes(found))
+                   html.paragraph(reports::withSubscripts(note));
                  writeTable(html, placesTable(found));
                  constexpr bool kPostures = true, kSlice = true;
                  html.keepTable("stiffness-slice",

@@ -54,6 +54,8 @@ bool hasWorkspace(const reports::ReportCampaign& one);  ///< loaded, with stiffn
 bool hasActions(const reports::ReportCampaign& one);    ///< calibrated, with something to do
 bool hasStation(const reports::ReportCampaign& one);    ///< without a load, with something to say of its course
 bool hasAxes(const reports::ReportCampaign& one);       ///< loaded, or with circle sweeps
+/// What a laboratory can do with the diagnosis's verdict: remedies, each once, and measurements. Rich texts.
+std::vector<std::string> diagnosisActions(const diagnosis::Diagnosis& diagnosis);
 /// Mistakes of the files that would explain what the audit finds, a sentence each.
 std::vector<std::string> suspectedWords(const audit::AuditReport& report);
 bool isAudited(const reports::ReportCampaign& one);

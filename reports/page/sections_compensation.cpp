@@ -8,6 +8,7 @@
 #include "reports/words/numbers.h"
 #include "reports/words/paper_values.h"
 #include "reports/words/remark_words.h"
+#include "reports/words/rich_text.h"
 
 namespace stiffscope::page {
 
@@ -219,7 +220,8 @@ void writeCompensation(Html& html, const reports::ReportContent& content) {
       return;
     }
     if (one.identification.shown_first)
-      html.paragraph(reports::asIs(reports::shownFirstWords(one.identification, *one.identification.shown_first)));
+      html.paragraph(
+          reports::withSubscripts(reports::shownFirstWords(one.identification, *one.identification.shown_first)));
     if (const reports::Table held_out = heldOutTable(one.identification); !held_out.groups.front().rows.empty())
       writeTable(html, held_out);
     writeTable(html, shareTable(content, one));

@@ -17,8 +17,6 @@ namespace stiffscope::page {
 
 namespace {
 
-constexpr double kPerMega = 1e-6;  // to 10^6 Nm/rad
-
 /// What is present, with what it means.
 std::string findingOf(const diagnosis::Diagnosis& diagnosis) {
   const auto& entries = diagnosis.verdict.entries;
@@ -57,8 +55,9 @@ std::string figuresOf(const diagnosis::Diagnosis& diagnosis) {
       reports::fixed(100.0 * diagnosis.shrink_together.value, 0), interval(diagnosis.shrink_together));
 }
 
-/// What a laboratory can do with the verdict: remedies, each once, and measurements. Rich texts.
-std::vector<std::string> actionsOf(const diagnosis::Diagnosis& diagnosis) {
+}  // namespace
+
+std::vector<std::string> diagnosisActions(const diagnosis::Diagnosis& diagnosis) {
   std::vector<std::string> actions;
   const bool several = diagnosis.verdict.entries.size() > 1;
   for (const diagnosis::VerdictEntry& entry : diagnosis.verdict.entries) {
@@ -90,6 +89,8 @@ std::vector<std::string> actionsOf(const diagnosis::Diagnosis& diagnosis) {
   return actions;
 }
 
+namespace {
+
 /// The geometry is judged by a tolerance, not by BIC.
 std::string fallOf(const diagnosis::EffectClass& one) {
   return one.effects.front() == effects::Effect::kinematic_error ? "–" : reports::significant(one.score, 3);
@@ -103,12 +104,13 @@ reports::Table gapTable(const diagnosis::Diagnosis& diagnosis) {
 
 reports::Table stiffnessTable(const diagnosis::Diagnosis& diagnosis) {
   const bool stated = diagnosis.stated.has_value();
+  const reports::StiffnessUnit unit = reports::stiffnessUnit(diagnosis);
   reports::Table table{
-      stated ? fmt::format("Joint stiffness by {}, by joint springs alone and with the effects in the model, k ± U, "
-                           "10⁶\u00a0Nm/rad",
-                           reports::namesOf(diagnosis.stated->method).full)
-             : std::string("Joint stiffness in the diagnosis, by joint springs alone and with the verdict's effects in "
-                           "the model, k ± u, 10⁶\u00a0Nm/rad"),
+      stated ? fmt::format("Joint stiffness by {}, by joint springs alone and with the effects in the model, k ± U, {}",
+                           reports::namesOf(diagnosis.stated->method).full, unit.name)
+             : fmt::format("Joint stiffness in the diagnosis, by joint springs alone and with the verdict's effects in "
+                           "the model, k ± u, {}",
+                           unit.name),
       {"Joint", "Alone", "With the effects"},
       {},
       false,
@@ -119,11 +121,11 @@ reports::Table stiffnessTable(const diagnosis::Diagnosis& diagnosis) {
   reports::RowGroup group;
   for (int j = 0; j < 6; ++j) {
     if (!diagnosis.identifiable[static_cast<std::size_t>(j)]) continue;
-    const double plus_minus = kPerMega * (stated ? diagnosis.stated->expanded[j] : diagnosis.stiffness_after_sd[j]);
+    const double u = stated ? diagnosis.stated->expanded[j] : diagnosis.stiffness_after_sd[j];
     group.rows.push_back({reports::jointName(j),
-                          reports::toPlaceOf(kPerMega * diagnosis.stiffness_before[j], plus_minus),
-                          reports::withUncertainty(kPerMega * diagnosis.stiffness_after[j], plus_minus)});
-    data.rows.push_back({j + 1.0, diagnosis.stiffness_before[j], diagnosis.stiffness_after[j], plus_minus / kPerMega});
+                          reports::toPlaceOf(diagnosis.stiffness_before[j] / unit.size, u / unit.size),
+                          reports::withUncertainty(diagnosis.stiffness_after[j] / unit.size, u / unit.size)});
+    data.rows.push_back({j + 1.0, diagnosis.stiffness_before[j], diagnosis.stiffness_after[j], u});
   }
   table.groups.push_back(std::move(group));
   return table;
@@ -136,7 +138,7 @@ void writeDiagnosis(Html& html, const diagnosis::Diagnosis& diagnosis) {
   }
   html.paragraph(reports::asIs(findingOf(diagnosis)), "finding");
   html.paragraph(figuresOf(diagnosis));
-  const std::vector<std::string> actions = actionsOf(diagnosis);
+  const std::vector<std::string> actions = diagnosisActions(diagnosis);
   if (!actions.empty()) html.paragraph("What to do:");
   html.list(actions);
   html.paragraph(reports::withMicro(reports::reasonWords(diagnosis.verdict)), "faint");

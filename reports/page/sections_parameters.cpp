@@ -171,21 +171,26 @@ reports::Table placesTable(const calibration::Calibration& calibration) {
 
 /// By the own weight's torques; none where the URDF states no masses.
 reports::Table stiffnessTable(const calibration::Calibration& calibration) {
-  reports::Table table{"Joint stiffness by the arm's own weight, k ± standard uncertainty u, 10⁶\u00a0Nm/rad",
-                       {"Joint", "k"},
-                       {{}},
-                       false,
-                       "own-weight-stiffness"};
+  const std::vector<reports::JointStiffness> joints = reports::stiffnessOf(calibration.best().fit);
+  std::vector<double> stiffnesses;
+  for (const reports::JointStiffness& joint : joints)
+    if (joint.value > 0.0) stiffnesses.push_back(joint.value);
+  const reports::StiffnessUnit unit = reports::stiffnessUnit(stiffnesses);
+  reports::Table table{
+      fmt::format("Joint stiffness by the arm's own weight, k ± standard uncertainty u, {}", unit.name),
+      {"Joint", "k"},
+      {{}},
+      false,
+      "own-weight-stiffness"};
   reports::DataTable& data = table.data.emplace();
   data.columns = {"joint", "stiffness_nm_per_rad", "sd_nm_per_rad"};
   if (!calibration.day.masses_known) return table;
-  const std::vector<reports::JointStiffness> joints = reports::stiffnessOf(calibration.best().fit);
   for (std::size_t j = 0; j < joints.size(); ++j) {
     if (joints[j].value > 0.0) {
       data.rows.push_back({static_cast<double>(j + 1), joints[j].value, joints[j].sd});
       table.groups.front().rows.push_back(
           {reports::jointName(static_cast<int>(j)),
-           reports::withUncertainty(joints[j].value / reports::kMega, joints[j].sd / reports::kMega)});
+           reports::withUncertainty(joints[j].value / unit.size, joints[j].sd / unit.size)});
     }
   }
   return table;

@@ -130,9 +130,11 @@ reports::Table fitTable(const identification::Identification& result) {
 
 /// CP's result against the characteristic length, which is not unique.
 reports::Table lengthTable(const identification::Identification& result) {
+  const reports::StiffnessUnit unit = reports::stiffnessUnit(result);
   reports::Table table{
-      "Complete Pose against the characteristic length L: stiffness in 10⁶\u00a0Nm/rad, share compensated on postures "
-      "held out (its standard deviation over the subsets) in %",
+      fmt::format("Complete Pose against the characteristic length L: stiffness in {}, share compensated on postures "
+                  "held out (its standard deviation over the subsets) in %",
+                  unit.name),
       {"L (m)", "Condition"},
       {{}}};
   table.id = "characteristic-length";
@@ -156,7 +158,8 @@ reports::Table lengthTable(const identification::Identification& result) {
   const auto add = [&](const identification::LengthSensitivity& at, const char* chosen_by) {
     reports::Row row{reports::significant(at.length, 3), reports::significant(at.condition, 3)};
     for (int joint = 0; joint < 6; ++joint) {
-      if (seen[static_cast<std::size_t>(joint)]) row.emplace_back(reports::significant(1e-6 / at.compliance[joint], 3));
+      if (seen[static_cast<std::size_t>(joint)])
+        row.emplace_back(reports::significant(1.0 / (unit.size * at.compliance[joint]), 3));
     }
     for (const auto& cell : {share(at.at_wrist), share(at.at_targets), std::string(chosen_by)}) row.emplace_back(cell);
     table.groups.front().rows.push_back(std::move(row));
@@ -232,6 +235,7 @@ std::string uncertaintyWords(const identification::Identification& result) {
 
 /// Where the interval of the stiffness is far from symmetric, or open.
 std::string wideIntervals(const identification::Identification& result) {
+  const reports::StiffnessUnit unit = reports::stiffnessUnit(result);
   std::vector<std::string> wide;
   for (const identification::Method method : identification::kMethods) {
     const identification::StiffnessEstimate& estimate = result.of(method).estimate;
@@ -244,14 +248,14 @@ std::string wideIntervals(const identification::Identification& result) {
       const identification::CoverageInterval own = identification::stiffnessInterval(compliance);
       wide.push_back(std::isfinite(own.high)
                          ? fmt::format("{} by {} is between {} and {}", reports::jointName(joint),
-                                       reports::shortName(method), reports::significant(own.low / reports::kMega, 3),
-                                       reports::significant(own.high / reports::kMega, 3))
+                                       reports::shortName(method), reports::significant(own.low / unit.size, 3),
+                                       reports::significant(own.high / unit.size, 3))
                          : fmt::format("{} by {} is only known to be above {}", reports::jointName(joint),
-                                       reports::shortName(method), reports::significant(own.low / reports::kMega, 3)));
+                                       reports::shortName(method), reports::significant(own.low / unit.size, 3)));
     }
   }
   if (wide.empty()) return {};
-  return fmt::format("Wide 95\u00a0% intervals, 10⁶\u00a0Nm/rad: {}.", fmt::join(wide, "; "));
+  return fmt::format("Wide 95\u00a0% intervals, {}: {}.", unit.name, fmt::join(wide, "; "));
 }
 
 }  // namespace
@@ -278,18 +282,19 @@ void writeStiffness(Html& html, const reports::ReportContent& content) {
 namespace {
 
 reports::Row spreadRow(const reports::ReportContent& content, const reports::ReportCampaign& one,
-                       identification::Method method, int joint) {
+                       identification::Method method, int joint, const reports::StiffnessUnit& unit) {
   const identification::StiffnessSpread spread = identification::spreadOf(one.identification.of(method).subsets, joint);
-  const double width = (spread.high - spread.low) / reports::kMega;
-  reports::Row row{reports::shortName(method),
-                   reports::withUncertainty(spread.mean / reports::kMega, spread.sd / reports::kMega),
-                   reports::toPlaceOf(spread.median / reports::kMega, width),
-                   fmt::format("{} to {}", reports::toPlaceOf(spread.low / reports::kMega, width),
-                               reports::toPlaceOf(spread.high / reports::kMega, width)),
+  const double width = (spread.high - spread.low) / unit.size;
+  reports::Row row{reports::shortName(method), reports::withUncertainty(spread.mean / unit.size, spread.sd / unit.size),
+                   reports::toPlaceOf(spread.median / unit.size, width),
+                   fmt::format("{} to {}", reports::toPlaceOf(spread.low / unit.size, width),
+                               reports::toPlaceOf(spread.high / unit.size, width)),
                    reports::percent(spread.share_negative)};
   if (content.compare_with_paper) {
     const auto paper = reports::paperStiffness(one.campaign.double_encoder, method, joint);
-    row.emplace_back(paper ? fmt::format("{} & {}", reports::asPrinted(paper->mean), reports::asPrinted(paper->sd))
+    const double printed = reports::kMega / unit.size;
+    row.emplace_back(paper ? fmt::format("{} & {}", reports::asPrinted(printed * paper->mean),
+                                         reports::asPrinted(printed * paper->sd))
                            : "–");
   }
   return row;
@@ -297,7 +302,8 @@ reports::Row spreadRow(const reports::ReportContent& content, const reports::Rep
 
 reports::Table tableTwo(const reports::ReportContent& content, const reports::ReportCampaign& one,
                         const identification::SubsetStudy& any) {
-  reports::Table table{fmt::format("Table II: joint stiffness over {}, 10⁶\u00a0Nm/rad", reports::subsetWords(any)),
+  const reports::StiffnessUnit unit = reports::stiffnessUnit(one.identification);
+  reports::Table table{fmt::format("Table II: joint stiffness over {}, {}", reports::subsetWords(any), unit.name),
                        {"Joint", "Method", "Mean ± sd", "Median", "5 to 95\u00a0%", "Negative"},
                        {}};
   table.id = "subsets";
@@ -313,7 +319,7 @@ reports::Table tableTwo(const reports::ReportContent& content, const reports::Re
       const bool there = result.available && result.estimate.identifiable[static_cast<std::size_t>(joint)] &&
                          !result.subsets.compliances.empty();
       if (!there) continue;
-      group.rows.push_back(spreadRow(content, one, method, joint));
+      group.rows.push_back(spreadRow(content, one, method, joint, unit));
       const identification::StiffnessSpread spread = identification::spreadOf(result.subsets, joint);
       const auto paper = content.compare_with_paper
                              ? reports::paperStiffness(one.campaign.double_encoder, method, joint)

@@ -73,11 +73,7 @@ std::string expandedCell(double expanded, const StiffnessUnit& unit) {
 
 /// As identification states them; where it has none, of the diagnosis's own fit.
 void writeStiffnesses(const diagnosis::Diagnosis& diagnosis, Out out) {
-  std::vector<double> stiffnesses;
-  for (int j = 0; j < 6; ++j) {
-    if (diagnosis.identifiable[static_cast<std::size_t>(j)]) stiffnesses.push_back(diagnosis.stiffness_after[j]);
-  }
-  const StiffnessUnit unit = stiffnessUnit(stiffnesses);
+  const StiffnessUnit unit = stiffnessUnit(diagnosis);
   if (diagnosis.stated) {
     fmt::format_to(out,
                    "\nStiffness, {}, by {}, with its expanded uncertainty U (coverage 95 %)\n  {:<18}{:>12}"

@@ -32,12 +32,7 @@ std::string structureCell(const identification::GearAndStructure& apart, const S
 std::string transmissionText(const identification::Identification& result,
                              const std::vector<identification::Method>& methods) {
   const identification::Transmission& transmission = *result.transmission;
-  std::vector<double> gears;
-  for (int joint = 0; joint < 6; ++joint) {
-    if (transmission.joints[static_cast<std::size_t>(joint)].measured)
-      gears.push_back(transmission.estimate.stiffness(joint));
-  }
-  const StiffnessUnit unit = stiffnessUnit(gears);
+  const StiffnessUnit unit = stiffnessUnit(transmission);
   std::string text =
       fmt::format("\nGears by their two encoders, without the tracker, {} with U (coverage 95 %)\n", unit.text);
   const auto out = std::back_inserter(text);

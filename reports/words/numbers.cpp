@@ -10,8 +10,10 @@
 #include <string_view>
 #include <utility>
 
+#include "core/diagnosis/diagnosis.h"
 #include "core/identification/estimate.h"
 #include "core/identification/identification.h"
+#include "core/identification/transmission.h"
 #include "core/numerics/distributions.h"
 
 #include "core/io/units.h"
@@ -36,6 +38,23 @@ StiffnessUnit stiffnessUnit(const identification::Identification& result) {
       if (method.estimate.identifiable[static_cast<std::size_t>(joint)])
         stiffnesses.push_back(method.estimate.stiffness(joint));
     }
+  }
+  return stiffnessUnit(stiffnesses);
+}
+
+StiffnessUnit stiffnessUnit(const identification::Transmission& transmission) {
+  std::vector<double> gears;
+  for (int joint = 0; joint < 6; ++joint) {
+    if (transmission.joints[static_cast<std::size_t>(joint)].measured)
+      gears.push_back(transmission.estimate.stiffness(joint));
+  }
+  return stiffnessUnit(gears);
+}
+
+StiffnessUnit stiffnessUnit(const diagnosis::Diagnosis& diagnosis) {
+  std::vector<double> stiffnesses;
+  for (int j = 0; j < 6; ++j) {
+    if (diagnosis.identifiable[static_cast<std::size_t>(j)]) stiffnesses.push_back(diagnosis.stiffness_after[j]);
   }
   return stiffnessUnit(stiffnesses);
 }

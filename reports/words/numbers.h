@@ -10,6 +10,11 @@
 
 namespace stiffscope::identification {
 struct Identification;
+struct Transmission;
+}  // namespace stiffscope::identification
+
+namespace stiffscope::diagnosis {
+struct Diagnosis;
 }
 
 namespace stiffscope::reports {
@@ -26,7 +31,9 @@ struct StiffnessUnit {
 };
 /// Of values in Nm/rad; those that are not finite or zero are left out. Without any 10^6.
 StiffnessUnit stiffnessUnit(const std::vector<double>& stiffnesses);
-StiffnessUnit stiffnessUnit(const identification::Identification& result);  ///< of what its methods identify
+StiffnessUnit stiffnessUnit(const identification::Identification& result);      ///< of what its methods identify
+StiffnessUnit stiffnessUnit(const identification::Transmission& transmission);  ///< of the gears that are measured
+StiffnessUnit stiffnessUnit(const diagnosis::Diagnosis& diagnosis);             ///< with the verdict's effects
 
 /// From standard to expanded uncertainty, U = k u (GUM, annex G): Student's t for 95 % at the effective degrees of
 /// freedom of a joint's compliance. NaN where none is left.

@@ -1,6 +1,7 @@
 #include "reports/words/rich_text.h"
 
 #include <array>
+#include <regex>
 #include <string_view>
 
 namespace stiffscope::reports {
@@ -42,6 +43,11 @@ std::vector<RichStretch> richStretches(const std::string& rich_text) {
   }
   if (!text.empty()) stretches.push_back({std::string(text), RichStretch::normal});
   return stretches;
+}
+
+std::string withSubscripts(const std::string& sentence) {
+  static const std::regex point(R"(\b([PK])_(TCP|wrist|x|c)\b)"), stiffness(R"(\bk([1-6])\b)");
+  return std::regex_replace(std::regex_replace(sentence, point, "$1_{$2}"), stiffness, "k_{$1}");
 }
 
 std::string plain(const std::string& rich_text) {

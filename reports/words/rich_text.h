@@ -21,6 +21,10 @@ std::vector<RichStretch> richStretches(const std::string& rich_text);
 /// A text of a campaign, to stand in a rich text to the letter, whatever is in it; pictures draw it so, too.
 std::string asIs(const std::string& text);
 
+/// A sentence of the program's own, without texts of a campaign in it, as a rich text: symbols that a terminal cannot
+/// set get their subscripts (P_TCP, P_wrist, K_x, K_c, k1 to k6).
+std::string withSubscripts(const std::string& sentence);
+
 /// A rich text without its marks: for alt texts and places that cannot have a subscript.
 std::string plain(const std::string& rich_text);
 

@@ -23,7 +23,8 @@ inline Ran runShell(const std::string& line, const std::filesystem::path& scratc
 /// Chromium without a window, with a profile of its own in `scratch`; its console goes to standard error.
 inline Ran runBrowser(const std::string& words, const std::filesystem::path& scratch) {
   return runShell(
-      "timeout 60 chromium --headless --no-sandbox --disable-gpu --no-first-run --hide-scrollbars "
+      "timeout 60 chromium --headless --no-sandbox --disable-gpu --enable-unsafe-swiftshader --no-first-run "
+      "--hide-scrollbars "
       "--disable-background-networking --enable-logging=stderr --user-data-dir='" +
           (scratch / "profile").string() + "' " + words,
       scratch);

@@ -2,7 +2,9 @@
 // it draws against the offscreen picture.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -12,6 +14,7 @@
 #include "core/campaign/read_campaign.h"
 #include "core/identification/identify.h"
 #include "reports/words/names.h"
+#include "reports/words/rich_text.h"
 #include "tests/app/browser.h"
 
 namespace stiffscope {
@@ -212,6 +215,209 @@ TEST_F(PageScene, IsDrawnAsTheOffscreenPictureIs) {
   cv::absdiff(moved, offscreen, difference);
   const cv::Scalar mean = cv::mean(difference, a & b);
   EXPECT_LT((mean[0] + mean[1] + mean[2]) / 3.0, 8.0);
+}
+
+/// Points at every chart, marks a posture by a click and by another takes the mark off, filters; says what came of it.
+/// Events go to what lies under the pointer, so that a chart that something covers does not answer.
+constexpr const char* kAsk = R"js(<script>
+addEventListener('load', function () {
+  const charts = window.stiffscopeCharts || [], said = { charts: [], wrong: [] };
+  const at = (chart, i) => {
+    const mark = chart.data.marks[i], box = chart.layer.getBoundingClientRect();
+    return [box.left + mark[0] * box.width, box.top + mark[1] * box.height];
+  };
+  const send = (chart, i, type) => {
+    chart.layer.scrollIntoView({ block: 'center' });
+    const [clientX, clientY] = at(chart, i), under = document.elementFromPoint(clientX, clientY);
+    if (under !== chart.layer) said.wrong.push(chart.figure.id + ' is covered by ' + (under && under.outerHTML.slice(0, 60)));
+    else under.dispatchEvent(new PointerEvent(type, { clientX, clientY, bubbles: true }));
+  };
+  // Whether a ring of this colour is drawn about a mark.
+  const ringed = (chart, i) => {
+    const scale = chart.layer.width / chart.layer.getBoundingClientRect().width, mark = chart.data.marks[i];
+    if (!chart.copy) {
+      chart.copy = Object.assign(document.createElement('canvas'), { width: chart.layer.width, height: chart.layer.height });
+      chart.copy.getContext('2d', { willReadFrequently: true }).drawImage(chart.layer, 0, 0);
+    }
+    const pen = chart.copy.getContext('2d');
+    return [[7, 0], [-7, 0], [0, 7], [0, -7]].some(([dx, dy]) => {
+      const [r, g, b, a] = pen.getImageData(mark[0] * chart.layer.width + scale * dx, mark[1] * chart.layer.height + scale * dy, 1, 1).data;
+      return a > 128 && r > 200 && g > 140 && g < 190 && b < 90;
+    });
+  };
+  for (const chart of charts) {
+    const i = Math.floor(chart.data.marks.length / 3);
+    send(chart, i, 'pointermove');
+    // Another mark may lie nearer to the pointer by a rounding; which one answered is part of the answer.
+    said.charts.push({ id: chart.figure.id, hidden: chart.tip.hidden, tip: chart.tip.textContent, mark: chart.under, asked: i });
+    chart.layer.dispatchEvent(new PointerEvent('pointerleave'));
+    if (!chart.tip.hidden) said.wrong.push(chart.figure.id + ' keeps its tip');
+  }
+  const rows = (test) => Array.from(document.querySelectorAll('main tbody tr')).filter(test);
+  const cellsOf = (row) => Array.from(row.cells).map((cell) => cell.textContent.trim());
+  const first = charts.find((chart) => chart.hasPostures), chosen = 2 * Math.floor(first.data.marks.length / 4);
+  send(first, chosen, 'pointermove');
+  const posture = first.categories[first.data.marks[first.under][3]];
+  send(first, chosen, 'click');
+  first.layer.dispatchEvent(new PointerEvent('pointerleave'));
+  said.posture = posture;
+  said.marked_rows = rows((row) => row.classList.contains('marked')).map(cellsOf);
+  said.ringed = 0;
+  for (const chart of charts) {
+    if (!chart.hasPostures) continue;
+    chart.data.marks.forEach((mark, i) => {
+      const own = chart.categories[mark[3]] === posture;
+      if (own && ringed(chart, i)) ++said.ringed;
+      else if (own) said.wrong.push(chart.figure.id + ': a mark of the posture has no ring');
+    });
+  }
+  send(first, chosen, 'pointermove');
+  send(first, chosen, 'click');
+  said.marked_after = rows((row) => row.classList.contains('marked')).length;
+  const input = document.querySelector('nav input[type=search]');
+  const filtered = (text) => {
+    input.value = text;
+    input.dispatchEvent(new Event('input'));
+    return rows((row) => row.classList.contains('filtered')).every((row) => getComputedStyle(row).display === 'none');
+  };
+  said.hidden_by_posture = filtered(posture);
+  said.left_by_posture = rows((row) => row.closest('table').querySelector('tr.filtered') && !row.classList.contains('filtered')).map(cellsOf);
+  said.hidden_by_reflector = filtered('P11');
+  said.left_by_reflector = rows((row) => row.closest('table').querySelector('tr.filtered') && !row.classList.contains('filtered')).map(cellsOf);
+  filtered('');
+  said.filtered_after = rows((row) => row.classList.contains('filtered')).length;
+  said.live = document.querySelectorAll('figure.live').length;
+  said.pictures = Array.from(document.querySelectorAll('figure img')).map((image) => {
+    const box = image.getBoundingClientRect();
+    return [image.closest('figure').id, box.left + scrollX, box.top + scrollY, box.width, box.height];
+  });
+  const pre = document.createElement('pre');
+  pre.textContent = '@@' + JSON.stringify(said) + '@@';
+  document.body.appendChild(pre);
+});
+</script></body>)js";
+
+struct Answers {
+  nlohmann::json said;
+  std::string console;
+};
+
+/// What a page without WebGL answers to kAsk.
+Answers asked(std::string page, const std::filesystem::path& scratch) {
+  page.replace(page.rfind("</body>"), 7, kAsk);
+  const auto copy = scratch / "ask.html";
+  std::ofstream(copy, std::ios::binary) << page;
+  const Ran ran =
+      runBrowser("--disable-3d-apis --window-size=1400,1000 --dump-dom 'file://" + copy.string() + "'", scratch);
+  const std::size_t close = ran.out.rfind("@@"), open = ran.out.rfind("@@{", close);
+  if (open == std::string::npos) return {{}, writtenToConsole(ran.err)};
+  std::string text = ran.out.substr(open + 2, close - open - 2);
+  for (const auto& [entity, letter] : {std::pair("&lt;", "<"), std::pair("&gt;", ">"), std::pair("&amp;", "&")})
+    for (std::size_t at = text.find(entity); at != std::string::npos; at = text.find(entity))
+      text.replace(at, std::string(entity).size(), letter);
+  return {nlohmann::json::parse(text, nullptr, false), writtenToConsole(ran.err)};
+}
+
+/// A rich text as the page shows it.
+std::string shown(const std::string& rich) { return reports::plain(rich); }
+
+/// `data_of` gives the marks of a chart by its id, as they stand in the page.
+void expectAnswers(const Answers& answers, const std::function<nlohmann::json(const std::string&)>& data_of) {
+  EXPECT_EQ(answers.console, "");
+  const nlohmann::json& said = answers.said;
+  ASSERT_TRUE(said.is_object());
+  EXPECT_EQ(said["wrong"].dump(), "[]");
+  for (const nlohmann::json& chart : said["charts"]) {
+    SCOPED_TRACE(chart.dump());
+    const nlohmann::json data = data_of(chart["id"]);
+    ASSERT_FALSE(chart["hidden"].get<bool>());
+    const nlohmann::json& mark = data["marks"][chart["mark"].get<std::size_t>()];
+    const nlohmann::json& asked_for = data["marks"][chart["asked"].get<std::size_t>()];
+    for (const std::size_t way : {0u, 1u})  // a shared place at most: a thousandth of the figure
+      EXPECT_NEAR(mark[way].get<double>(), asked_for[way].get<double>(), 1e-3);
+    const std::string tip = chart["tip"];
+    EXPECT_EQ(std::stod(tip.substr(tip.rfind(": ") + 2)), mark[4].get<double>());
+    EXPECT_NE(tip.find(shown(data["series"][mark[2].get<std::size_t>()])), std::string::npos);
+    const std::string category = shown(data["category"]);
+    if (mark[3].get<int>() >= 0) {
+      const std::string name = shown(data["categories"][mark[3].get<std::size_t>()]);
+      EXPECT_NE(tip.find(category.empty() ? name : category + " " + name), std::string::npos);
+    }
+  }
+  const std::string posture = said["posture"];
+  EXPECT_GT(said["marked_rows"].size(), 0u);
+  for (const nlohmann::json& row : said["marked_rows"])
+    EXPECT_NE(std::find(row.begin(), row.end(), posture), row.end()) << row.dump();
+  EXPECT_GT(said["ringed"], 1);
+  EXPECT_EQ(said["marked_after"], 0);
+  EXPECT_TRUE(said["hidden_by_posture"].get<bool>());
+  EXPECT_GT(said["left_by_posture"].size(), 0u);
+  for (const nlohmann::json& row : said["left_by_posture"])
+    EXPECT_NE(std::find(row.begin(), row.end(), posture), row.end()) << row.dump();
+  EXPECT_TRUE(said["hidden_by_reflector"].get<bool>());
+  for (const nlohmann::json& row : said["left_by_reflector"])
+    EXPECT_NE(std::find(row.begin(), row.end(), "P11"), row.end()) << row.dump();
+  EXPECT_EQ(said["filtered_after"], 0);
+}
+
+TEST_F(PageScene, ChartsAnswerAndThePictureStandsWithoutWebGlOrScript) {
+  if (!installed("chromium")) GTEST_SKIP() << "chromium is not installed";
+  const Answers answers = asked(page_, scratch_->path());
+  expectAnswers(answers, [&](const std::string& id) { return dataOf("marks", id); });
+  ASSERT_TRUE(answers.said.is_object());
+  EXPECT_GE(answers.said["charts"].size(), 6u);
+  EXPECT_GT(answers.said["left_by_reflector"].size(), 0u);
+  // The chart of residuals names posture and reflector.
+  const auto residuals = std::find_if(answers.said["charts"].begin(), answers.said["charts"].end(),
+                                      [](const nlohmann::json& chart) { return chart["id"] == "residuals"; });
+  ASSERT_NE(residuals, answers.said["charts"].end());
+  EXPECT_NE(residuals->at("tip").get<std::string>().find("P1"), std::string::npos);
+  EXPECT_NE(residuals->at("tip").get<std::string>().find("Posture "), std::string::npos);
+
+  EXPECT_EQ(answers.said["live"], 0);
+  cv::Rect place;
+  for (const nlohmann::json& picture : answers.said["pictures"]) {
+    if (picture[0] == "deflection")
+      place = cv::Rect(static_cast<int>(picture[1].get<double>()), static_cast<int>(picture[2].get<double>()),
+                       static_cast<int>(picture[3].get<double>()), static_cast<int>(picture[4].get<double>()));
+  }
+  ASSERT_GT(place.width, 400);
+  std::string silent = page_;  // the browser runs no script of it
+  silent.insert(silent.find("<head>") + 6,
+                "<meta http-equiv=\"Content-Security-Policy\" content=\"script-src 'none'\">");
+  const auto copy = scratch_->path() / "silent.html", shot = scratch_->path() / "without-script.png";
+  std::ofstream(copy, std::ios::binary) << silent;
+  runBrowser("--window-size=1400,1400 --screenshot='" + shot.string() + "' 'file://" + copy.string() + "'",
+             scratch_->path());
+  const cv::Mat screen = cv::imread(shot.string());
+  ASSERT_FALSE(screen.empty());
+  ASSERT_EQ(place & cv::Rect(0, 0, screen.cols, screen.rows), place);  // on the first screen
+  cv::Mat picture, difference;
+  cv::resize(cv::imread((out() / "deflection.png").string()), picture, place.size(), 0, 0, cv::INTER_AREA);
+  cv::absdiff(screen(place), picture, difference);
+  const cv::Scalar mean = cv::mean(difference);
+  EXPECT_LT((mean[0] + mean[1] + mean[2]) / 3.0, 4.0);  // another way to scale, a pixel's shift; without a picture 15
+}
+
+TEST_F(PageScene, ChartsOfTheComparePageAnswer) {
+  if (!installed("chromium")) GTEST_SKIP() << "chromium is not installed";
+  const auto& scratch = scratch_->path();
+  for (const char* day : {"inactive", "active"})
+    ASSERT_EQ(runProgram(std::string("identify '" STIFFSCOPE_SOURCE_DIR "/samples/") + day +
+                             "' --springs-only --json '" + (scratch / day).string() + ".json'",
+                         scratch)
+                  .status,
+              0);
+  const auto file = scratch / "compare.html";
+  const Ran ran = runProgram("compare '" + (scratch / "inactive.json").string() + "' '" +
+                                 (scratch / "active.json").string() + "' --html '" + file.string() + "'",
+                             scratch);
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  page_ = contentsOf(file);
+  const Answers answers = asked(page_, scratch);
+  expectAnswers(answers, [&](const std::string& id) { return dataOf("marks", id); });
+  ASSERT_TRUE(answers.said.is_object());
+  EXPECT_GE(answers.said["charts"].size(), 2u);
 }
 
 }  // namespace page_scene_test
