@@ -32,8 +32,8 @@ class PartsTest : public ::testing::Test {
 };
 
 TEST_F(PartsTest, OfRunsThatAreGoneAreRemovedAndNothingElse) {
-  for (const char* name : {"fleet.csv.123.part", "a.b.4711.part", "fleet.csv", "notes.part", "notes.x1.part", ".12.part",
-                           "12.part", "fleet.csv.123.part2"})
+  for (const char* name : {"fleet.csv.123.part", "a.b.4711.part", "fleet.csv", "notes.part", "notes.x1.part",
+                           ".12.part", "12.part", "fleet.csv.123.part2"})
     add(name);
   fs::create_directory(folder_ / "folder.5.part");
   fs::create_symlink("fleet.csv", folder_ / "link.5.part");
