@@ -83,7 +83,7 @@ int runCommandLine(int count, char** words) {
   } catch (const CLI::Success& asked) {  // --help, --version
     std::ostringstream text;
     const int status = app.exit(asked, text, text);
-    printText(text.str());
+    printBytes(text.str());
     return status;
   } catch (const CLI::ParseError& error) {
     return explainUsageError(app, error);
