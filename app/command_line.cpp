@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -80,7 +81,10 @@ int runCommandLine(int count, char** words) {
   try {
     app.parse(count, words);
   } catch (const CLI::Success& asked) {  // --help, --version
-    return app.exit(asked);
+    std::ostringstream text;
+    const int status = app.exit(asked, text, text);
+    printBytes(text.str());
+    return status;
   } catch (const CLI::ParseError& error) {
     return explainUsageError(app, error);
   }

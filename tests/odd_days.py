@@ -100,7 +100,7 @@ def days(large):
                                 200 if large else 10), LOADED_COMMANDS),  # a million: 5 states of 3 reflectors
         "many_readings_unloaded": (changed(UNLOADED, (r'repeats="2"', 'repeats="10"'), (
             r'draw count="100"', f'draw count="{33334 if large else 100}"')), UNLOADED_COMMANDS),
-        "many_reflectors": (draws(with_targets(LOADED, 100 if large else 12), 6), LOADED_COMMANDS),
+        "many_reflectors": (draws(with_targets(LOADED, 100 if large else 14), 6), LOADED_COMMANDS),
         "too_many_reflectors": (draws(with_targets(LOADED, 10000 if large else 1000), 2), LOADED_COMMANDS),
         "one_reading_a_posture": (one_reading, LOADED_COMMANDS),
         "one_reading_a_posture_unloaded": (changed(with_targets(

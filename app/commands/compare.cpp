@@ -13,6 +13,7 @@
 #include "core/comparison/compare.h"
 #include "core/comparison/geometry_change.h"
 #include "core/io/input_error.h"
+#include "core/io/read_file.h"
 #include "core/io/write_file.h"
 #include "reports/json/campaign_json.h"
 #include "reports/json/json.h"
@@ -74,8 +75,10 @@ int compareUnloaded(const preparation::PreparedCampaign& before, const preparati
 int compareResults(const std::string& before, const std::string& after, const std::string& html, const Outlet& outlet) {
   const reports::StatedComparison comparison =
       reports::compareStated(reports::readStatedCampaign(before), reports::readStatedCampaign(after));
-  if (comparison.refused.empty() && !html.empty())
+  if (comparison.refused.empty() && !html.empty()) {
+    io::requireNotRead(html);
     io::writeFileWhole(html, page::comparisonPage(comparison, statedCharts(comparison)));
+  }
   outlet.deliver([&] { return reports::statedComparisonJson(comparison); },
                  [&] { return reports::statedComparisonText(comparison); });
   return comparison.refused.empty() ? kDone : kNotUsable;

@@ -8,6 +8,7 @@
 #include "app/fleet/slurm.h"
 #include "app/options.h"
 #include "app/output.h"
+#include "core/io/input_error.h"
 #include "core/io/read_file.h"
 #include "core/io/write_file.h"
 #include "reports/csv/fleet_csv.h"
@@ -54,6 +55,14 @@ std::string fleetText(const fleet::Fleet& fleet, const std::filesystem::path& ou
   return text + (out / "fleet.html").string() + '\n';
 }
 
+/// Before the work of a night, not after it.
+void requireTablesCanBe(const std::filesystem::path& out) {
+  for (const char* table : {"fleet.csv", "fleet.jsonl", "changes.csv", "steps.csv", "needs.csv", "fleet.html"}) {
+    if (std::filesystem::is_directory(out / table))
+      throw io::InputError({(out / table).string()}, "", "expected the name of a file; this is a directory");
+  }
+}
+
 int writeFleet(const FleetRequest& request, const std::vector<FoundCampaign>& found) {
   const fleet::Fleet fleet = fleetFrom(request, found);
   io::writeFileWhole(request.out / "fleet.csv", reports::fleetCsv(fleet));
@@ -85,12 +94,14 @@ int runFleet(FleetArguments& arguments) {
     return kDone;
   }
   requireNoCampaign(request.out, "expected a folder of the fleet's own");
+  requireTablesCanBe(request.out);
   const numerics::Shard shard = arguments.shard.part();
   const std::vector<FoundCampaign> found = findCampaigns(request);
   if (arguments.shard.slurm > 0) {
     printText(submitToSlurm({"fleet", fleetWordsOf(request), "--jobs", request.out}, arguments.shard));
     return kDone;
   }
+  for (const char* below : {"", "campaigns", "pairs"}) io::removeAbandonedParts(request.out / below);
   if (!arguments.shard.merge) doFleetWork(request, found, shard);
   return shard.of > 1 ? kDone : writeFleet(request, found);
 }

@@ -198,7 +198,8 @@ std::vector<FoundCampaign> findCampaigns(const FleetRequest& request) {
       throw io::InputError({folder}, "", "expected a folder with campaigns in it or below it");
     findBelow(folder, out, seen, folders);
   }
-  if (folders.empty()) throw io::InputError({request.folders.front()}, "", "no campaign.xml in it or below it");
+  if (folders.empty())
+    throw io::InputError({request.folders.front()}, "", "expected a campaign.xml in it or below it; there is none");
   std::vector<FoundCampaign> found(folders.size());
   numerics::onAllCores(folders.size(), [&](std::size_t i) { found[i] = foundIn(folders[i], request.springs_only); });
   std::sort(found.begin(), found.end(),

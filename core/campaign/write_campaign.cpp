@@ -58,20 +58,22 @@ std::string writtenCell(const Column<Row>& column, Row& row, const RowWriting& w
 
 /// Whether the rows have values for an optional column: all of them, or some where the others may be blank.
 template <class Row>
-bool isGiven(const Column<Row>& column, std::vector<Row>& rows) {
+bool isGiven(const Column<Row>& column, const std::vector<Row>& rows) {
   if (const auto* text = std::get_if<typename Column<Row>::Text>(&column.member))
-    return std::all_of(rows.begin(), rows.end(), [&](Row& row) { return !(*text)(row).empty(); });
+    return std::all_of(rows.begin(), rows.end(), [&](Row row) { return !(*text)(row).empty(); });
   const auto* number = std::get_if<typename Column<Row>::Number>(&column.member);
   if (number == nullptr) return true;
-  const auto has = [&](Row& row) { return !std::isnan((*number)(row)); };
+  const auto has = [&](Row row) { return !std::isnan((*number)(row)); };
   return column.may_be_blank ? std::any_of(rows.begin(), rows.end(), has) : std::all_of(rows.begin(), rows.end(), has);
 }
 
 /// The table as CSV, columns in the order of the layout. An optional column is left out unless every row has
-/// a value for it, or, where cells may be blank, one row. (The rows are a copy because a layout gives access to
-/// members of rows that may change.)
+/// a value for it, or, where cells may be blank, one row. Handed over a piece at a time: the text of a million rows is
+/// larger than they are.
 template <class Row>
-std::string writtenTable(const TableLayout<Row>& layout, std::vector<Row> rows, const RowWriting& writing) {
+void writeTable(const TableLayout<Row>& layout, const std::vector<Row>& rows, const RowWriting& writing,
+                const io::ByteSink& sink) {
+  constexpr std::size_t kPiece = 1 << 16;
   std::vector<const Column<Row>*> columns;
   std::string text;
   for (const Column<Row>& column : layout.columns) {
@@ -81,14 +83,18 @@ std::string writtenTable(const TableLayout<Row>& layout, std::vector<Row> rows, 
     columns.push_back(&column);
   }
   text += '\n';
-  for (Row& row : rows) {
+  for (const Row& own : rows) {
+    Row row = own;  // a layout gives access to members of rows that may change
     for (const Column<Row>* column : columns) {
       if (column != columns.front()) text += ',';
       text += writtenCell(*column, row, writing);
     }
     text += '\n';
+    if (text.size() < kPiece) continue;
+    sink(text);
+    text.clear();
   }
-  return text;
+  sink(text);
 }
 
 namespace {
@@ -283,7 +289,11 @@ namespace {
 template <class Row>
 void addTable(const TableLayout<Row>& layout, const std::optional<Table<Row>>& table, const RowWriting& writing,
               std::vector<io::FileToWrite>& files) {
-  if (table) files.push_back({layout.element + ".csv", writtenTable(layout, table->rows, writing)});
+  if (!table) return;
+  const io::ByteSource bytes = [&layout, &rows = table->rows, &writing](const io::ByteSink& sink) {
+    writeTable(layout, rows, writing, sink);
+  };
+  files.emplace_back(layout.element + ".csv", bytes);
 }
 
 CampaignNames namesOf(const Campaign& campaign) {

@@ -304,17 +304,23 @@ Diagnosis diagnoseAll(const preparation::PreparedCampaign& prepared, const Diagn
 /// What a long day has beside the postures that are looked at.
 struct LongDay {
   std::vector<std::size_t> places;  ///< of the day's postures, those that are looked at
-  std::size_t postures = 0;
+  std::size_t postures = 0, reflectors = 0, first_reflectors = 0;
   bool long_sweeps = false;
 
   explicit LongDay(const campaign::Campaign& campaign)
       : places(preparation::spreadPostures(campaign, preparation::kMostDiagnosed)),
         postures(campaign.pose_ids.size()),
+        reflectors(campaign.targets.size()),
+        first_reflectors(reflectors > preparation::kMostReflectors
+                             ? preparation::firstReflectors(campaign, preparation::kMostReflectors)
+                             : reflectors),
         long_sweeps(preparation::hasLongSweep(campaign)) {}
 
   /// In the day's own numbers, saying what was left out.
   Diagnosis stated(Diagnosis diagnosis) const {
     if (long_sweeps) diagnosis.verdict.reasons.push_back(Remark(RemarkId::sweeps_thinned, preparation::kMostSwept));
+    if (first_reflectors < reflectors)
+      diagnosis.verdict.reasons.push_back(Remark(RemarkId::reflectors_thinned, reflectors, first_reflectors));
     if (postures <= preparation::kMostDiagnosed) return diagnosis;
     for (PointGap& one : diagnosis.at_points) one.pose = static_cast<int>(places[static_cast<std::size_t>(one.pose)]);
     diagnosis.verdict.reasons.push_back(Remark(RemarkId::postures_thinned, postures, diagnosis.postures));

@@ -1,6 +1,7 @@
 #include "core/diagnosis/gap_study.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "core/diagnosis/preconditions.h"
@@ -83,11 +84,23 @@ GapStudy studyGap(const preparation::PreparedCampaign& prepared, const GapOption
 }
 
 bool isLong(const campaign::Campaign& campaign) {
-  return campaign.pose_ids.size() > preparation::kMostDiagnosed || preparation::hasLongSweep(campaign);
+  return campaign.pose_ids.size() > preparation::kMostDiagnosed || preparation::hasLongSweep(campaign) ||
+         campaign.targets.size() > preparation::kMostReflectors;
+}
+
+campaign::Campaign spreadForDiagnosis(const campaign::Campaign& campaign) {
+  if (campaign.targets.size() <= preparation::kMostReflectors)
+    return preparation::evenlySpread(campaign, preparation::kMostDiagnosed);
+  // Postures are those of all reflectors, and a sweep's readings are spread over the reflectors that stay.
+  return preparation::evenlySpread(
+      preparation::ofFirstReflectors(
+          preparation::evenlySpread(campaign, preparation::kMostDiagnosed, std::numeric_limits<std::size_t>::max()),
+          preparation::kMostReflectors),
+      preparation::kMostDiagnosed);
 }
 
 preparation::PreparedCampaign spreadForDiagnosis(const preparation::PreparedCampaign& prepared) {
-  return {preparation::evenlySpread(prepared.campaign, preparation::kMostDiagnosed),
+  return {spreadForDiagnosis(prepared.campaign),
           prepared.preparation,
           {},
           prepared.scatter,

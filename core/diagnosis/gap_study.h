@@ -46,8 +46,11 @@ struct GapStudy {
 /// `prepared` must have been thinned where the day is long (spreadForDiagnosis).
 GapStudy studyGap(const preparation::PreparedCampaign& prepared, const GapOptions& options = {});
 
-/// Whether a day has more postures, or longer sweeps, than a diagnosis looks at.
+/// Whether a day has more postures, more reflectors or longer sweeps than a diagnosis looks at.
 bool isLong(const campaign::Campaign& campaign);
+
+/// Everything of the campaign but the readings, and the reflectors, that take no part in the diagnosis of a long day.
+campaign::Campaign spreadForDiagnosis(const campaign::Campaign& campaign);
 
 /// Everything of `prepared` but the readings that take no part in the diagnosis of a long day.
 preparation::PreparedCampaign spreadForDiagnosis(const preparation::PreparedCampaign& prepared);

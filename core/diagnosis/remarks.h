@@ -28,6 +28,7 @@ enum class RemarkId {
   positions_take_part,      ///< whether the sweeps do, too
   sweeps_thinned,           ///< readings of a sweep that took part at most
   postures_thinned,         ///< postures, those that took part
+  reflectors_thinned,       ///< reflectors, those that took part
   // Why an effect is not added to a day.
   spike_hidden,
   // What to measure next.

@@ -4,8 +4,8 @@
 #include <map>
 #include <mutex>
 
+#include "core/diagnosis/gap_study.h"
 #include "core/numerics/parallel.h"
-#include "core/preparation/subsample.h"
 
 namespace stiffscope::diagnosis {
 
@@ -116,10 +116,9 @@ SpikedEffect described(effects::Effect effect, const Diagnosis& baseline) {
   return one;
 }
 
-/// The postures of a long day that a diagnosis looks at.
+/// What a diagnosis looks at of a long day.
 campaign::Campaign dayOf(const campaign::Campaign& campaign) {
-  const bool is_long = campaign.pose_ids.size() > preparation::kMostDiagnosed || preparation::hasLongSweep(campaign);
-  return is_long ? preparation::evenlySpread(campaign, preparation::kMostDiagnosed) : campaign;
+  return isLong(campaign) ? spreadForDiagnosis(campaign) : campaign;
 }
 
 }  // namespace

@@ -15,11 +15,13 @@ namespace stiffscope::effects {
 
 namespace {
 
-/// The same field, in R0, for whichever reflector it is: one block of columns each.
+/// The same field, in R0, for whichever reflector it is: one block of columns each. A reflector that took no part in
+/// the fit stands still in its nest.
 Eigen::MatrixXd forEach(const LinearizationPoint& at, const ArmState& state,
                         const Eigen::Matrix<double, 3, Eigen::Dynamic>& field) {
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(state.rows(), field.cols() * at.targets);
   for (std::size_t t = 0; t < state.points.size(); ++t) {
+    if (state.targets[t] >= at.targets) continue;
     columns.block(3 * static_cast<Eigen::Index>(t), field.cols() * state.targets[t], 3, field.cols()) = field;
   }
   return columns;

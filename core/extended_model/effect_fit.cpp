@@ -13,6 +13,7 @@
 #include "core/diagnosis/preconditions.h"
 #include "core/diagnosis/system_rows.h"
 #include "core/effects/all.h"
+#include "core/identification/method_solution.h"
 #include "core/numerics/parallel.h"
 #include "core/preparation/subsample.h"
 #include "metrology/linear_algebra.h"
@@ -32,12 +33,26 @@ std::vector<effects::EffectModel> modelsOf(const std::vector<RequestedEffect>& w
   return models;
 }
 
+/// A reflector beyond those that a diagnosis looks at is a part that no model has.
+void requireParts(const RequestedEffect& wanted, const std::vector<effects::EffectModel>& models, int targets) {
+  for (const std::string& part : wanted.parts) {
+    const bool has = std::any_of(models.begin(), models.end(), [&](const effects::EffectModel& model) {
+      return model.effect == wanted.effect &&
+             std::any_of(model.parts.begin(), model.parts.end(),
+                         [&](const effects::EffectPart& one) { return one.detail == part; });
+    });
+    if (!has) throw UnfitEffect(wanted.effect, Remark(RemarkId::reflector_takes_no_part, part, targets));
+  }
+}
+
 void requireTestable(const std::vector<RequestedEffect>& wanted, const diagnosis::SystemInput& input,
                      const diagnosis::DiagnosisInput& start) {
   const effects::CampaignContents has = diagnosis::whatIsThere(input, start.state, start.station);
   for (const RequestedEffect& one : wanted) {
     const Remark missing = effects::missingFor(one.effect, has);
     if (!missing.empty()) throw UnfitEffect(one.effect, Remark(RemarkId::lacks_what_shows_it, missing));
+    if (effects::natureOf(one.effect) != effects::EffectNature::geometry)
+      requireParts(one, input.models, start.state.at.targets);
   }
 }
 
@@ -302,7 +317,13 @@ EffectFit fitToAll(const preparation::PreparedCampaign& prepared, const Requeste
 
 EffectFit overWholeDay(EffectFit spread, const preparation::PreparedCampaign& whole) {
   if (spread.fit.data.postures.empty()) return spread;
-  const diagnosis::SystemState& state = spread.fit.state;
+  diagnosis::SystemState& state = spread.fit.state;
+  // Reflectors that took no part are where the day without effects has them.
+  auto& places = state.geometry.targets_at_zero;
+  if (places.size() < whole.campaign.targets.size()) {
+    const auto all = identification::solveDay(whole.campaign).arm.geometry.targets_at_zero;
+    places.insert(places.end(), all.begin() + std::ssize(places), all.end());
+  }
   const diagnosis::LoadingRows whole_rows(whole.campaign);
   constexpr std::size_t kBlock = 64;  // the rows themselves of a whole day would be most of the memory
   std::vector<std::vector<effects::CompactPosture>> blocks((whole_rows.poses() + kBlock - 1) / kBlock);

@@ -351,10 +351,23 @@ std::vector<SeenCombination> combinationsOf(const HiddenDraws& hidden,
   return seenCombinations(hidden.named, moved, hidden.off(Eigen::all, kept), by_others, estimate);
 }
 
+/// The radius of a reflector that took no part moves as that which moves most.
+Eigen::MatrixXd ofAllReflectors(const Eigen::MatrixXd& moved, const frames::Frames& frames) {
+  constexpr Eigen::Index kRadii = frames::FramesCovariance::kRadii;
+  const Eigen::Index seen = moved.rows(), all = kRadii + static_cast<Eigen::Index>(frames.targets_in_r0_at_zero.size());
+  if (seen >= all || seen <= kRadii) return moved;
+  Eigen::Index most = 0;
+  moved.bottomRows(seen - kRadii).rowwise().squaredNorm().maxCoeff(&most);
+  Eigen::MatrixXd extended(all, moved.cols());
+  extended << moved, moved.row(kRadii + most).replicate(all - seen, 1);
+  return extended;
+}
+
 /// Puts what the draws do to the frames into their covariance. `alone`: of joint springs alone, where these are as
 /// likely.
-void weighFrames(const Eigen::MatrixXd& moved, const frames::Frames* alone, frames::Frames& frames) {
-  if (moved.cols() == 0) return;
+void weighFrames(const Eigen::MatrixXd& of_seen, const frames::Frames* alone, frames::Frames& frames) {
+  if (of_seen.cols() == 0) return;
+  const Eigen::MatrixXd moved = ofAllReflectors(of_seen, frames);
   frames.covariance.hidden = moved * moved.transpose() / static_cast<double>(moved.cols());
   if (alone != nullptr && alone->arm.points_placed) {
     const Eigen::VectorXd apart = frames::framesDifference(frames, *alone);

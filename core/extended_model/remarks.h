@@ -15,6 +15,7 @@ enum class RemarkId {
   no_gap_to_fit,        ///< why
   lacks_what_shows_it,  ///< what is missing
   not_told_from_stiffnesses,
+  reflector_takes_no_part,  ///< its name; how many reflectors take part
   // Why a posture is left out.
   not_read_in_all_steps,
   // What to beware of.

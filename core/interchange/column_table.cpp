@@ -226,7 +226,13 @@ std::vector<std::string> ColumnTable::warnings() const {
 
 std::string ColumnTable::text(const Row& row, const std::string& column) const {
   const auto place = places_.find(column);
-  return place == places_.end() ? std::string() : std::string(row.cells[place->second]);
+  if (place == places_.end()) return {};
+  const std::string_view cell = row.cells[place->second];
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
+  if (std::any_of(cell.begin(), cell.end(), is_control))
+    throw io::InputError({text_.file, row.line, column}, std::string(cell),
+                         "expected text without control characters, which no table can hold");
+  return std::string(cell);
 }
 
 std::optional<Timestamp> ColumnTable::time(const Row& row) const {

@@ -2,10 +2,14 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <stdexcept>
+#include <string>
 
 namespace stiffscope::io {
 
@@ -39,19 +43,58 @@ void synchronise(int file, const fs::path& named) {
   if (::fsync(file) != 0 && errno != EINVAL && errno != EROFS) fail(named, std::strerror(errno));
 }
 
-}  // namespace
+constexpr int kAnew = O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC;
+constexpr mode_t kMode = 0666;
 
-void writeFileNamed(const fs::path& file, const ByteSource& bytes, const fs::path& named) {
-  const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (descriptor < 0) failToOpen(named, errno);
+/// Whether the file is one of a folder still; another run may have taken it for abandoned before it was locked.
+bool isThere(int file) {
+  struct ::stat status {};
+  return ::fstat(file, &status) != 0 || status.st_nlink > 0;
+}
+
+/// Descriptor of a new file that is locked as long as it is open, where the file system has locks; -1, and errno.
+int openLocked(const fs::path& file) {
+  constexpr int kTries = 100;
+  for (int i = 0; i < kTries; ++i) {
+    const int descriptor = ::open(file.c_str(), kAnew, kMode);
+    if (descriptor < 0) return -1;
+    if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0 || isThere(descriptor)) return descriptor;
+    ::close(descriptor);
+  }
+  errno = EAGAIN;
+  return -1;
+}
+
+/// NAME.PID.part, as writeFileWhole calls what is not whole yet.
+bool isPart(const std::string& name) {
+  const std::string end = ".part";
+  if (!name.ends_with(end)) return false;
+  const std::string rest = name.substr(0, name.size() - end.size());
+  const std::size_t point = rest.rfind('.');
+  if (point == std::string::npos || point == 0 || point + 1 == rest.size()) return false;
+  return std::all_of(rest.begin() + static_cast<std::ptrdiff_t>(point) + 1, rest.end(),
+                     [](char c) { return c >= '0' && c <= '9'; });
+}
+
+/// Writes, waits until it is on the disk, and closes when `then` is done.
+void writeOpened(int descriptor, const ByteSource& bytes, const fs::path& named, const std::function<void()>& then) {
   try {
     bytes([&](std::string_view part) { writeAll(descriptor, part, named); });
     synchronise(descriptor, named);
+    then();
   } catch (...) {
     ::close(descriptor);
     throw;
   }
   if (::close(descriptor) != 0) fail(named, std::strerror(errno));
+}
+
+}  // namespace
+
+void writeFileNamed(const fs::path& file, const ByteSource& bytes, const fs::path& named) {
+  const int descriptor = ::open(file.c_str(), kAnew, kMode);
+  if (descriptor < 0) failToOpen(named, errno);
+  writeOpened(descriptor, bytes, named, [] {});
 }
 
 void writeFileWhole(const fs::path& path, std::string_view bytes) {
@@ -68,12 +111,27 @@ void writeFileWhole(const fs::path& path, const ByteSource& bytes) {
   const fs::path file = fs::is_symlink(fs::symlink_status(path, error)) ? fs::weakly_canonical(path) : path;
   const fs::path temporary = file.string() + fmt::format(".{}.part", ::getpid());
   try {
-    writeFileNamed(temporary, bytes, path);
-    fs::rename(temporary, file, error);
-    if (error) fail(path, error.message());
+    const int descriptor = openLocked(temporary);
+    if (descriptor < 0) failToOpen(path, errno);
+    // Under its own name before it is unlocked: what is not locked passes for abandoned.
+    writeOpened(descriptor, bytes, path, [&] {
+      fs::rename(temporary, file, error);
+      if (error) fail(path, error.message());
+    });
   } catch (...) {
     fs::remove(temporary, error);
     throw;
+  }
+}
+
+void removeAbandonedParts(const fs::path& folder) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (!isPart(entry.path().filename().string()) || !entry.is_regular_file(error) || entry.is_symlink(error)) continue;
+    const int part = ::open(entry.path().c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+    if (part < 0) continue;
+    if (::flock(part, LOCK_EX | LOCK_NB) == 0) fs::remove(entry.path(), error);
+    ::close(part);
   }
 }
 

@@ -20,6 +20,11 @@ using ByteSource = std::function<void(const ByteSink&)>;
 void writeFileWhole(const std::filesystem::path& path, std::string_view bytes);
 void writeFileWhole(const std::filesystem::path& path, const ByteSource& bytes);
 
+/// Removes what killed runs left of the files of a folder, NAME.PID.part. A run that writes holds its own locked, on
+/// whichever machine it is; where the file system has no locks nothing is removed. Once a run and not once a file: a
+/// folder may have many.
+void removeAbandonedParts(const std::filesystem::path& folder);
+
 /// Writes `bytes` to `file` directly and waits until they are on the disk; messages name `named`. For files
 /// that another step puts in their place.
 void writeFileNamed(const std::filesystem::path& file, const ByteSource& bytes, const std::filesystem::path& named);

@@ -103,6 +103,12 @@ PartFolder::PartFolder(const fs::path& target) {
     if (::mkdtemp(name.data()) == nullptr) break;
     path_ = name;
     lock_ = lockedFolder(path_);
+    const int reason = errno;
+    std::error_code none;
+    if (lock_ >= 0 || !fs::exists(path_, none)) continue;
+    fs::remove(path_, none);  // not to be locked at all, for want of descriptors: it would be left
+    errno = reason;
+    break;
   }
   if (lock_ < 0) {
     throw fs::filesystem_error("cannot be written", parent, std::error_code(errno, std::generic_category()));
@@ -235,6 +241,8 @@ void writeFolderWhole(const fs::path& folder, const std::vector<FileToWrite>& fi
   fs::path target = fs::weakly_canonical(fs::absolute(folder));
   if (target.filename().empty()) target = target.parent_path();
   const fs::file_status status = fs::status(target);
+  if (!fs::exists(status) && fs::is_symlink(fs::symlink_status(target)))
+    failFolder(folder, "it is a link to what is not there; expected the name of a folder");
   if (fs::exists(status) && !fs::is_directory(status)) failFolder(folder, "it is no folder; expected the name of one");
   if (fs::exists(status) && ::access(target.c_str(), W_OK | X_OK) != 0)
     failFolder(folder, fmt::format("{}; expected a folder that can be written", std::strerror(errno)));

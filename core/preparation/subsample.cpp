@@ -141,6 +141,35 @@ campaign::Campaign evenlySpread(const campaign::Campaign& campaign, std::size_t 
           inputs};
 }
 
+std::size_t firstReflectors(const campaign::Campaign& campaign, std::size_t most) {
+  const std::size_t all = campaign.targets.size();
+  std::vector<bool> was_read(all, false);
+  const auto see = [&](const auto& table) {
+    if (!table) return;
+    for (const auto& row : table->rows) was_read[static_cast<std::size_t>(row.target)] = true;
+  };
+  see(campaign.loading);
+  see(campaign.displacements);
+  std::size_t first = 0;
+  for (std::size_t seen = 0; first < all && seen < most; ++first) seen += was_read[first] ? 1 : 0;
+  return first;
+}
+
+campaign::Campaign ofFirstReflectors(campaign::Campaign campaign, std::size_t most) {
+  const std::size_t kept = firstReflectors(campaign, most);
+  const auto keep = [&](auto& table) {
+    if (!table) return;
+    std::erase_if(table->rows, [&](const auto& row) { return static_cast<std::size_t>(row.target) >= kept; });
+    if (table->rows.empty()) table.reset();
+  };
+  keep(campaign.circle_sweeps);
+  keep(campaign.wrist_sweep);
+  keep(campaign.loading);
+  keep(campaign.displacements);
+  campaign.targets.resize(kept);
+  return campaign;
+}
+
 bool hasLongSweep(const campaign::Campaign& campaign, std::size_t most_swept) {
   return (campaign.circle_sweeps && campaign.circle_sweeps->rows.size() > most_swept) ||
          (campaign.wrist_sweep && campaign.wrist_sweep->rows.size() > most_swept);

@@ -110,6 +110,8 @@ std::string diagnosisWords(diagnosis::RemarkId id, const RemarkValues& values) {
     case postures_thinned:
       return fmt::format("Of {} postures {} took part, spread evenly over those that are loaded.", values.count(0),
                          values.count(1));
+    case reflectors_thinned:
+      return fmt::format("Of {} reflectors the first {} took part.", values.count(0), values.count(1));
     case spike_hidden:
       return "joint springs and geometry, or the floor nests, hide it here from any size on";
     case posture_that_separates:

@@ -33,6 +33,9 @@ std::string extendedModelWords(extended_model::RemarkId id, const RemarkValues& 
       return "there is no gap to fit it to: " + words(values.remark(0));
     case lacks_what_shows_it:
       return "this campaign cannot show that effect: " + words(values.remark(0));
+    case reflector_takes_no_part:
+      return fmt::format("{} takes no part: of so many reflectors the first {} are looked at", values.name(0),
+                         values.count(1));
     case not_told_from_stiffnesses:
       return "these postures and loads cannot tell it from stiffnesses and geometry, or only with sizes that no "
              "machine has";

@@ -72,8 +72,12 @@ std::map<std::string, std::string> filesIn(const fs::path& folder) {
   return files;
 }
 
+/// The program is called stiffscope there.
 int runScript(const std::string& script, const fs::path& scratch) {
-  std::ofstream(scratch / "script") << "cd '" << (scratch / "attack").string() << "'\n" << script << '\n';
+  std::ofstream(scratch / "script") << "stiffscope() { timeout 300 env -u DISPLAY '" STIFFSCOPE_BINARY
+                                       "' \"$@\"; }\ncd '"
+                                    << (scratch / "attack").string() << "'\n"
+                                    << script << '\n';
   const std::string line = "bash '" + (scratch / "script").string() + "' </dev/null >'" + (scratch / "out").string() +
                            "' 2>'" + (scratch / "err").string() + "'";
   const int raw = std::system(line.c_str());
@@ -93,9 +97,7 @@ std::string wrongOf(const Attack& attack) {
   if (!attack.setup.empty() && runScript(attack.setup, scratch.path()) != 0)
     return "not set up: " + contentsOf(scratch.path() / "err");
   const auto before = filesIn(folder);
-  const int status = runScript(
-      "set -o pipefail\nstiffscope() { timeout 300 env -u DISPLAY '" STIFFSCOPE_BINARY "' \"$@\"; }\n" + attack.command,
-      scratch.path());
+  const int status = runScript("set -o pipefail\n" + attack.command, scratch.path());
   const std::string err = contentsOf(scratch.path() / "err");
   std::string wrong;
   if (status != attack.status) wrong += fmt::format("status {} for {}\n", status, attack.status);
@@ -128,7 +130,8 @@ TEST_P(Attacks, AreAnsweredAndLeaveTheFiles) {
   for (const std::string& one : wrong) EXPECT_TRUE(one.empty()) << one;
 }
 
-const std::vector<std::string> kKinds{"Known", "Outputs", "Options", "Xml", "Urdf", "Tables", "Points", "Surroundings"};
+const std::vector<std::string> kKinds{"Known",  "Outputs", "Options", "Xml",      "Urdf", "Tables",      "Points",
+                                      "Fleets", "Results", "Limits",  "Postures", "Days", "Surroundings"};
 
 INSTANTIATE_TEST_SUITE_P(OfAllKinds, Attacks, ::testing::ValuesIn(kKinds), [](const auto& one) { return one.param; });
 

@@ -125,7 +125,8 @@ TEST(FleetOptions, AreRefusedByTheirNames) {
     EXPECT_FALSE(fs::exists(out)) << words;
   };
   const std::string sample = "fleet '" STIFFSCOPE_SOURCE_DIR "/samples'";
-  refused("fleet '" + (scratch.path() / "empty").string() + "'", "no campaign.xml in it or below it");
+  refused("fleet '" + (scratch.path() / "empty").string() + "'",
+          "expected a campaign.xml in it or below it; there is none");
   refused("fleet '" + (scratch.path() / "none").string() + "'", "expected a folder with campaigns");
   for (const char* shard : {"0/2", "3/2", "1", "a/b", "1/2/3", "-1/2"})
     refused(sample + " --shard=" + shard, "--shard: ");

@@ -9,6 +9,7 @@
 #include "core/campaign/read_campaign.h"
 #include "core/diagnosis/diagnose.h"
 #include "core/numerics/normal_equations.h"
+#include "core/preparation/prepare.h"
 #include "core/preparation/subsample.h"
 
 namespace stiffscope {
@@ -192,6 +193,65 @@ TEST(Diagnose, ALongDayIsItsSpreadPosturesUnderTheirOwnNames) {
     EXPECT_EQ(whole.at_points[i].before, by_itself.at_points[i].before);
   }
   EXPECT_TRUE(whole.verdict.reasons.back() == Remark(diagnosis::RemarkId::postures_thinned, names.size(), 100));
+}
+
+/// The sample's first reflector under so many names more, each of its own noise: readings alike are copies.
+campaign::Campaign withReflectors(int count) {
+  campaign::Campaign day = sampleDay();
+  const auto more = [&](auto& table) {
+    const auto once = table->rows;
+    for (int target = static_cast<int>(day.targets.size()); target < count; ++target) {
+      for (auto row : once) {
+        if (row.target != 0) continue;
+        row.target = target;
+        row.point.array() += 1e-7 * target;
+        table->rows.push_back(row);
+      }
+    }
+  };
+  more(day.circle_sweeps);
+  more(day.wrist_sweep);
+  more(day.loading);
+  while (static_cast<int>(day.targets.size()) < count)
+    day.targets.push_back({"T" + std::to_string(day.targets.size()), std::nullopt});
+  return day;
+}
+
+// Each reflector brings 22 unknowns of its motion in the nest, three of its place: a hundred took the diagnosis of six
+// postures more than two minutes.
+TEST(Diagnose, OfManyReflectorsTheFirstTakePart) {
+  campaign::Campaign day = withReflectors(20);
+  // The second was never read: another takes its place.
+  std::erase_if(day.loading->rows, [](const campaign::LoadingReading& row) { return row.target == 1; });
+  EXPECT_EQ(preparation::firstReflectors(day, preparation::kMostReflectors), 13u);
+  EXPECT_EQ(preparation::firstReflectors(day, 19), 20u);
+  EXPECT_EQ(preparation::firstReflectors(day, 25), 20u);
+
+  preparation::PreparedCampaign first = preparation::prepareCampaign(day);
+  first.campaign = preparation::ofFirstReflectors(first.campaign, preparation::kMostReflectors);
+  ASSERT_EQ(first.campaign.targets.size(), 13u);
+  for (const campaign::LoadingReading& row : first.campaign.loading->rows) ASSERT_LT(row.target, 13);
+  for (const campaign::CircleReading& row : first.campaign.circle_sweeps->rows) ASSERT_LT(row.target, 13);
+  first.campaign.targets.erase(first.campaign.targets.begin() + 12);  // what is not more than enough is taken as it is
+  const auto last = [](const auto& row) { return row.target == 12; };
+  std::erase_if(first.campaign.loading->rows, last);
+  std::erase_if(first.campaign.circle_sweeps->rows, last);
+  std::erase_if(first.campaign.wrist_sweep->rows, last);
+
+  diagnosis::DiagnoseOptions quick;
+  quick.resamples = quick.chance_draws = 0;
+  quick.only = effects::Effect::joint_coupling;
+  const diagnosis::Diagnosis whole = diagnosis::diagnose(day, quick), twelve = diagnosis::diagnose(first, quick);
+  EXPECT_EQ(whole.postures, twelve.postures);
+  ASSERT_FALSE(whole.at_points.empty());
+  for (const diagnosis::PointGap& one : whole.at_points) EXPECT_LT(one.target, 13);
+  // The thirteenth adds readings of a place that the first has, with noise of its own: the gap hardly changes.
+  EXPECT_NEAR(whole.gap.before, twelve.gap.before, 0.05 * twelve.gap.before);
+  const auto says = [](const diagnosis::Diagnosis& one, const Remark& reason) {
+    return std::find(one.verdict.reasons.begin(), one.verdict.reasons.end(), reason) != one.verdict.reasons.end();
+  };
+  EXPECT_TRUE(says(whole, Remark(diagnosis::RemarkId::reflectors_thinned, 20, 13)));
+  EXPECT_FALSE(says(twelve, Remark(diagnosis::RemarkId::reflectors_thinned, 12, 12)));
 }
 
 }  // namespace long_day_test
