@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/io/units.h"
 #include "reports/page/facts.h"
@@ -10,6 +11,7 @@
 #include "reports/words/accuracy_words.h"
 #include "reports/words/conformity_words.h"
 #include "reports/words/day_words.h"
+#include "reports/words/effect_words.h"
 #include "reports/words/names.h"
 #include "reports/words/numbers.h"
 #include "reports/words/preparation_words.h"
@@ -218,12 +220,28 @@ std::string stiffnessWords(const reports::ReportCampaign& one, int joint, const 
   return mark.empty() ? words : fmt::format("{} ({})", words, mark);
 }
 
+/// The effects in the model beside the joint springs, where all days have the same.
+std::string modelOf(const reports::ReportContent& content) {
+  std::optional<std::vector<effects::Effect>> all;
+  for (const reports::ReportCampaign& one : content.campaigns) {
+    if (!isLoaded(one)) continue;
+    std::vector<effects::Effect> own;
+    if (one.improved != nullptr) {
+      for (const extended_model::AddedEffect& added : one.improved->effects.added) own.push_back(added.effect);
+    }
+    if (all && *all != own) return {};
+    all = own;
+  }
+  if (!all || all->empty()) return {};
+  return fmt::format(", {} in the model", reports::effectNames(*all, ", "));
+}
+
 void addStiffnesses(const reports::ReportContent& content, reports::Table& table) {
   std::vector<std::string> methods;
   for (const reports::ReportCampaign& one : content.campaigns) {
     const auto shown = reports::shownMethod(one.identification);
     if (!isLoaded(one) || !shown) continue;
-    if (const std::string name = reports::shortName(*shown);
+    if (const std::string name = reports::longName(*shown);
         std::find(methods.begin(), methods.end(), name) == methods.end())
       methods.push_back(name);
   }
@@ -237,7 +255,8 @@ void addStiffnesses(const reports::ReportContent& content, reports::Table& table
     }
   }
   const reports::StiffnessUnit unit = reports::stiffnessUnit(stiffnesses);
-  table.caption = fmt::format("Joint stiffness k ± U, {}{}", unit.name, one_method ? ", by " + methods.front() : "");
+  table.caption = fmt::format("Joint stiffness k ± U (95 %), {}{}{}", unit.name,
+                              one_method ? ", by " + methods.front() : "", modelOf(content));
   table.columns = {"Joint"};
   for (const std::string& head : headsOf(content, isLoaded, "k ± U")) table.columns.push_back(head);
   if (methods.size() > 1) {

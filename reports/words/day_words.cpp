@@ -1,7 +1,10 @@
 #include "reports/words/day_words.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
+
+#include "reports/words/names.h"
 
 namespace stiffscope::reports {
 
@@ -72,12 +75,31 @@ std::string methodWords(DayKind kind) {
          "angles which the controller reports.";
 }
 
+namespace {
+
+/// The checks of a verdict, by name where they are few.
+std::string checksThat(const audit::AuditReport& audit, preparation::AuditVerdict verdict, const char* before) {
+  std::vector<std::string> names;
+  for (const preparation::AuditCheck& check : audit.checks) {
+    if (check.verdict != verdict) continue;
+    const std::string name = auditName(check.id);
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+  constexpr std::size_t kFew = 3;
+  if (names.empty()) return {};
+  return before +
+         (names.size() > kFew ? fmt::format("{} things", names.size()) : fmt::format("{}", fmt::join(names, ", ")));
+}
+
+}  // namespace
+
 std::string auditMeaning(const audit::AuditReport& audit, DayKind kind) {
   switch (audit.verdict) {
     case preparation::AuditVerdict::pass:
       return fmt::format("The audit passes: the readings are fit to {}.", purposeOf(kind));
     case preparation::AuditVerdict::warn:
-      return fmt::format("The audit warns: the readings are fit to {}, with what is said below.", purposeOf(kind));
+      return fmt::format("The audit warns{}: the readings are fit to {}, with what is said under Audit.",
+                         checksThat(audit, preparation::AuditVerdict::warn, " of "), purposeOf(kind));
     case preparation::AuditVerdict::not_testable:
       // A day that is not meant for loads does not fail by what only a load would tell.
       if (kind == DayKind::sweeps) return "No check of the audit fails; some need what such a day does not measure.";
@@ -86,7 +108,8 @@ std::string auditMeaning(const audit::AuditReport& audit, DayKind kind) {
     case preparation::AuditVerdict::fail:
       break;
   }
-  return fmt::format("The audit fails: as they were read, the readings are not fit to {}.", purposeOf(kind));
+  return fmt::format("The audit fails{}: as they were read, the readings are not fit to {}.",
+                     checksThat(audit, preparation::AuditVerdict::fail, " by "), purposeOf(kind));
 }
 
 std::string untestedWords(const audit::AuditReport& audit, DayKind kind) {
