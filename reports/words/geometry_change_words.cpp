@@ -1,6 +1,7 @@
 #include "reports/words/geometry_change_words.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/io/units.h"
 
@@ -119,10 +120,14 @@ std::vector<std::string> changeWords(const comparison::GeometryChange& change) {
         probability(change.machine_p), change.unknowns, moved, chance));
   } else {
     sentences.push_back(fmt::format(
-        "Nothing of the machine changed beyond chance: {}, {} numbers together. A change of all of {:.3f} mm (rms) at "
-        "the reflectors is what chance makes.",
+        "{} changed beyond chance: {}, {} numbers together. A change of all of {:.3f} mm (rms) at the reflectors is "
+        "what chance makes.",
+        change.effects_changed ? "No length, angle or zero of the arm" : "Nothing of the machine",
         probability(change.machine_p), change.unknowns, chance));
   }
+  if (change.effects_changed)
+    sentences.push_back(fmt::format("What the model has beside the geometry did change ({} of the same sizes): {}.",
+                                    probability(change.effects_p), fmt::join(change.effects, ", ")));
   if (change.reflectors_moved) {
     sentences.push_back(fmt::format("Reflectors moved on the flange ({}), which is no change of the machine{}.",
                                     probability(change.reflectors_p),
