@@ -187,7 +187,9 @@ struct ProgressLine {
   void write() {
     std::string text =
         fmt::format("stiffscope {}: {:.0f} s{}{}", command, seconds(started), stage.empty() ? "" : ", ", stage);
-    text = shortenedLine(std::move(text), terminalWidth() - 1);  // one that wraps could not be written anew
+    // A line that wraps could not be written anew, nor cleared: there has to be room for the terminal's ^C behind it.
+    constexpr std::size_t kRoom = 3;
+    text = shortenedLine(std::move(text), std::max(terminalWidth(), kRoom) - kRoom);
     if (written && text == last) return;
     line_stands = true;
     std::fprintf(stderr, "\r\x1b[K%s", text.c_str());

@@ -204,6 +204,11 @@
     ['b', 'light, dark background'], ['s', 'save the picture (PNG)'], ['0', 'reset'], ['h ?', 'this list'],
     ['q', 'back to the picture'], ['drag', 'turn'], ['right drag', 'shift'], ['wheel', 'zoom'], ['click', "a point's numbers"]];
 
+  const hasWebGl = () => {
+    const canvas = document.createElement('canvas');
+    return Boolean(canvas.getContext('webgl') || canvas.getContext('webgl2'));
+  };
+
   const element = (name, attributes = {}, text = '') => {
     const made = document.createElement(name);
     for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
@@ -281,7 +286,8 @@
       this.bar = element('div', { class: 'bar' });
       this.status = element('div', { class: 'status' });
       const context = { canvas: this.canvas, antialias: true, preserveDrawingBuffer: true };
-      this.renderer = new THREE.WebGLRenderer(context);  // throws without WebGL
+      if (!hasWebGl()) throw new Error('no WebGL');  // asked first: three.js would complain on the console
+      this.renderer = new THREE.WebGLRenderer(context);
       this.renderer.autoClear = false;
       this.camera = new THREE.OrthographicCamera(-1, 1, 1, -1, 1, 100);
       this.camera.matrixAutoUpdate = false;
