@@ -85,10 +85,10 @@ std::string checksThat(const audit::AuditReport& audit, preparation::AuditVerdic
     const std::string name = auditName(check.id);
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
-  constexpr std::size_t kFew = 3;
+  constexpr std::size_t kFew = 4;
   if (names.empty()) return {};
   return before +
-         (names.size() > kFew ? fmt::format("{} things", names.size()) : fmt::format("{}", fmt::join(names, ", ")));
+         (names.size() > kFew ? fmt::format("{} checks", names.size()) : fmt::format("{}", fmt::join(names, ", ")));
 }
 
 }  // namespace

@@ -28,9 +28,10 @@ TEST(DayWords, TheAuditsSentenceNamesTheChecksThatDecideIt) {
       "under Audit.");
   EXPECT_EQ(auditMeaning(auditOf(AuditVerdict::fail, {"time_order"}), DayKind::unloaded),
             "The audit fails by time order: as they were read, the readings are not fit to calibrate from.");
-  EXPECT_EQ(auditMeaning(auditOf(AuditVerdict::warn, {"lost_beam", "time_order", "nest_outliers", "repeat_outliers"}),
+  EXPECT_EQ(auditMeaning(auditOf(AuditVerdict::warn,
+                                 {"lost_beam", "time_order", "nest_outliers", "repeat_outliers", "completeness"}),
                          DayKind::loaded),
-            "The audit warns of 4 things: the readings are fit to identify from, with what is said under Audit.");
+            "The audit warns of 5 checks: the readings are fit to identify from, with what is said under Audit.");
 }
 
 }  // namespace
