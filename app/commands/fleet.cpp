@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
+#include <array>
 #include <memory>
 
 #include "app/command_line.h"
@@ -35,6 +36,17 @@ std::string fleetId(const std::vector<FoundCampaign>& found) {
   return io::sha256Hex(keys).substr(0, 12);
 }
 
+/// What a fleet is written to, in this order; the page comes last.
+struct FleetFile {
+  const char* name;
+  std::string (*bytes)(const fleet::Fleet& fleet);
+};
+constexpr std::array kTables{FleetFile{"fleet.csv", &reports::fleetCsv},
+                             FleetFile{"fleet.jsonl", &reports::fleetJsonLines},
+                             FleetFile{"changes.csv", &reports::changesCsv}, FleetFile{"steps.csv", &reports::stepsCsv},
+                             FleetFile{"needs.csv", &reports::needsCsv}};
+constexpr const char* kPage = "fleet.html";
+
 /// The machines that need something, a line each.
 std::string fleetText(const fleet::Fleet& fleet, const std::filesystem::path& out) {
   std::size_t failed = 0, well = 0;
@@ -52,25 +64,23 @@ std::string fleetText(const fleet::Fleet& fleet, const std::filesystem::path& ou
   }
   if (lines > kMostLines) text += fmt::format("and {} more machines (needs.csv)\n", lines - kMostLines);
   text += fmt::format("{} machines need nothing\n", well);
-  return text + (out / "fleet.html").string() + '\n';
+  return text + (out / kPage).string() + '\n';
 }
 
 /// Before the work of a night, not after it.
-void requireTablesCanBe(const std::filesystem::path& out) {
-  for (const char* table : {"fleet.csv", "fleet.jsonl", "changes.csv", "steps.csv", "needs.csv", "fleet.html"}) {
-    if (std::filesystem::is_directory(out / table))
-      throw io::InputError({(out / table).string()}, "", "expected the name of a file; this is a directory");
-  }
+void requireFilesCanBe(const std::filesystem::path& out) {
+  const auto require = [&](const char* name) {
+    if (std::filesystem::is_directory(out / name))
+      throw io::InputError({(out / name).string()}, "", "expected the name of a file; this is a directory");
+  };
+  for (const FleetFile& table : kTables) require(table.name);
+  require(kPage);
 }
 
 int writeFleet(const FleetRequest& request, const std::vector<FoundCampaign>& found) {
   const fleet::Fleet fleet = fleetFrom(request, found);
-  io::writeFileWhole(request.out / "fleet.csv", reports::fleetCsv(fleet));
-  io::writeFileWhole(request.out / "fleet.jsonl", reports::fleetJsonLines(fleet));
-  io::writeFileWhole(request.out / "changes.csv", reports::changesCsv(fleet));
-  io::writeFileWhole(request.out / "steps.csv", reports::stepsCsv(fleet));
-  io::writeFileWhole(request.out / "needs.csv", reports::needsCsv(fleet));
-  io::writeFileWhole(request.out / "fleet.html", page::fleetPage(fleet, fleetCharts(fleet), fleetId(found)));
+  for (const FleetFile& table : kTables) io::writeFileWhole(request.out / table.name, table.bytes(fleet));
+  io::writeFileWhole(request.out / kPage, page::fleetPage(fleet, fleetCharts(fleet), fleetId(found)));
   printText(fleetText(fleet, request.out));
   const bool any = std::any_of(fleet.campaigns.begin(), fleet.campaigns.end(),
                                [](const fleet::FleetCampaign& one) { return one.result.has_value(); });
@@ -94,7 +104,7 @@ int runFleet(FleetArguments& arguments) {
     return kDone;
   }
   requireNoCampaign(request.out, "expected a folder of the fleet's own");
-  requireTablesCanBe(request.out);
+  requireFilesCanBe(request.out);
   const numerics::Shard shard = arguments.shard.part();
   const std::vector<FoundCampaign> found = findCampaigns(request);
   if (arguments.shard.slurm > 0) {

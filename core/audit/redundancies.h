@@ -11,6 +11,9 @@
 #include "core/mistakes/suspected.h"
 #include "metrology/remark.h"
 
+// What a day measures more often than it needs, and what that leaves: the load's one point, the tool that is rigid, the
+// wrist's sphere, and the declared noise that all of them are held against. Several checks use them.
+
 namespace stiffscope::audit {
 
 /// A sum of squares over the declared variance, chi-square with `dof` degrees of freedom where only noise is in it.

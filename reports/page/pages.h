@@ -27,8 +27,8 @@ ReportPage makeReportPage(const reports::ReportContent& content);
 inline constexpr std::size_t kMostMachinesShown = 200;
 
 /// The fleet as one self-contained page: machines ranked by what they need, what is another and from when, control
-/// charts
-/// (`figures`), stiffness and accuracy by machine and date, and what was asked of how many. `id` goes into its foot.
+/// charts (`figures`), stiffness and accuracy by machine and date, and what was asked of how many. `id` goes into its
+/// foot.
 std::string fleetPage(const fleet::Fleet& fleet, const std::vector<reports::Figure>& figures, const std::string& id);
 
 /// Two results side by side as one self-contained page. Throws std::invalid_argument where they are refused.
