@@ -9,13 +9,13 @@ namespace {
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
+Vector6d solveSymmetric6(const Matrix6d& a, const Vector6d& b) { return a.ldlt().solve(b); }
+
 }  // namespace
 
 Eigen::MatrixXd solveSymmetric(const Eigen::MatrixXd& a, const Eigen::Ref<const Eigen::MatrixXd>& b) {
   return a.ldlt().solve(b);
 }
-
-Vector6d solveSymmetric6(const Matrix6d& a, const Vector6d& b) { return a.ldlt().solve(b); }
 
 Eigen::MatrixXd solvePositive(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   const Eigen::LLT<Eigen::MatrixXd> cholesky(a);
@@ -23,17 +23,33 @@ Eigen::MatrixXd solvePositive(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b
   return cholesky.solve(b);
 }
 
-Vector6d solvePositive(const Matrix6d& a, const Vector6d& b) {
-  const Eigen::LLT<Matrix6d> cholesky(a);
-  if (cholesky.info() != Eigen::Success) return solveSymmetric6(a, b);
+SmallVector solvePositive(const SmallMatrix& a, const SmallVector& b) {
+  if (a.rows() == 6) {
+    const Eigen::LLT<Matrix6d> cholesky{Matrix6d(a)};
+    if (cholesky.info() != Eigen::Success) return solveSymmetric6(a, b);
+    return cholesky.solve(Vector6d(b));
+  }
+  const Eigen::LLT<SmallMatrix> cholesky(a);
+  if (cholesky.info() != Eigen::Success) return a.ldlt().solve(b);
   return cholesky.solve(b);
 }
 
 Eigen::MatrixXd choleskyLower(const Eigen::MatrixXd& a) { return a.llt().matrixL(); }
 
-Vector6d solveLu(const Matrix6d& a, const Vector6d& b) { return a.partialPivLu().solve(b); }
+SmallVector solveLu(const SmallMatrix& a, const SmallVector& b) {
+  if (a.rows() == 6) return Matrix6d(a).partialPivLu().solve(Vector6d(b));
+  return a.partialPivLu().solve(b);
+}
 
-Matrix6d solveLu(const Matrix6d& a, const Matrix6d& b) { return a.partialPivLu().solve(b); }
+SmallMatrix solveLu(const SmallMatrix& a, const SmallMatrix& b) {
+  if (a.rows() == 6 && b.cols() == 6) return Matrix6d(a).partialPivLu().solve(Matrix6d(b));
+  return a.partialPivLu().solve(b);
+}
+
+SmallMatrix inverseOf(const SmallMatrix& a) {
+  if (a.rows() == 6) return inverseOf(Matrix6d(a));
+  return a.inverse();
+}
 
 Matrix6d inverseOf(const Matrix6d& a) { return a.inverse(); }
 

@@ -6,20 +6,24 @@
 // Decompositions of Eigen that many files use, compiled once: each costs a compiler seconds wherever it is named.
 namespace stiffscope {
 
+/// Of up to eight unknowns, kept in place. What takes them solves six, a six-axis arm's or a pose's, at fixed size.
+using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 8, 8>;
+using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 8, 1>;
+
 /// Solution of A x = b for a symmetric A, positive or negative semidefinite: LDL^T with pivoting.
 Eigen::MatrixXd solveSymmetric(const Eigen::MatrixXd& a, const Eigen::Ref<const Eigen::MatrixXd>& b);
-Eigen::Matrix<double, 6, 1> solveSymmetric6(const Eigen::Matrix<double, 6, 6>& a, const Eigen::Matrix<double, 6, 1>& b);
 
 /// Solution of A x = b for a positive definite A: Cholesky, and where that breaks down solveSymmetric.
 Eigen::MatrixXd solvePositive(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
-Eigen::Matrix<double, 6, 1> solvePositive(const Eigen::Matrix<double, 6, 6>& a, const Eigen::Matrix<double, 6, 1>& b);
+SmallVector solvePositive(const SmallMatrix& a, const SmallVector& b);
 
 /// L of A = L L^T for a positive definite A, of which the lower half is read: Cholesky.
 Eigen::MatrixXd choleskyLower(const Eigen::MatrixXd& a);
 
 /// Solution of A x = b for an invertible A: LU with partial pivoting.
-Eigen::Matrix<double, 6, 1> solveLu(const Eigen::Matrix<double, 6, 6>& a, const Eigen::Matrix<double, 6, 1>& b);
-Eigen::Matrix<double, 6, 6> solveLu(const Eigen::Matrix<double, 6, 6>& a, const Eigen::Matrix<double, 6, 6>& b);
+SmallVector solveLu(const SmallMatrix& a, const SmallVector& b);
+SmallMatrix solveLu(const SmallMatrix& a, const SmallMatrix& b);
+SmallMatrix inverseOf(const SmallMatrix& a);
 Eigen::Matrix<double, 6, 6> inverseOf(const Eigen::Matrix<double, 6, 6>& a);
 
 /// The x of least length among those that minimise |A x - b|: complete orthogonal decomposition. Directions that A

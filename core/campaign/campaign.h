@@ -27,10 +27,10 @@ inline constexpr double kNoTime = std::numeric_limits<double>::quiet_NaN();
 inline constexpr double kNotGiven = std::numeric_limits<double>::quiet_NaN();
 
 struct CircleReading {
-  int axis = 0;  ///< 0..5 for axes 1..6
+  int axis = 0;  ///< from 0, axis 1
   std::string index;
   int target = 0;
-  Vector6d q = Vector6d::Zero();
+  JointVector q;
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   double time_s = kNoTime;
   std::size_t line = 0;
@@ -39,7 +39,7 @@ struct CircleReading {
 struct WristReading {
   std::string index;
   int target = 0;
-  Vector6d q = Vector6d::Zero();
+  JointVector q;
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   double time_s = kNoTime;
   std::size_t line = 0;
@@ -69,17 +69,24 @@ struct State {
   int pose = 0;
   int step = 0;
   double time_s = kNoTime;
-  Vector6d q = Vector6d::Zero();
+  JointVector q;
   Vector6d wrench_in_cell = Vector6d::Zero();  ///< force (N) then moment (Nm), as the load cell's row says
   // Not a number where the table does not say.
-  Vector6d commanded = Vector6d::Constant(kNotGiven);   ///< joint angles that were commanded, rad
-  Vector6d motor_side = Vector6d::Constant(kNotGiven);  ///< motor angles over the gear ratio, rad
-  double temperature_c = kNotGiven;                     ///< degrees Celsius
-  StatedPose tool_pose = {};                            ///< by the controller's own kinematics
+  JointVector commanded;          ///< joint angles that were commanded, rad
+  JointVector motor_side;         ///< motor angles over the gear ratio, rad
+  double temperature_c = kNotGiven;  ///< degrees Celsius
+  StatedPose tool_pose = {};         ///< by the controller's own kinematics
   /// Of no column: what q was as reported, where it has been referred to the motor's side
   /// (identification/motor_side.h).
-  Vector6d link_side = Vector6d::Constant(kNotGiven);
+  JointVector link_side;
   std::size_t line = 0;
+
+  /// Of a machine of so many joints: all at zero, and nothing given that the table need not say.
+  explicit State(int joints)
+      : q(JointVector::Zero(joints)),
+        commanded(JointVector::Constant(joints, kNotGiven)),
+        motor_side(commanded),
+        link_side(commanded) {}
 };
 
 struct Displacement {
@@ -146,7 +153,7 @@ struct LoadCell {
 
 /// A joint's stiffness as it is known from elsewhere: from the maker, from another day.
 struct KnownStiffness {
-  int joint = 0;           ///< 0..5 for axes 1..6
+  int joint = 0;           ///< from 0, axis 1
   double stiffness = 0.0;  ///< k, Nm/rad
   double sd = 0.0;         ///< standard uncertainty of k, Nm/rad
   std::string source;
@@ -155,10 +162,10 @@ struct KnownStiffness {
 /// How a controller's figure of a joint becomes the URDF's angle: q = sign * figure + offset (+ figure of another
 /// joint). FANUC's third figure is against the horizontal: plus = 1 there.
 struct JointReading {
-  int joint = 0;        ///< 0..5 for axes 1..6
+  int joint = 0;        ///< from 0, axis 1
   double sign = 1.0;    ///< 1 or -1
   double offset = 0.0;  ///< rad
-  int plus = -1;        ///< 0..5: the joint whose figure is added; -1: none
+  int plus = -1;        ///< from 0: the joint whose figure is added; -1: none
 };
 
 /// What the controller's kinematics are: nominal, or identified by its maker. Such a controller bends its commands

@@ -168,11 +168,12 @@ robot::Tool readTool(const io::XmlNode& node, std::vector<std::string>& warnings
 
 namespace {
 
-/// 0..5 of an attribute that counts joints from 1.
+/// From 0, of an attribute that counts joints from 1.
 int jointNumbered(const io::XmlNode& node, const std::string& attribute) {
   const double joint = node.number(attribute);
-  if (joint != std::floor(joint) || joint < 1.0 || joint > 6.0)
-    node.refuse(attribute, node.requiredAttribute(attribute), "expected a joint's number, 1 to 6");
+  if (joint != std::floor(joint) || joint < 1.0 || joint > kMostJoints)
+    node.refuse(attribute, node.requiredAttribute(attribute),
+                fmt::format("expected a joint's number, 1 to {}", kMostJoints));
   return static_cast<int>(joint) - 1;
 }
 
@@ -275,7 +276,7 @@ void readJointReadings(const io::XmlNode& root, Campaign& campaign, std::vector<
                     [&](const JointReading& one) { return one.joint == reading.joint; }))
       node.refuse("joint", node.requiredAttribute("joint"), "expected a joint that does not repeat");
     campaign.joint_readings.push_back(reading);
-    if (JointConvention(campaign.joint_readings).invertible()) continue;
+    if (JointConvention(campaign.joint_readings, kMostJoints).invertible()) continue;
     node.refuse("plus", node.requiredAttribute("plus"), "expected joints that are not added to each other in a circle");
   }
 }
@@ -318,12 +319,29 @@ void readSections(const io::XmlNode& root, CampaignXml& xml, std::vector<std::st
       node.refuse("joint", node.requiredAttribute("joint"), "expected a joint that does not repeat");
   }
   readJointReadings(root, campaign, warnings);
+  for (const char* element : {"known_stiffness", "joint_reading"}) {
+    for (const io::XmlNode& node : root.children(element)) {
+      for (const char* attribute : {"joint", "plus"}) {
+        if (!node.has(attribute)) continue;
+        xml.joint_numbers.push_back({jointNumbered(node, attribute), node.file(), node.line(), attribute,
+                                     node.requiredAttribute(attribute)});
+      }
+    }
+  }
   for (const NamedCampaignText& one : kCampaignTexts) {
     if (const auto node = root.child(one.element)) campaign.texts.*one.text = node->text();
   }
 }
 
 }  // namespace
+
+void requireJoints(const std::vector<JointNumber>& numbers, int joints) {
+  for (const JointNumber& number : numbers) {
+    if (number.joint < joints) continue;
+    throw io::InputError({number.file, number.line, number.attribute}, number.value,
+                         fmt::format("expected a joint's number, 1 to {}", joints));
+  }
+}
 
 const std::vector<std::string>& tableElements() {
   static const std::vector<std::string> elements{"circle_sweeps", "wrist_sweep",   "loading",

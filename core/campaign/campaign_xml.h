@@ -22,13 +22,25 @@ struct TableReference {
   PointFrame frame = PointFrame::tracker;
 };
 
+/// A joint that an attribute names, and where: how many there are is known when the URDF has been read.
+struct JointNumber {
+  int joint = 0;  ///< from 0
+  std::string file;
+  std::size_t line = 0;
+  std::string attribute, value;
+};
+
 /// What campaign.xml itself says: `campaign` without its robot and tables, and the files that hold those.
 struct CampaignXml {
   Campaign campaign;
   FileReference urdf;
   std::map<std::string, TableReference> tables;  ///< by element name
   std::size_t load_cell_line = 0;
+  std::vector<JointNumber> joint_numbers;
 };
+
+/// Throws InputError for the first that names a joint which a machine of so many has not.
+void requireJoints(const std::vector<JointNumber>& numbers, int joints);
 
 /// Elements of campaign.xml that name a table, in the order of the format.
 const std::vector<std::string>& tableElements();

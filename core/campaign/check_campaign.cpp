@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -129,16 +128,17 @@ void warnOfAnglesOutsideLimits(const Campaign& campaign, std::vector<std::string
     const State* first = nullptr;
     std::size_t rows = 0;
   };
-  std::array<double, 6> lower, upper;
-  for (std::size_t j = 0; j < 6; ++j) {
-    lower[j] = campaign.robot.limits[j].lower - kMargin;
-    upper[j] = campaign.robot.limits[j].upper + kMargin;
+  const auto joints = static_cast<std::size_t>(campaign.robot.joints());
+  PerJoint<double> lower, upper;
+  for (const robot::JointLimits& limits : campaign.robot.limits) {
+    lower.push_back(limits.lower - kMargin);
+    upper.push_back(limits.upper + kMargin);
   }
   const std::vector<State>& states = campaign.states->rows;
-  std::vector<std::array<Outside, 6>> found(blocksOf(states.size()));
+  std::vector<PerJoint<Outside>> found(blocksOf(states.size()), PerJoint<Outside>(joints));
   inBlocks(states.size(), [&](std::size_t block, std::size_t from, std::size_t to) {
     for (std::size_t i = from; i < to; ++i) {
-      for (std::size_t j = 0; j < 6; ++j) {
+      for (std::size_t j = 0; j < joints; ++j) {
         const double q = states[i].q[static_cast<Eigen::Index>(j)];
         if (q >= lower[j] && q <= upper[j]) continue;
         Outside& outside = found[block][j];
@@ -146,14 +146,14 @@ void warnOfAnglesOutsideLimits(const Campaign& campaign, std::vector<std::string
       }
     }
   });
-  std::array<Outside, 6> outside;
+  PerJoint<Outside> outside(joints);
   for (const auto& block : found) {
-    for (std::size_t j = 0; j < 6; ++j) {
+    for (std::size_t j = 0; j < joints; ++j) {
       if (outside[j].first == nullptr) outside[j].first = block[j].first;
       outside[j].rows += block[j].rows;
     }
   }
-  for (std::size_t j = 0; j < 6; ++j) {
+  for (std::size_t j = 0; j < joints; ++j) {
     const auto& [first, rows] = outside[j];
     const robot::JointLimits& limits = campaign.robot.limits[j];
     if (first == nullptr) continue;
@@ -169,7 +169,7 @@ void warnOfAnglesOutsideLimits(const Campaign& campaign, std::vector<std::string
 // wrist whose motors drive two joints.
 void warnOfMotorSidesApart(const Campaign& campaign, std::vector<std::string>& warnings) {
   if (!campaign.states) return;
-  for (Eigen::Index j = 0; j < 6; ++j) {
+  for (Eigen::Index j = 0; j < campaign.robot.joints(); ++j) {
     const State* first = nullptr;
     std::size_t rows = 0;
     for (const State& state : campaign.states->rows) {
@@ -186,7 +186,7 @@ void warnOfMotorSidesApart(const Campaign& campaign, std::vector<std::string>& w
   }
 }
 
-// Angles in radians stay below 2 pi, and a campaign that keeps all six joints within six degrees is rare.
+// Angles in radians stay below 2 pi, and a campaign that keeps all joints within six degrees is rare.
 template <class Row>
 void warnOfRadians(const Campaign& campaign, const std::optional<Table<Row>>& table,
                    std::vector<std::string>& warnings) {
@@ -199,7 +199,7 @@ void warnOfRadians(const Campaign& campaign, const std::optional<Table<Row>>& ta
   }
   if (largest == 0.0) return;
   warnings.push_back(io::inputMessage(
-      {shown(campaign, table->file), 0, "q1_deg..q6_deg"}, "",
+      {shown(campaign, table->file), 0, fmt::format("q1_deg..q{}_deg", campaign.robot.joints())}, "",
       fmt::format("no joint angle is larger than {:.3f} deg; were they written in radians?", largest)));
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/io/units.h"
+#include "core/robot/robot.h"
 
 namespace stiffscope::campaign {
 
@@ -61,6 +62,7 @@ class NameList {
 /// nests are listed as the tables bring them, in order of first appearance.
 struct CampaignNames {
   NameList targets, poses, nests;
+  int axes = 0;  ///< that the machine has, for columns that name one
 };
 
 /// What a column holds. The first eight are numbers with the unit of their name, the others names and counts.
@@ -73,7 +75,7 @@ enum class CellKind {
   newton_metre,
   celsius,
   ratio,
-  axis,    ///< 1..6 in the file, 0..5 in memory
+  axis,    ///< from 1 in the file, from 0 in memory
   step,    ///< 0, 1, 2...
   target,  ///< id of a declared target
   pose,
@@ -144,22 +146,33 @@ struct TableLayout {
   std::string element;
   std::vector<Column<Row>> columns;
   std::vector<std::string> key;
+  Row blank = {};  ///< a row before its cells are read
 };
 
-/// An angle of each joint, as q1_deg..q6_deg for the letter q, of a row with that member.
+/// An angle of each of so many joints, as q1_deg, q2_deg.. for the letter q, of a row with that member.
 template <class Row, auto Member>
-std::vector<Column<Row>> angleColumns(char letter, bool required) {
-  return [=]<int... I>(std::integer_sequence<int, I...>) {
+std::vector<Column<Row>> angleColumns(char letter, int joints, bool required) {
+  std::vector<Column<Row>> columns = [=]<int... I>(std::integer_sequence<int, I...>) {
     return std::vector<Column<Row>>{{std::string{letter, static_cast<char>('1' + I)} + "_deg", CellKind::degree,
-                                     [](Row& row) -> double& { return (row.*Member)[I]; }, required, !required}...};
+                                     [](Row& row) -> double& { return (row.*Member).data()[I]; }, required, !required}...};
   }
-  (std::make_integer_sequence<int, 6>());
+  (std::make_integer_sequence<int, kMostJoints>());
+  columns.resize(static_cast<std::size_t>(joints));
+  return columns;
 }
 
-/// q1_deg..q6_deg, of a row with a member q.
+/// q1_deg.. of so many joints, of a row with a member q.
 template <class Row>
-std::vector<Column<Row>> jointColumns() {
-  return angleColumns<Row, &Row::q>('q', true);
+std::vector<Column<Row>> jointColumns(int joints) {
+  return angleColumns<Row, &Row::q>('q', joints, true);
+}
+
+/// A row with a member q of so many joints, all at zero.
+template <class Row>
+Row blankRow(int joints) {
+  Row row;
+  row.q = JointVector::Zero(joints);
+  return row;
 }
 
 /// fx_n..mz_nm, of a row with a member wrench_in_cell. Not required: all or none of them, and with none nothing pulls.

@@ -7,7 +7,8 @@
 
 namespace stiffscope::campaign {
 
-JointConvention::JointConvention(const std::vector<JointReading>& readings) {
+JointConvention::JointConvention(const std::vector<JointReading>& readings, int joints)
+    : matrix_(JointMatrix::Identity(joints, joints)), offset_(JointVector::Zero(joints)) {
   for (const JointReading& reading : readings) {
     matrix_(reading.joint, reading.joint) = reading.sign;
     offset_[reading.joint] = reading.offset;
@@ -31,18 +32,18 @@ double decimalAngle(double angle) {
 
 }  // namespace
 
-Vector6d JointConvention::angles(const Vector6d& figures) const { return anglesBeside(figures, figures); }
+JointVector JointConvention::angles(const JointVector& figures) const { return anglesBeside(figures, figures); }
 
-Vector6d JointConvention::figures(const Vector6d& angles) const { return matrix_.fullPivLu().solve(angles - offset_); }
+JointVector JointConvention::figures(const JointVector& angles) const { return matrix_.fullPivLu().solve(angles - offset_); }
 
-Vector6d JointConvention::anglesBeside(const Vector6d& figures, const Vector6d& beside) const {
-  Vector6d angles;
+JointVector JointConvention::anglesBeside(const JointVector& figures, const JointVector& beside) const {
+  JointVector angles(figures.size());
   for (Eigen::Index i = 0; i < figures.size(); ++i) {
     angles[i] = matrix_(i, i) * figures[i] + offset_[i];
     for (Eigen::Index j = 0; j < figures.size(); ++j) {
       if (j != i && matrix_(i, j) != 0.0) angles[i] += std::isnan(figures[j]) ? beside[j] : figures[j];
     }
-    const bool itself = matrix_.row(i) == Matrix6d::Identity().row(i) && offset_[i] == 0.0;
+    const bool itself = matrix_(i, i) == 1.0 && matrix_.row(i).cwiseAbs().sum() == 1.0 && offset_[i] == 0.0;
     if (!itself) angles[i] = decimalAngle(angles[i]);
   }
   return angles;
@@ -51,12 +52,12 @@ Vector6d JointConvention::anglesBeside(const Vector6d& figures, const Vector6d& 
 namespace {
 
 /// The inverse of anglesBeside for angles of which some are blank.
-Vector6d figuresBeside(const JointConvention& convention, const Vector6d& angles, const Vector6d& beside) {
-  Vector6d whole = angles;
+JointVector figuresBeside(const JointConvention& convention, const JointVector& angles, const JointVector& beside) {
+  JointVector whole = angles;
   for (Eigen::Index i = 0; i < whole.size(); ++i) {
     if (std::isnan(whole[i])) whole[i] = beside[i];
   }
-  Vector6d figures = convention.figures(whole);
+  JointVector figures = convention.figures(whole);
   for (Eigen::Index i = 0; i < whole.size(); ++i) {
     if (std::isnan(angles[i])) figures[i] = kNotGiven;
   }
@@ -73,7 +74,7 @@ void turnRows(std::optional<Table<Row>>& table, const Turn& turn) {
 
 void figuresToAngles(Campaign& campaign) {
   if (campaign.joint_readings.empty()) return;
-  const JointConvention convention(campaign.joint_readings);
+  const JointConvention convention(campaign.joint_readings, campaign.robot.joints());
   const auto turn = [&](auto& row) { row.q = convention.angles(row.q); };
   turnRows(campaign.circle_sweeps, turn);
   turnRows(campaign.wrist_sweep, turn);
@@ -86,7 +87,7 @@ void figuresToAngles(Campaign& campaign) {
 
 void anglesToFigures(Campaign& campaign) {
   if (campaign.joint_readings.empty()) return;
-  const JointConvention convention(campaign.joint_readings);
+  const JointConvention convention(campaign.joint_readings, campaign.robot.joints());
   const auto turn = [&](auto& row) { row.q = convention.figures(row.q); };
   turnRows(campaign.circle_sweeps, turn);
   turnRows(campaign.wrist_sweep, turn);

@@ -116,6 +116,7 @@ void requireLink(const CampaignFiles& files, const robot::Robot& robot, std::siz
 void readRobot(CampaignFiles& files, const CampaignXml& xml, Campaign& campaign) {
   const io::TextFile file = files.read(xml.urdf, io::kLargestXml);
   campaign.robot = robot::parseUrdf(file.text(), files.shown(xml.urdf), campaign.base_link, campaign.flange_link);
+  requireJoints(xml.joint_numbers, campaign.robot.joints());
   if (!campaign.load_cell) return;
   requireLink(files, campaign.robot, xml.load_cell_line, "parent", campaign.load_cell->parent);
   if (campaign.load_cell->axes_link) {
@@ -126,9 +127,10 @@ void readRobot(CampaignFiles& files, const CampaignXml& xml, Campaign& campaign)
 /// Reads the tables one after the other with the same names, so that a pose has one index in all of them.
 class TableReader {
  public:
-  TableReader(CampaignFiles& files, const CampaignXml& xml, std::vector<std::string>& warnings)
+  TableReader(CampaignFiles& files, const CampaignXml& xml, int joints, std::vector<std::string>& warnings)
       : files_(files), xml_(xml), warnings_(warnings) {
     for (const Target& target : xml.campaign.targets) names_.targets.add(target.id);
+    names_.axes = joints;
   }
 
   template <class Row>
@@ -161,11 +163,12 @@ CampaignReading readCampaign(const std::filesystem::path& folder_or_xml, Hashes 
   campaign.folder = files.folder();
   readRobot(files, xml, campaign);
 
-  TableReader tables(files, xml, reading.warnings);
-  tables.read(circleSweepsLayout(), campaign.circle_sweeps);
-  tables.read(wristSweepLayout(), campaign.wrist_sweep);
+  const int joints = campaign.robot.joints();
+  TableReader tables(files, xml, joints, reading.warnings);
+  tables.read(circleSweepsLayout(joints), campaign.circle_sweeps);
+  tables.read(wristSweepLayout(joints), campaign.wrist_sweep);
   tables.read(loadingLayout(), campaign.loading);
-  tables.read(statesLayout(), campaign.states);
+  tables.read(statesLayout(joints), campaign.states);
   tables.read(displacementsLayout(), campaign.displacements);
   tables.read(nestsLayout(), campaign.nests);
   campaign.pose_ids = tables.names().poses.names();

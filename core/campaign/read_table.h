@@ -115,11 +115,11 @@ class RowReader {
       Present present{&column, lines.placeOf(i), Quick::none, 0, {}};
       if (const auto* number = std::get_if<typename Column<Row>::Number>(&column.member)) {
         present.quick = Quick::number;
-        present.offset = offsetOf(*number);
+        present.offset = offsetOf(*number, layout.blank);
         present.written = numberKind(column.kind);
       } else if (column.kind == CellKind::step) {
         present.quick = Quick::whole;
-        present.offset = offsetOf(std::get<typename Column<Row>::Index>(column.member));
+        present.offset = offsetOf(std::get<typename Column<Row>::Index>(column.member), layout.blank);
       }
       columns_.push_back(present);
     }
@@ -164,8 +164,7 @@ class RowReader {
 
   /// Where in a row a column's member stands.
   template <class Member>
-  static std::ptrdiff_t offsetOf(Member& (*member)(Row&)) {
-    Row row;
+  static std::ptrdiff_t offsetOf(Member& (*member)(Row&), Row row) {
     return reinterpret_cast<std::byte*>(&member(row)) - reinterpret_cast<std::byte*>(&row);
   }
 
@@ -208,7 +207,7 @@ struct TablePart {
 template <class Row>
 class RowsInMaking {
  public:
-  explicit RowsInMaking(std::size_t rows) {
+  RowsInMaking(std::size_t rows, const Row& blank) : blank_(blank) {
     rows_.reserve(rows);
     io::askForLargePages(rows_.data(), rows * sizeof(Row));
   }
@@ -216,7 +215,7 @@ class RowsInMaking {
   /// The first of all rows, of which there are `count` then at least. None moves: there is room for all.
   Row* made(std::size_t count) {
     const std::lock_guard lock(making_);
-    if (rows_.size() < count) rows_.resize(count);
+    if (rows_.size() < count) rows_.resize(count, blank_);
     return rows_.data();
   }
 
@@ -224,6 +223,7 @@ class RowsInMaking {
 
  private:
   std::mutex making_;
+  Row blank_;
   std::vector<Row> rows_;
 };
 
@@ -238,7 +238,7 @@ std::vector<TablePart<Row>> partsOf(const TableLines& header, const CampaignName
   std::size_t before = header.line(), from = 0;
   for (std::size_t i = 0; i < texts.size(); ++i) {
     const std::size_t room = header.mostRows(texts[i].size(), lines[i]);
-    parts.push_back({TableLines(header, texts[i], before), {names.targets, {}, {}}, from, room});
+    parts.push_back({TableLines(header, texts[i], before), {names.targets, {}, {}, names.axes}, from, room});
     before += lines[i];
     from += room;
   }
@@ -298,7 +298,7 @@ void closeUp(const std::vector<TablePart<Row>>& parts, std::vector<Row>& rows) {
     if (end != part.from) std::move(from, from + count, rows.begin() + static_cast<std::ptrdiff_t>(end));
     end += part.rows.size();
   }
-  rows.resize(end);
+  rows.erase(rows.begin() + static_cast<std::ptrdiff_t>(end), rows.end());
 }
 
 /// readTable of a large text: its lines in parts of some `part_bytes`, shared among the cores. The parts depend on the
@@ -312,7 +312,7 @@ std::optional<std::vector<Row>> readTableInParts(const TableSource& source, cons
   const TableLines header(source, wantedColumns(layout), warnings);
   std::vector<TablePart<Row>> parts = partsOf<Row>(header, names, part_bytes);
   if (parts.empty()) return std::nullopt;
-  RowsInMaking<Row> making(parts.back().from + parts.back().room);
+  RowsInMaking<Row> making(parts.back().from + parts.back().room, layout.blank);
   const RowReader<Row> reader(source.file, layout, header);
   numerics::onAllCores(parts.size(), [&](std::size_t i) { readPart(reader, key, making, parts[i]); });
   if (!std::all_of(parts.begin(), parts.end(), [](const auto& part) { return part.done; })) return std::nullopt;
@@ -357,7 +357,7 @@ std::vector<Row> readTableInOneGo(const TableSource& source, const TableLayout<R
   RowRepeats<Row> repeats(key, rows);
   const RowReader<Row> reader(source.file, layout, lines);
   while (lines.next()) {
-    reader.read(lines, names, rows.emplace_back());
+    reader.read(lines, names, rows.emplace_back(layout.blank));
     const std::size_t first = repeats.of(rows.size() - 1);
     if (first != RepeatCheck::kNew) refuseRepeat(source, layout, key, lines, rows[first].line);
   }

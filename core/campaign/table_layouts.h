@@ -5,19 +5,21 @@
 
 namespace stiffscope::campaign {
 
+// Of a machine of so many joints where angles are among the columns.
+
 /// One reading of one target while one axis turns and the others stand still.
-inline const TableLayout<CircleReading>& circleSweepsLayout() {
+inline TableLayout<CircleReading> circleSweepsLayout(int joints) {
   using Row = CircleReading;
-  static const TableLayout<Row> layout{
+  return {
       "circle_sweeps",
       joined<Row>({{{"axis", CellKind::axis, [](Row& row) -> int& { return row.axis; }},
                     {"index", CellKind::text, [](Row& row) -> std::string& { return row.index; }},
                     targetColumn<Row>()},
-                   jointColumns<Row>(),
+                   jointColumns<Row>(joints),
                    pointColumns<Row>(),
                    {timeColumn<Row>(false)}}),
-      {"axis", "index", "target"}};
-  return layout;
+      {"axis", "index", "target"},
+      blankRow<Row>(joints)};
 }
 
 /// A displacement of a target from step 0, for data without absolute points.
@@ -79,34 +81,34 @@ inline std::vector<Column<State>> toolPoseColumns() {
 }
 
 /// Joint angles and load-cell reading of one load state.
-inline const TableLayout<State>& statesLayout() {
+inline TableLayout<State> statesLayout(int joints) {
   using Row = State;
-  static const TableLayout<Row> layout{
+  return {
       "states",
       joined<Row>(
           {poseAndStepColumns<Row>(),
            {timeColumn<Row>(false)},
-           jointColumns<Row>(),
+           jointColumns<Row>(joints),
            wrenchColumns<Row>(false),
-           angleColumns<Row, &Row::commanded>('c', false),
-           angleColumns<Row, &Row::motor_side>('m', false),
+           angleColumns<Row, &Row::commanded>('c', joints, false),
+           angleColumns<Row, &Row::motor_side>('m', joints, false),
            {{"temperature_c", CellKind::celsius, [](Row& row) -> double& { return row.temperature_c; }, false, true}},
            toolPoseColumns()}),
-      {"pose", "step"}};
-  return layout;
+      {"pose", "step"},
+      State(joints)};
 }
 
-/// One reading with axes 1-3 standing still and 4-6 anywhere.
-inline const TableLayout<WristReading>& wristSweepLayout() {
+/// One reading with the arm's axes standing still and the wrist's anywhere.
+inline TableLayout<WristReading> wristSweepLayout(int joints) {
   using Row = WristReading;
-  static const TableLayout<Row> layout{
+  return {
       "wrist_sweep",
       joined<Row>({{{"index", CellKind::text, [](Row& row) -> std::string& { return row.index; }}, targetColumn<Row>()},
-                   jointColumns<Row>(),
+                   jointColumns<Row>(joints),
                    pointColumns<Row>(),
                    {timeColumn<Row>(false)}}),
-      {"index", "target"}};
-  return layout;
+      {"index", "target"},
+      blankRow<Row>(joints)};
 }
 
 }  // namespace stiffscope::campaign

@@ -290,7 +290,7 @@ template <class Row>
 void addTable(const TableLayout<Row>& layout, const std::optional<Table<Row>>& table, const RowWriting& writing,
               std::vector<io::FileToWrite>& files) {
   if (!table) return;
-  const io::ByteSource bytes = [&layout, &rows = table->rows, &writing](const io::ByteSink& sink) {
+  const io::ByteSource bytes = [layout, &rows = table->rows, &writing](const io::ByteSink& sink) {
     writeTable(layout, rows, writing, sink);
   };
   files.emplace_back(layout.element + ".csv", bytes);
@@ -312,11 +312,12 @@ void writeFigures(const Campaign& campaign, const std::filesystem::path& urdf_fi
                   const std::vector<io::FileToWrite>& beside, WrittenDigits digits) {
   const std::string urdf = io::readTextFile(urdf_file, io::kLargestXml);
   const RowWriting writing{namesOf(campaign), digits};
+  const int joints = campaign.robot.joints();
   std::vector<io::FileToWrite> files{{"robot.urdf", urdf}};
-  addTable(circleSweepsLayout(), campaign.circle_sweeps, writing, files);
-  addTable(wristSweepLayout(), campaign.wrist_sweep, writing, files);
+  addTable(circleSweepsLayout(joints), campaign.circle_sweeps, writing, files);
+  addTable(wristSweepLayout(joints), campaign.wrist_sweep, writing, files);
   addTable(loadingLayout(), campaign.loading, writing, files);
-  addTable(statesLayout(), campaign.states, writing, files);
+  addTable(statesLayout(joints), campaign.states, writing, files);
   addTable(displacementsLayout(), campaign.displacements, writing, files);
   addTable(nestsLayout(), campaign.nests, writing, files);
   files.insert(files.end(), beside.begin(), beside.end());

@@ -56,6 +56,7 @@ class DayReader {
     const campaign::Campaign& campaign = day_.xml.campaign;
     result_.urdf = day_.folder / urdf.name;
     result_.robot = robot::parseUrdf(bytes.text(), day_.pathOf(urdf.name), campaign.base_link, campaign.flange_link);
+    campaign::requireJoints(day_.xml.joint_numbers, result_.robot.joints());
   }
 
   void readPoints(const PointsSource& source) {

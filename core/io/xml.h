@@ -30,6 +30,7 @@ class XmlNode {
  public:
   XmlNode(const std::string& file, const tinyxml2::XMLElement& element) : file_(&file), element_(&element) {}
 
+  const std::string& file() const { return *file_; }
   std::string name() const;
   std::size_t line() const;
   std::string text() const;  ///< of the element itself, blanks at both ends cut off

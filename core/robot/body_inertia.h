@@ -1,9 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <string>
 #include <string_view>
+
+#include "core/robot/robot.h"
 
 namespace stiffscope::robot {
 
@@ -16,7 +17,7 @@ inline Eigen::Matrix3d pointMassInertia(double mass_kg, const Eigen::Vector3d& a
 /// Robot::bodies has, in base_link axes with all joints at zero (kg m^2): of its links, each with its mass carried to
 /// that centre (Steiner). A link without `inertia` counts as a point mass; zero for a body without mass. Reads the URDF
 /// as parseUrdf does, and throws as that does.
-std::array<Eigen::Matrix3d, 7> bodyInertias(std::string_view bytes, const std::string& file,
-                                            const std::string& base_link, const std::string& flange_link);
+PerBody<Eigen::Matrix3d> bodyInertias(std::string_view bytes, const std::string& file, const std::string& base_link,
+                                      const std::string& flange_link);
 
 }  // namespace stiffscope::robot

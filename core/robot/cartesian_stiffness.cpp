@@ -37,23 +37,33 @@ std::vector<PrincipalStiffness> principalStiffnessWithin(const Eigen::Matrix3d& 
   return basis.cols() == 3 ? principalStiffness(Eigen::Matrix3d(within), basis) : principalStiffness(within, basis);
 }
 
-CartesianStiffness cartesianStiffness(const Eigen::Vector3d& point, const Matrix6d& jacobian,
-                                      const Vector6d& compliance, const Matrix6d& geometric) {
+CartesianStiffness cartesianStiffness(const Eigen::Vector3d& point, const Jacobian& jacobian,
+                                      const JointVector& compliance, const JointMatrix& geometric) {
   CartesianStiffness result;
   result.point = point;
-  // (K - K_c)^-1 = (I - C K_c)^-1 C, which bears rigid joints.
-  const Matrix6d joints =
-      solveLu(Matrix6d::Identity() - compliance.asDiagonal() * geometric, Matrix6d(compliance.asDiagonal()));
+  const Eigen::Index count = compliance.size();
+  JointMatrix joints = compliance.asDiagonal();
+  if (geometric.size() > 0) {  // (K - K_c)^-1 = (I - C K_c)^-1 C, which bears rigid joints.
+    joints = solveLu(JointMatrix(JointMatrix::Identity(count, count) - compliance.asDiagonal() * geometric), joints);
+  }
   result.compliance = jacobian * joints * jacobian.transpose();
   const std::vector<PrincipalStiffness> principal =
       principalStiffnessWithin(result.compliance.topLeftCorner<3, 3>(), Eigen::Matrix3d::Identity());
   std::copy(principal.begin(), principal.end(), result.principal.begin());
-  const Eigen::FullPivLU<Matrix6d> jacobian_lu(jacobian);
-  result.invertible = jacobian_lu.isInvertible() && (compliance.array() != 0.0).all();
-  if (result.invertible) {
-    const Matrix6d back = jacobian_lu.inverse();  // (4) as it stands
-    const Matrix6d springs = Matrix6d(compliance.cwiseInverse().asDiagonal()) - geometric;
-    result.stiffness = back.transpose() * springs * back;
+  if (count == 6) {
+    const Eigen::FullPivLU<Matrix6d> jacobian_lu{Matrix6d(jacobian)};
+    result.invertible = jacobian_lu.isInvertible() && (compliance.array() != 0.0).all();
+    if (result.invertible) {
+      const Matrix6d back = jacobian_lu.inverse();  // (4) as it stands
+      Matrix6d springs = Matrix6d(compliance.cwiseInverse().asDiagonal());
+      if (geometric.size() > 0) springs -= geometric;
+      result.stiffness = back.transpose() * springs * back;
+    }
+  } else if (count > 6) {  // more springs than directions: (4) has no inverse of J, C_x has
+    // Lengths over 1 m: displacements and turns of one size, so that the rank may be judged.
+    const Eigen::FullPivLU<Matrix6d> compliance_lu(result.compliance);
+    result.invertible = compliance_lu.isInvertible();
+    if (result.invertible) result.stiffness = compliance_lu.inverse();
   }
   return result;
 }

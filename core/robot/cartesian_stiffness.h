@@ -20,7 +20,7 @@ struct CartesianStiffness {
   /// C_x = J (K_theta - K_c)^-1 J^T: displacement (m) and rotation (rad) by force (N) and moment (Nm) at the
   /// point.
   Matrix6d compliance = Matrix6d::Zero();
-  bool invertible = false;                ///< false in a singularity, and where a joint counts as rigid
+  bool invertible = false;                ///< false in a singularity, of fewer than six joints, and where a rigid joint locks a direction
   Matrix6d stiffness = Matrix6d::Zero();  ///< K_x = C_x^-1, paper (4); (6) without K_c. Zero if not invertible
   /// By the translational block of C_x: a force alone acts, the flange is free to turn. Softest direction
   /// first.
@@ -29,10 +29,10 @@ struct CartesianStiffness {
 };
 
 /// `jacobian` at `point`, `compliance` c = 1/k of the joints (rad/Nm; 0 counts as rigid), `geometric` K_c
-/// (Nm/rad, zero: paper (6)). Symmetric where K_c is, which a moment that keeps its direction spoils a
+/// (Nm/rad, none: paper (6)). Symmetric where K_c is, which a moment that keeps its direction spoils a
 /// little. The principal directions are those of the symmetric part.
-CartesianStiffness cartesianStiffness(const Eigen::Vector3d& point, const Matrix6d& jacobian,
-                                      const Vector6d& compliance, const Matrix6d& geometric = Matrix6d::Zero());
+CartesianStiffness cartesianStiffness(const Eigen::Vector3d& point, const Jacobian& jacobian,
+                                      const JointVector& compliance, const JointMatrix& geometric = {});
 
 /// Principal stiffnesses of a translational compliance (m/N, its symmetric part) within the span of orthonormal
 /// columns: the stationary values of 1 / (d^T C d) over unit d there, softest first, as many as there are columns.

@@ -4,9 +4,14 @@ namespace stiffscope::robot {
 
 namespace {
 
+JointMatrix noStiffness(const ArmAxes& axes) {
+  const auto joints = static_cast<Eigen::Index>(axes.size());
+  return JointMatrix::Zero(joints, joints);
+}
+
 /// A force at `point` of body `body`: joints 0..body-1 carry it.
 void addForce(const ArmAxes& axes, int body, const Eigen::Vector3d& point, const Eigen::Vector3d& force,
-              Matrix6d& stiffness) {
+              JointMatrix& stiffness) {
   for (int outer = 0; outer < body; ++outer) {
     const metrology::Line& far = axes[static_cast<std::size_t>(outer)];
     const Eigen::Vector3d change = far.direction.cross(point - far.point).cross(force);
@@ -20,10 +25,10 @@ void addForce(const ArmAxes& axes, int body, const Eigen::Vector3d& point, const
 
 }  // namespace
 
-Matrix6d geometricStiffness(const ArmAxes& axes, const Wrench& wrench_in_base) {
-  Matrix6d stiffness = Matrix6d::Zero();
-  addForce(axes, 6, wrench_in_base.point, wrench_in_base.force, stiffness);
-  for (std::size_t turned = 1; turned < 6; ++turned) {  // joint `turning` carries axis `turned` round
+JointMatrix geometricStiffness(const ArmAxes& axes, const Wrench& wrench_in_base) {
+  JointMatrix stiffness = noStiffness(axes);
+  addForce(axes, static_cast<int>(axes.size()), wrench_in_base.point, wrench_in_base.force, stiffness);
+  for (std::size_t turned = 1; turned < axes.size(); ++turned) {  // joint `turning` carries axis `turned` round
     for (std::size_t turning = 0; turning < turned; ++turning) {
       stiffness(static_cast<int>(turned), static_cast<int>(turning)) +=
           axes[turning].direction.cross(axes[turned].direction).dot(wrench_in_base.moment);
@@ -32,10 +37,10 @@ Matrix6d geometricStiffness(const ArmAxes& axes, const Wrench& wrench_in_base) {
   return stiffness;
 }
 
-Matrix6d geometricStiffness(const ArmAxes& axes, const ArmPosture& posture, const GravityLoad& weight) {
-  Matrix6d stiffness = Matrix6d::Zero();
+JointMatrix geometricStiffness(const ArmAxes& axes, const ArmPosture& posture, const GravityLoad& weight) {
+  JointMatrix stiffness = noStiffness(axes);
   if (!weight.any()) return stiffness;
-  for (int body = 1; body <= 6; ++body) {
+  for (int body = 1; body <= static_cast<int>(axes.size()); ++body) {
     const BodyMass& mass = weight.bodies[static_cast<std::size_t>(body)];
     if (mass.mass_kg == 0.0) continue;
     addForce(axes, body, posture.motion[static_cast<std::size_t>(body)] * mass.com_in_base_at_zero,

@@ -17,13 +17,15 @@ GravityLoad gravityLoad(const Robot& nominal, const std::optional<Tool>& tool,
   GravityLoad weight;
   weight.gravity_in_base = base_from_base_link.linear() * gravity_in_base_link;
   weight.links_known = true;
+  weight.bodies.resize(nominal.bodies.size());
   for (std::size_t body = 1; body < weight.bodies.size(); ++body) {
     weight.bodies[body].mass_kg = nominal.bodies[body].mass_kg;
     weight.bodies[body].com_in_base_at_zero = base_from_base_link * nominal.bodies[body].com_in_base_at_zero;
-    if (body >= 2 && body <= 4 && weight.bodies[body].mass_kg <= 0.0) weight.links_known = false;
+    const bool carries = body >= 2 && static_cast<int>(body) <= armJointsOf(nominal.joints()) + 1;
+    if (carries && weight.bodies[body].mass_kg <= 0.0) weight.links_known = false;
   }
   if (tool && tool->mass_kg > 0.0) {
-    BodyMass& last = weight.bodies[6];
+    BodyMass& last = weight.bodies.back();
     const Eigen::Vector3d tool_com = arm.base_from_flange_at_zero * tool->com_in_flange;
     const double together = last.mass_kg + tool->mass_kg;
     last.com_in_base_at_zero = (last.mass_kg * last.com_in_base_at_zero + tool->mass_kg * tool_com) / together;
@@ -36,11 +38,11 @@ void scaleMasses(double factor, Robot& robot) {
   for (BodyMass& body : robot.bodies) body.mass_kg *= factor;
 }
 
-Vector6d weightTorque(const Robot& robot, const ArmPosture& posture, const GravityLoad& weight) {
+JointVector weightTorque(const Robot& robot, const ArmPosture& posture, const GravityLoad& weight) {
   // Sum from the tip inwards: force and moment about the base origin of all that hangs beyond each joint.
-  Vector6d torque = Vector6d::Zero();
+  JointVector torque(robot.joints());
   Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();
-  for (int joint = 5; joint >= 0; --joint) {
+  for (int joint = robot.joints() - 1; joint >= 0; --joint) {
     const auto body = static_cast<std::size_t>(joint) + 1;
     const Eigen::Vector3d pull = weight.bodies[body].mass_kg * weight.gravity_in_base;
     force += pull;
@@ -51,12 +53,12 @@ Vector6d weightTorque(const Robot& robot, const ArmPosture& posture, const Gravi
   return torque;
 }
 
-Vector6d saggedAngles(const Robot& robot, const Vector6d& q, const GravityLoad& weight, const Vector6d& compliance) {
+JointVector saggedAngles(const Robot& robot, const JointVector& q, const GravityLoad& weight, const JointVector& compliance) {
   if (!weight.any() || compliance.isZero()) return q;
   constexpr int kSteps = 3;
   return springEquilibrium(
              q, compliance, kSteps, 0.0,
-             [&](const Vector6d& angles) { return weightTorque(robot, postureAt(robot, angles), weight); })
+             [&](const JointVector& angles) { return weightTorque(robot, postureAt(robot, angles), weight); })
       .angles;
 }
 

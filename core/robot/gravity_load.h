@@ -15,7 +15,7 @@ struct Tool {
 
 /// The arm's own weight as dead loads: each body's mass at its centre, the tool with the last body.
 struct GravityLoad {
-  std::array<BodyMass, 7> bodies;                             ///< centres in the base frame of the arm, joints zero
+  PerBody<BodyMass> bodies;                                   ///< centres in the base frame of the arm, joints zero
   Eigen::Vector3d gravity_in_base = Eigen::Vector3d::Zero();  ///< m/s^2
   bool links_known = false;                                   ///< false: the URDF states no link masses
 
@@ -32,10 +32,10 @@ GravityLoad gravityLoad(const Robot& nominal, const std::optional<Tool>& tool,
 void scaleMasses(double factor, Robot& robot);
 
 /// Joint torques of the own weight at a posture, Nm.
-Vector6d weightTorque(const Robot& robot, const ArmPosture& posture, const GravityLoad& weight);
+JointVector weightTorque(const Robot& robot, const ArmPosture& posture, const GravityLoad& weight);
 
 /// Joint angles of the arm with its springs loaded by its own weight: q + c * weightTorque(q + ...), rad.
 /// `compliance` c in rad/Nm. Fixed-point iteration: the sag is small against the posture, three steps reach 1e-9 rad.
-Vector6d saggedAngles(const Robot& robot, const Vector6d& q, const GravityLoad& weight, const Vector6d& compliance);
+JointVector saggedAngles(const Robot& robot, const JointVector& q, const GravityLoad& weight, const JointVector& compliance);
 
 }  // namespace stiffscope::robot

@@ -25,7 +25,7 @@ struct ToolAt {
 };
 
 ToolAt toolAt(const Robot& robot, const Eigen::Isometry3d& wanted, const Eigen::Isometry3d& flange_from_tool,
-              const Vector6d& q) {
+              const JointVector& q) {
   const ArmPosture posture = postureAt(robot, q);
   const Eigen::Isometry3d tool = flangeAt(robot, posture) * flange_from_tool;
   ToolAt at{axesAt(robot, posture), tool.translation(), Vector6d::Zero()};
@@ -36,19 +36,20 @@ ToolAt toolAt(const Robot& robot, const Eigen::Isometry3d& wanted, const Eigen::
 }  // namespace
 
 InverseKinematics inverseKinematics(const Robot& robot, const Eigen::Isometry3d& base_from_tool,
-                                    const Eigen::Isometry3d& flange_from_tool, const Vector6d& start,
+                                    const Eigen::Isometry3d& flange_from_tool, const JointVector& start,
                                     const InverseKinematicsOptions& options) {
   constexpr double kLeastDamping = 1e-12, kMostDamping = 1e6;
   InverseKinematics found{start};
   ToolAt at = toolAt(robot, base_from_tool, flange_from_tool, found.q);
   double damping = 1e-6;
   for (int step = 0; step < options.most_steps && at.left.cwiseAbs().maxCoeff() >= options.close; ++step) {
-    const Matrix6d jacobian = jacobianAt(at.axes, at.origin);
-    const Matrix6d normal = jacobian.transpose() * jacobian + damping * Matrix6d::Identity();
-    Vector6d change = solvePositive(normal, jacobian.transpose() * at.left);
+    const Jacobian jacobian = jacobianAt(at.axes, at.origin);
+    JointMatrix normal = jacobian.transpose() * jacobian;
+    normal.diagonal().array() += damping;
+    JointVector change = solvePositive(normal, jacobian.transpose() * at.left);
     const double longest = change.cwiseAbs().maxCoeff();
     if (longest > options.longest_step) change *= options.longest_step / longest;
-    const Vector6d next = found.q + change;
+    const JointVector next = found.q + change;
     const ToolAt there = toolAt(robot, base_from_tool, flange_from_tool, next);
     if (there.left.squaredNorm() < at.left.squaredNorm()) {
       found.q = next;
@@ -66,9 +67,9 @@ InverseKinematics inverseKinematics(const Robot& robot, const Eigen::Isometry3d&
   return found;
 }
 
-Vector6d withinTurns(const Robot& robot, const Vector6d& q) {
-  Vector6d moved = q;
-  for (int j = 0; j < 6; ++j) {
+JointVector withinTurns(const Robot& robot, const JointVector& q) {
+  JointVector moved = q;
+  for (int j = 0; j < robot.joints(); ++j) {
     const JointLimits& limits = robot.limits[static_cast<std::size_t>(j)];
     const double middle =
         std::isfinite(limits.lower) && std::isfinite(limits.upper) ? 0.5 * (limits.lower + limits.upper) : 0.0;
@@ -77,18 +78,18 @@ Vector6d withinTurns(const Robot& robot, const Vector6d& q) {
   return moved;
 }
 
-std::vector<Vector6d> inverseKinematicsBranches(const Robot& robot, const Eigen::Isometry3d& base_from_tool,
+std::vector<JointVector> inverseKinematicsBranches(const Robot& robot, const Eigen::Isometry3d& base_from_tool,
                                                 const Eigen::Isometry3d& flange_from_tool,
-                                                const std::vector<Vector6d>& starts,
+                                                const std::vector<JointVector>& starts,
                                                 const InverseKinematicsOptions& options) {
   constexpr double kSame = 1e-3;
-  std::vector<Vector6d> branches;
-  for (const Vector6d& start : starts) {
+  std::vector<JointVector> branches;
+  for (const JointVector& start : starts) {
     const InverseKinematics found = inverseKinematics(robot, base_from_tool, flange_from_tool, start, options);
     if (!found.reached) continue;
-    const Vector6d q = withinTurns(robot, found.q);
-    const bool known = std::any_of(branches.begin(), branches.end(), [&](const Vector6d& other) {
-      const Vector6d apart = (q - other).unaryExpr([](double a) { return std::remainder(a, kWholeTurn); });
+    const JointVector q = withinTurns(robot, found.q);
+    const bool known = std::any_of(branches.begin(), branches.end(), [&](const JointVector& other) {
+      const JointVector apart = (q - other).unaryExpr([](double a) { return std::remainder(a, kWholeTurn); });
       return apart.cwiseAbs().maxCoeff() < kSame;
     });
     if (!known) branches.push_back(q);
@@ -98,7 +99,7 @@ std::vector<Vector6d> inverseKinematicsBranches(const Robot& robot, const Eigen:
 
 double conditioningAt(const ArmAxes& axes, const Eigen::Vector3d& point_in_base) {
   const Eigen::VectorXd singular = singularValues(jacobianAt(axes, point_in_base));
-  return singular[5] / singular[0];
+  return singular[singular.size() - 1] / singular[0];
 }
 
 }  // namespace stiffscope::robot

@@ -20,18 +20,19 @@ Eigen::Vector3d rpyFromRotation(const Eigen::Matrix3d& r) {
   return {std::atan2(r(2, 1), r(2, 2)), pitch, std::atan2(r(1, 0), r(0, 0))};
 }
 
-ArmPosture postureAt(const Robot& robot, const Vector6d& q) {
+ArmPosture postureAt(const Robot& robot, const JointVector& q) {
   return postureAt(robot.axes_in_base_at_zero, q, Eigen::Isometry3d::Identity());
 }
 
-ArmPosture postureAt(const ArmAxes& axes_at_zero, const Vector6d& q, const Eigen::Isometry3d& base) {
+ArmPosture postureAt(const ArmAxes& axes_at_zero, const JointVector& q, const Eigen::Isometry3d& base) {
   ArmPosture posture;
-  posture.motion[0] = base;
-  for (int joint = 0; joint < 6; ++joint) {
-    const metrology::Line& axis = axes_at_zero[static_cast<std::size_t>(joint)];
-    const Eigen::Matrix3d turn = Eigen::AngleAxisd(q[joint], axis.direction).toRotationMatrix();
-    const Eigen::Isometry3d& before = posture.motion[static_cast<std::size_t>(joint)];
-    Eigen::Isometry3d& after = posture.motion[static_cast<std::size_t>(joint) + 1];
+  posture.motion.push_back(base);
+  for (std::size_t joint = 0; joint < axes_at_zero.size(); ++joint) {
+    const metrology::Line& axis = axes_at_zero[joint];
+    const Eigen::Matrix3d turn =
+        Eigen::AngleAxisd(q[static_cast<Eigen::Index>(joint)], axis.direction).toRotationMatrix();
+    const Eigen::Isometry3d& before = posture.motion[joint];
+    Eigen::Isometry3d& after = posture.motion.emplace_back();
     after.linear() = before.linear() * turn;
     after.translation() = before.linear() * (axis.point - turn * axis.point) + before.translation();
     after.makeAffine();
@@ -47,32 +48,32 @@ metrology::Line axisAt(const Robot& robot, const ArmPosture& posture, int joint)
 
 ArmAxes axesAt(const Robot& robot, const ArmPosture& posture) {
   ArmAxes axes;
-  for (int joint = 0; joint < 6; ++joint) axes[static_cast<std::size_t>(joint)] = axisAt(robot, posture, joint);
+  for (int joint = 0; joint < robot.joints(); ++joint) axes.push_back(axisAt(robot, posture, joint));
   return axes;
 }
 
 Eigen::Isometry3d flangeAt(const Robot& robot, const ArmPosture& posture) {
-  return posture.motion[6] * robot.base_from_flange_at_zero;
+  return posture.motion.back() * robot.base_from_flange_at_zero;
 }
 
-Matrix6d jacobianAt(const Robot& robot, const ArmPosture& posture, const Eigen::Vector3d& point_in_base) {
+Jacobian jacobianAt(const Robot& robot, const ArmPosture& posture, const Eigen::Vector3d& point_in_base) {
   return jacobianAt(axesAt(robot, posture), point_in_base);
 }
 
-Matrix6d jacobianAt(const ArmAxes& axes, const Eigen::Vector3d& point_in_base) {
-  Matrix6d jacobian;
+Jacobian jacobianAt(const ArmAxes& axes, const Eigen::Vector3d& point_in_base) {
+  Jacobian jacobian(6, static_cast<Eigen::Index>(axes.size()));
   jacobian.topRows<3>() = pointJacobianAt(axes, point_in_base);
-  for (int joint = 0; joint < 6; ++joint) {
-    jacobian.col(joint).tail<3>() = axes[static_cast<std::size_t>(joint)].direction;
+  for (std::size_t joint = 0; joint < axes.size(); ++joint) {
+    jacobian.col(static_cast<Eigen::Index>(joint)).tail<3>() = axes[joint].direction;
   }
   return jacobian;
 }
 
-Matrix36d pointJacobianAt(const ArmAxes& axes, const Eigen::Vector3d& point_in_base) {
-  Matrix36d jacobian;
-  for (int joint = 0; joint < 6; ++joint) {
-    const metrology::Line& axis = axes[static_cast<std::size_t>(joint)];
-    jacobian.col(joint) = axis.direction.cross(point_in_base - axis.point);
+PointJacobian pointJacobianAt(const ArmAxes& axes, const Eigen::Vector3d& point_in_base) {
+  PointJacobian jacobian(3, static_cast<Eigen::Index>(axes.size()));
+  for (std::size_t joint = 0; joint < axes.size(); ++joint) {
+    const metrology::Line& axis = axes[joint];
+    jacobian.col(static_cast<Eigen::Index>(joint)) = axis.direction.cross(point_in_base - axis.point);
   }
   return jacobian;
 }

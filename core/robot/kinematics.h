@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <array>
 
 #include "core/robot/robot.h"
 
@@ -18,22 +17,22 @@ Eigen::Vector3d rpyFromRotation(const Eigen::Matrix3d& rotation);
 /// How far each body of the arm has moved from its place at all joints zero: a point fixed to body b that
 /// stands at x (base frame) when all joints are zero stands at motion[b] * x now. motion[0] is the identity.
 struct ArmPosture {
-  std::array<Eigen::Isometry3d, 7> motion;
+  PerBody<Eigen::Isometry3d> motion;
 };
 
 /// Joint axes of an arm in its base frame, all at zero or all at one posture.
-using ArmAxes = std::array<metrology::Line, 6>;
+using ArmAxes = PerJoint<metrology::Line>;
 
 /// Rigid forward kinematics: motion[b] = exp(xi_1 q_1) ... exp(xi_b q_b). q in rad.
-ArmPosture postureAt(const Robot& robot, const Vector6d& q);
+ArmPosture postureAt(const Robot& robot, const JointVector& q);
 
 /// Forward kinematics of axes at zero, with all bodies carried along by a motion of the base, which is motion[0].
-ArmPosture postureAt(const ArmAxes& axes_at_zero, const Vector6d& q, const Eigen::Isometry3d& base);
+ArmPosture postureAt(const ArmAxes& axes_at_zero, const JointVector& q, const Eigen::Isometry3d& base);
 
-/// Joint axis `joint` (0..5) in the base frame at this posture.
+/// Joint axis `joint` (from 0) in the base frame at this posture.
 metrology::Line axisAt(const Robot& robot, const ArmPosture& posture, int joint);
 
-/// All six of them: what Jacobians of several points at one posture have in common.
+/// All of them: what Jacobians of several points at one posture have in common.
 ArmAxes axesAt(const Robot& robot, const ArmPosture& posture);
 
 /// base_from_flange at this posture.
@@ -41,10 +40,10 @@ Eigen::Isometry3d flangeAt(const Robot& robot, const ArmPosture& posture);
 
 /// Jacobian of a point of the flange body, paper (1): rows 0-2 the velocity of the point at `point_in_base`,
 /// rows 3-5 the angular velocity, both in base axes; column j is [z_j x (p - p_j); z_j].
-Matrix6d jacobianAt(const ArmAxes& axes, const Eigen::Vector3d& point_in_base);
-Matrix6d jacobianAt(const Robot& robot, const ArmPosture& posture, const Eigen::Vector3d& point_in_base);
+Jacobian jacobianAt(const ArmAxes& axes, const Eigen::Vector3d& point_in_base);
+Jacobian jacobianAt(const Robot& robot, const ArmPosture& posture, const Eigen::Vector3d& point_in_base);
 
 /// Its rows 0-2, by the axes at that posture.
-Matrix36d pointJacobianAt(const ArmAxes& axes, const Eigen::Vector3d& point_in_base);
+PointJacobian pointJacobianAt(const ArmAxes& axes, const Eigen::Vector3d& point_in_base);
 
 }  // namespace stiffscope::robot

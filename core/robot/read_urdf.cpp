@@ -209,7 +209,7 @@ Chain chainBetween(const UrdfModel& model, const std::string& base, const std::s
 
 bool turns(const UrdfJoint& joint) { return joint.type == "revolute" || joint.type == "continuous"; }
 
-void requireSixRevolute(const UrdfModel& model, const Chain& chain, const std::string& base,
+void requireRevolute(const UrdfModel& model, const Chain& chain, const std::string& base,
                         const std::string& flange) {
   std::vector<std::string> turning;
   for (const UrdfJoint* joint : chain) {
@@ -221,14 +221,15 @@ void requireSixRevolute(const UrdfModel& model, const Chain& chain, const std::s
     }
     if (!joint->node.children("mimic").empty()) {
       joint->node.refuse("mimic", joint->name,
-                         "expected six joints with angles of their own; this one follows another joint");
+                         "expected joints with angles of their own; this one follows another joint");
     }
     turning.push_back(joint->name);
   }
-  if (turning.size() != 6) {
-    model.robot().refuse("joint", "",
-                         fmt::format("expected six revolute joints between '{}' and '{}'; there are {}{}{}", base,
-                                     flange, turning.size(), turning.empty() ? "" : ": ", fmt::join(turning, ", ")));
+  if (turning.size() < kFewestJoints || turning.size() > kMostJoints) {
+    model.robot().refuse(
+        "joint", "",
+        fmt::format("expected {} to {} revolute joints between '{}' and '{}'; there are {}{}{}", kFewestJoints,
+                    kMostJoints, base, flange, turning.size(), turning.empty() ? "" : ": ", fmt::join(turning, ", ")));
   }
 }
 
@@ -249,20 +250,19 @@ JointLimits limitsOf(const UrdfJoint& joint) {
 
 void placeChain(const Chain& chain, const std::string& base, Robot& robot) {
   Eigen::Isometry3d base_from_link = Eigen::Isometry3d::Identity();
-  std::size_t joints = 0;
   robot.links.push_back({base, 0, base_from_link});
   for (const UrdfJoint* joint : chain) {
     base_from_link = base_from_link * urdfOrigin(joint->node);
     if (turns(*joint)) {
-      robot.axes_in_base_at_zero[joints] = {base_from_link.translation(),
-                                            (base_from_link.linear() * urdfAxis(joint->node)).normalized()};
-      robot.limits[joints] = limitsOf(*joint);
-      robot.joint_names[joints] = joint->name;
-      ++joints;
+      robot.axes_in_base_at_zero.push_back(
+          {base_from_link.translation(), (base_from_link.linear() * urdfAxis(joint->node)).normalized()});
+      robot.limits.push_back(limitsOf(*joint));
+      robot.joint_names.push_back(joint->name);
     }
-    robot.links.push_back({joint->child, static_cast<int>(joints), base_from_link});
+    robot.links.push_back({joint->child, robot.joints(), base_from_link});
   }
   robot.base_from_flange_at_zero = base_from_link;
+  robot.bodies.resize(robot.axes_in_base_at_zero.size() + 1);
 }
 
 // Appends what fixed joints hang on the links already listed, and on those appended, in either direction:
@@ -302,7 +302,7 @@ Robot parseUrdf(std::string_view bytes, const std::string& file, const std::stri
                 const std::string& flange_link) {
   const UrdfModel model(file, bytes);
   const Chain chain = chainBetween(model, base_link, flange_link);
-  requireSixRevolute(model, chain, base_link, flange_link);
+  requireRevolute(model, chain, base_link, flange_link);
   Robot robot;
   robot.name = model.robot().attribute("name").value_or("");
   placeChain(chain, base_link, robot);
@@ -326,12 +326,11 @@ Eigen::Matrix3d urdfInertia(const io::XmlNode& inertial) {
 
 }  // namespace
 
-std::array<Eigen::Matrix3d, 7> bodyInertias(std::string_view bytes, const std::string& file,
-                                            const std::string& base_link, const std::string& flange_link) {
+PerBody<Eigen::Matrix3d> bodyInertias(std::string_view bytes, const std::string& file, const std::string& base_link,
+                                      const std::string& flange_link) {
   const UrdfModel model(file, bytes);
   const Robot robot = parseUrdf(bytes, file, base_link, flange_link);
-  std::array<Eigen::Matrix3d, 7> inertias;
-  inertias.fill(Eigen::Matrix3d::Zero());
+  PerBody<Eigen::Matrix3d> inertias(robot.bodies.size(), Eigen::Matrix3d::Zero());
   for (const LinkFrame& frame : robot.links) {
     const auto inertial = model.link(frame.name).child("inertial");
     if (!inertial) continue;

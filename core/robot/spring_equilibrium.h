@@ -5,7 +5,7 @@
 namespace stiffscope::robot {
 
 struct SpringEquilibrium {
-  Vector6d angles;       ///< rad
+  JointVector angles;       ///< rad
   bool settled = false;  ///< within the change asked for
 };
 
@@ -13,11 +13,11 @@ struct SpringEquilibrium {
 /// is small against the posture, so each step leaves about a hundredth of the last change. Ends where a step
 /// changes no angle by `least_change`, rad, or more.
 template <class TorqueAt>
-SpringEquilibrium springEquilibrium(const Vector6d& q, const Vector6d& compliance, int most_steps, double least_change,
+SpringEquilibrium springEquilibrium(const JointVector& q, const JointVector& compliance, int most_steps, double least_change,
                                     const TorqueAt& torqueAt) {
   SpringEquilibrium found{q};
   for (int step = 0; step < most_steps && !found.settled; ++step) {
-    const Vector6d next = q + compliance.cwiseProduct(torqueAt(found.angles));
+    const JointVector next = q + compliance.cwiseProduct(torqueAt(found.angles));
     found.settled = (next - found.angles).cwiseAbs().maxCoeff() < least_change;
     found.angles = next;
   }
