@@ -1,6 +1,7 @@
 #include "app/options.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
@@ -89,6 +90,19 @@ std::optional<int> loadStepNamed(const std::string& step, const std::string& als
         (also.empty() ? "expected the number of one load step" : "expected a load step's number") + also);
   }
   return number;
+}
+
+JointVector anglesGiven(const std::string& option, const std::vector<double>& angles) {
+  if (angles.size() < static_cast<std::size_t>(kFewestJoints) || angles.size() > static_cast<std::size_t>(kMostJoints))
+    throw io::InputError({option}, fmt::format("{}", fmt::join(angles, ",")),
+                         fmt::format("expected the angles of all joints, {} to {}", kFewestJoints, kMostJoints));
+  return JointVector::Map(angles.data(), static_cast<Eigen::Index>(angles.size()));
+}
+
+void requireJointCount(const std::string& option, const std::vector<double>& angles, int joints) {
+  if (angles.empty() || angles.size() == static_cast<std::size_t>(joints)) return;
+  throw io::InputError({option}, fmt::format("{}", fmt::join(angles, ",")),
+                       fmt::format("expected {} angles, one for each joint of the machine", joints));
 }
 
 namespace {

@@ -35,6 +35,7 @@ int Prediction::deliver(const std::vector<compensation::CompensatedPosture>& row
   const std::optional<identification::ShownFirst>& first = found_.shown_first;
   const std::vector<identification::Method> methods{found_.method};
   std::vector<std::string> cautions = reports::words(result.cautions);
+  for (const Remark& note : compensation::jointCountRemarks(rows)) cautions.push_back(reports::words(note));
   for (const Remark& caution : compensation::implausibleCommands(rows)) cautions.push_back(reports::words(caution));
   outlet.deliver(
       [&] {

@@ -1,5 +1,6 @@
 #include "app/prepared.h"
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <utility>
@@ -26,10 +27,12 @@ void requireLoad(const campaign::Campaign& campaign) {
 
 void requireCommanded(const campaign::Campaign& campaign, calibration::JointAngles angles) {
   if (angles == calibration::JointAngles::reported) return;
-  const std::array<bool, 6> given = calibration::commandedJoints(campaign);
+  const PerJoint<bool> given = calibration::commandedJoints(campaign);
   if (std::any_of(given.begin(), given.end(), [](bool one) { return one; })) return;
   throw io::InputError({"--angles"}, "commanded",
-                       "no joint has a commanded angle (c1_deg to c6_deg of `states`) in every unloaded posture");
+                       fmt::format("no joint has a commanded angle (c1_deg to c{}_deg of `states`) in every unloaded "
+                                   "posture",
+                                   campaign.robot.joints()));
 }
 
 preparation::PreparedCampaign openPrepared(const std::string& folder_or_xml, bool raw, campaign::Hashes hashes) {

@@ -93,11 +93,12 @@ void add(const campaign::TableLayout<Row>& layout, campaign::Campaign& campaign,
 
 py::dict tablesOf(campaign::Campaign campaign) {
   campaign::anglesToFigures(campaign);
+  const int joints = campaign.robot.joints();
   py::dict tables;
-  add(campaign::circleSweepsLayout(), campaign, campaign.circle_sweeps, tables);
-  add(campaign::wristSweepLayout(), campaign, campaign.wrist_sweep, tables);
+  add(campaign::circleSweepsLayout(joints), campaign, campaign.circle_sweeps, tables);
+  add(campaign::wristSweepLayout(joints), campaign, campaign.wrist_sweep, tables);
   add(campaign::loadingLayout(), campaign, campaign.loading, tables);
-  add(campaign::statesLayout(), campaign, campaign.states, tables);
+  add(campaign::statesLayout(joints), campaign, campaign.states, tables);
   add(campaign::displacementsLayout(), campaign, campaign.displacements, tables);
   add(campaign::nestsLayout(), campaign, campaign.nests, tables);
   return tables;

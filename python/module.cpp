@@ -110,9 +110,12 @@ std::vector<compensation::PostureToCompensate> posturesOf(const std::vector<std:
   for (std::size_t i = 0; i < postures.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
     postures[i].id = ids.at(i);
-    for (Eigen::Index j = 0; j < 6; ++j) {
+    postures[i].q.resize(q_deg.cols());
+    for (Eigen::Index j = 0; j < q_deg.cols(); ++j) {
       postures[i].q[j] =
           checked(q_deg(row, j), campaign::CellKind::degree, {"postures", i + 1, fmt::format("q{}_deg", j + 1)});
+    }
+    for (Eigen::Index j = 0; j < wrenches.cols(); ++j) {
       postures[i].wrench_in_cell[j] =
           checked(wrenches(row, j), j < 3 ? campaign::CellKind::newton : campaign::CellKind::newton_metre,
                   {"wrenches", i + 1, kWrench[static_cast<std::size_t>(j)]});
@@ -174,6 +177,7 @@ PYBIND11_MODULE(_core, module) {
       .def_property_readonly("name", [](const OpenedCampaign& it) { return it.read().name; })
       .def_property_readonly("date", [](const OpenedCampaign& it) { return it.read().date; })
       .def_property_readonly("robot", [](const OpenedCampaign& it) { return it.read().robot.name; })
+      .def_property_readonly("joints", [](const OpenedCampaign& it) { return it.read().robot.joints(); })
       .def_property_readonly("postures", [](const OpenedCampaign& it) { return it.read().pose_ids; })
       .def("tables", [](const OpenedCampaign& it) { return tablesOf(it.read()); });
 

@@ -64,6 +64,12 @@ std::vector<ReportCampaign> ofKind(const std::vector<ReportCampaign>& campaigns,
   return some;
 }
 
+int mostJointsOf(const std::vector<ReportCampaign>& campaigns) {
+  int most = 0;
+  for (const ReportCampaign& one : campaigns) most = std::max(most, one.campaign.robot.joints());
+  return most;
+}
+
 comparison::SupportedModels supportedModels(const extended_model::ExtendedModel* before,
                                             const extended_model::ExtendedModel* after) {
   if (before == nullptr || after == nullptr) return {};

@@ -44,6 +44,9 @@ DayKind kindOf(const ReportCampaign& one);
 bool anyOfKind(const std::vector<ReportCampaign>& campaigns, DayKind kind);
 std::vector<ReportCampaign> ofKind(const std::vector<ReportCampaign>& campaigns, DayKind kind);
 
+/// Of the machine that has most: tables of several campaigns have a row a joint.
+int mostJointsOf(const std::vector<ReportCampaign>& campaigns);
+
 /// The two days' models for a comparison; none where a day has none.
 comparison::SupportedModels supportedModels(const extended_model::ExtendedModel* before,
                                             const extended_model::ExtendedModel* after);

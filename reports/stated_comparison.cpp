@@ -17,6 +17,11 @@ std::string differenceOfStatedMachines(const StatedCampaign& before, const State
     return fmt::format("the machines differ: {} before, {} after", before.robot, after.robot);
   if (!before.serial.empty() && !after.serial.empty() && before.serial != after.serial)
     return fmt::format("the machines differ: serial number {} before, {} after", before.serial, after.serial);
+  for (std::size_t m = 0; m < before.compliances.size(); ++m) {
+    const std::size_t joints = before.compliances[m].size(), joints_after = after.compliances[m].size();
+    if (joints > 0 && joints_after > 0 && joints != joints_after)
+      return fmt::format("the machines differ: {} joints before, {} after", joints, joints_after);
+  }
   if (before.links.empty() || after.links.empty()) return {};
   if (before.links.size() != after.links.size())
     return fmt::format("the machines differ: {} joints before, {} after", before.links.size() + 1,

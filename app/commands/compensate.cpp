@@ -24,7 +24,7 @@ std::vector<compensation::PostureToCompensate> posturesOf(const CompensateReques
   if (request.postures) return *request.postures;
   if (request.postures_file.empty()) return compensation::campaignPostures(campaign, step);
   std::vector<std::string> warnings;
-  const auto read = compensation::readPostures(request.postures_file, warnings);
+  const auto read = compensation::readPostures(request.postures_file, campaign.robot.joints(), warnings);
   for (const std::string& warning : warnings) outlet.warn(warning);
   return read;
 }
@@ -84,7 +84,7 @@ void addCompensate(CLI::App& app, Run& run) {
   command->add_option("CAMPAIGN", arguments->campaign, "campaign folder or its campaign.xml")->required();
   CLI::Option* postures = command->add_option(
       "--postures", arguments->postures.postures_file,
-      "CSV with pose, q1_deg..q6_deg and the load-cell reading fx_n..mz_nm expected there; without it the "
+      "CSV with pose, q1_deg..qN_deg and the load-cell reading fx_n..mz_nm expected there; without it the "
       "campaign's own");
   CLI::Option* program =
       command
@@ -131,7 +131,9 @@ void addCompensate(CLI::App& app, Run& run) {
       ->add_flag("--turn-free", arguments->motion.turn_free,
                  "the tool may turn about its axis although the path has quaternions")
       ->needs(path);
-  addSix(*command, "--start", arguments->motion.start, "joint angles (deg) near the first pose: the branch to stay on")
+  command
+      ->add_option("--start", arguments->motion.start, "joint angles (deg) near the first pose: the branch to stay on")
+      ->delimiter(',')
       ->needs(path);
   command
       ->add_option("--load-sd-percent", arguments->motion.prediction.load_sd_percent,

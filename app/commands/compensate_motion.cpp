@@ -9,6 +9,7 @@
 
 #include "app/computations.h"
 #include "app/figures/path_figures.h"
+#include "app/options.h"
 #include "app/prediction.h"
 #include "core/campaign/joint_reading.h"
 #include "core/compensation/compensate.h"
@@ -147,14 +148,14 @@ void addTargetLoads(const MotionRequest& request, Prediction& prediction,
 double roundingOf(const interchange::TaughtProgram& program, const campaign::JointConvention& convention,
                   Prediction& prediction, const std::vector<compensation::CompensatedPosture>& rows) {
   const robot::Robot& arm = prediction.arm().geometry.arm;
-  const auto tcpAt = [&](const Vector6d& q) -> Eigen::Vector3d {
+  const auto tcpAt = [&](const JointVector& q) -> Eigen::Vector3d {
     return robot::flangeAt(arm, robot::postureAt(arm, q)) * prediction.arm().tcp_in_flange;
   };
   double most = 0.0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (!rows[i].solved) continue;
     const double unit = io::kDegree * std::pow(10.0, -interchange::decimalsOfTarget(program, i));
-    const Vector6d written =
+    const JointVector written =
         convention.figures(rows[i].commands).unaryExpr([&](double figure) { return std::round(figure / unit) * unit; });
     most = std::max(most, (tcpAt(convention.angles(written)) - tcpAt(rows[i].commands)).norm());
   }
@@ -168,17 +169,25 @@ int compensateProgram(const MotionRequest& request, const CampaignSource& source
   if (request.wrench.empty() == request.wrenches.empty())
     throw io::InputError({"--program"}, request.program,
                          "expected the load: --wrench for all targets, or --wrenches by their names");
-  const interchange::TaughtProgram program = interchange::readTaughtProgram(request.program);
-  Prediction prediction(source, request.prediction);
-  const campaign::JointConvention convention(prediction.campaign().joint_readings);
+  interchange::TaughtProgram program;
+  // The machine says how many joints a target has; identifying it takes long and comes last.
+  const CampaignSource with_program{source.name, [&] {
+                                      auto opened = source.open();
+                                      program = interchange::readTaughtProgram(request.program,
+                                                                               opened->campaign.robot.joints());
+                                      return opened;
+                                    }};
+  Prediction prediction(with_program, request.prediction);
+  const campaign::JointConvention convention(prediction.campaign().joint_readings,
+                                             prediction.campaign().robot.joints());
   std::vector<compensation::PostureToCompensate> targets;
   for (const interchange::JointSample& sample : program.log.samples)
     targets.push_back({sample.name, convention.angles(sample.figures)});
   addTargetLoads(request, prediction, targets, outlet);
   const std::vector<compensation::CompensatedPosture> rows = prediction.compensate(targets);
-  std::vector<std::optional<Vector6d>> figures;
+  std::vector<std::optional<JointVector>> figures;
   for (const compensation::CompensatedPosture& row : rows)
-    figures.push_back(row.solved ? std::optional<Vector6d>(convention.figures(row.commands)) : std::nullopt);
+    figures.push_back(row.solved ? std::optional<JointVector>(convention.figures(row.commands)) : std::nullopt);
   if (compensation::summaryOf(rows).compensated > 0) {
     io::requireNotRead(request.out);
     io::writeFileWhole(request.out, interchange::withFigures(program, figures));
@@ -212,7 +221,7 @@ toolpath::PathJob pathJob(const MotionRequest& request, const Outlet& outlet) {
   job.flange_from_tool = frameOf(request.tool);
   job.base_from_workpiece = frameOf(request.workpiece);
   job.turn_free = job.path.turn_free || request.turn_free;
-  if (!request.start.empty()) job.joints.start = sixOf(request.start) * io::kDegree;
+  if (!request.start.empty()) job.joints.start = anglesGiven("--start", request.start) * io::kDegree;
   if (!request.cutting.empty()) job.load.cutting = cuttingOf(request.cutting);
   const int loads = int(job.path.has_wrenches) + int(!request.wrench.empty()) + int(!request.cutting.empty());
   if (loads != 1)
@@ -235,7 +244,12 @@ toolpath::PathJob pathJob(const MotionRequest& request, const Outlet& outlet) {
 
 int compensatePath(const MotionRequest& request, const CampaignSource& source, const Outlet& outlet) {
   const toolpath::PathJob job = pathJob(request, outlet);
-  Prediction prediction(source, request.prediction);
+  const CampaignSource counted{source.name, [&] {
+                                 auto opened = source.open();
+                                 requireJointCount("--start", request.start, opened->campaign.robot.joints());
+                                 return opened;
+                               }};
+  Prediction prediction(counted, request.prediction);
   const toolpath::CompensatedPath path = toolpath::compensatePath(prediction.arm(), job);
   const std::vector<compensation::CompensatedPosture> rows = path.postures();
   if (!request.out.empty()) {

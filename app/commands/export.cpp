@@ -45,7 +45,7 @@ std::optional<robot::Robot> sweptArm(const campaign::Campaign& campaign) {
   if (!swept.points_placed) return std::nullopt;
   const Eigen::Isometry3d base_from_r0 = swept.r0_from_base_link.inverse();
   robot::Robot arm = campaign.robot;
-  for (std::size_t j = 0; j < 6; ++j) {
+  for (std::size_t j = 0; j < arm.axes_in_base_at_zero.size(); ++j) {
     const metrology::Line& axis = swept.arm.axes_in_base_at_zero[j];
     arm.axes_in_base_at_zero[j] = {base_from_r0 * axis.point, base_from_r0.linear() * axis.direction};
   }

@@ -46,14 +46,19 @@ workspace::WorkspaceOptions optionsOf(const StiffnessArguments& arguments) {
   }
   std::vector<std::string> warnings;
   if (!arguments.offsets.empty()) options.offsets = workspace::readOffsets(arguments.offsets, warnings);
-  if (!arguments.workpiece.empty()) {
-    for (const compensation::PostureToCompensate& one : compensation::readPostures(arguments.workpiece, warnings))
-      options.workpiece.push_back({one.id, one.q});
-    if (options.workpiece.empty())
-      throw io::InputError({arguments.workpiece}, "", "expected at least one posture of the workpiece");
-  }
   printWarnings(warnings);
   return options;
+}
+
+/// The postures of the workpiece, of a machine of so many joints.
+std::vector<workspace::NamedPosture> workpieceIn(const std::string& file, int joints) {
+  std::vector<std::string> warnings;
+  std::vector<workspace::NamedPosture> postures;
+  for (const compensation::PostureToCompensate& one : compensation::readPostures(file, joints, warnings))
+    postures.push_back({one.id, one.q});
+  if (postures.empty()) throw io::InputError({file}, "", "expected at least one posture of the workpiece");
+  printWarnings(warnings);
+  return postures;
 }
 
 void drawSlice(const std::string& file, const campaign::Campaign& campaign, const frames::Frames& frames,
@@ -65,13 +70,15 @@ void drawSlice(const std::string& file, const campaign::Campaign& campaign, cons
 
 int stiffnessOf(const StiffnessArguments& arguments) {
   const MethodAndStep choice = methodAndStep(arguments.method, arguments.step);
-  const workspace::WorkspaceOptions options = optionsOf(arguments);
+  workspace::WorkspaceOptions options = optionsOf(arguments);
   requireOwnFiles({{"--csv", arguments.csv},
                    {"--placements", arguments.placements},
                    {"--picture", arguments.picture},
                    {"--json", arguments.json}});
   const preparation::PreparedCampaign prepared =
       openPrepared(arguments.campaign, arguments.raw, hashesFor(arguments.json));
+  if (!arguments.workpiece.empty())
+    options.workpiece = workpieceIn(arguments.workpiece, prepared.campaign.robot.joints());
   Identified found = identifiedBy(prepared, arguments.campaign, arguments.model, choice);
   const campaign::Campaign& campaign = found.campaign(prepared);
   workspace::WorkspaceStiffness stiffness;
@@ -82,7 +89,7 @@ int stiffnessOf(const StiffnessArguments& arguments) {
   }
   if (!arguments.csv.empty()) {
     io::requireNotRead(arguments.csv);
-    io::writeFileWhole(arguments.csv, reports::csvTable(reports::stiffnessPlaces(stiffness, true, true)));
+    io::writeFileWhole(arguments.csv, reports::csvTable(reports::stiffnessPlaces(stiffness, campaign.robot.joints(), true, true)));
   }
   if (!arguments.placements.empty()) {
     io::requireNotRead(arguments.placements);

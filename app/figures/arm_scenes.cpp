@@ -22,16 +22,16 @@ namespace {
 
 /// A point on each axis, all joints at zero: a chain that looks like the arm for any place of the axes' own
 /// points.
-std::array<Eigen::Vector3d, 6> jointPointsAtZero(const robot::Robot& arm, const Eigen::Vector3d& foot) {
-  std::array<Eigen::Vector3d, 6> points;
-  points[0] = metrology::nearestPoint(arm.axes_in_base_at_zero[0], foot);
-  for (std::size_t i = 1; i < 6; ++i) points[i] = metrology::nearestPoint(arm.axes_in_base_at_zero[i], points[i - 1]);
+PerJoint<Eigen::Vector3d> jointPointsAtZero(const robot::Robot& arm, const Eigen::Vector3d& foot) {
+  PerJoint<Eigen::Vector3d> points;
+  for (const metrology::Line& axis : arm.axes_in_base_at_zero)
+    points.push_back(metrology::nearestPoint(axis, points.empty() ? foot : points.back()));
   return points;
 }
 
 /// The three rows of a point out of A c; empty where the method does not have them.
 std::optional<Eigen::Vector3d> predicted(const std::vector<identification::CaseEquations>& rows, std::size_t index,
-                                         std::size_t point, const Vector6d& compliance) {
+                                         std::size_t point, const JointVector& compliance) {
   if (index >= rows.size()) return std::nullopt;
   const auto row = static_cast<Eigen::Index>(3 * point);
   if (row + 3 > rows[index].matrix.rows()) return std::nullopt;
@@ -48,8 +48,8 @@ render::ArmPose bareArm(const frames::Frames& frames, const robot::ArmPosture& p
   const robot::Robot& arm = frames.arm.arm;
   const Eigen::Vector3d up(0.0, 0.0, heightOfR0(frames));  // from R0's origin to the scene's
   render::ArmPose pose;
-  const auto points = jointPointsAtZero(arm, -up);
-  for (int joint = 0; joint < 6; ++joint) {
+  const PerJoint<Eigen::Vector3d> points = jointPointsAtZero(arm, -up);
+  for (int joint = 0; joint < arm.joints(); ++joint) {
     const auto j = static_cast<std::size_t>(joint);
     pose.joint_points.push_back(posture.motion[j] * points[j] + up);
     pose.axis_directions.push_back(robot::axisAt(arm, posture, joint).direction);

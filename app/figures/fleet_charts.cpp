@@ -74,7 +74,7 @@ reports::Figure controlFigure(const fleet::Fleet& fleet, const fleet::SeriesChar
   chart.subtitle = reports::longName(charts.method) + ", joint springs alone" +
                    (charts.same_postures ? "" : "; postures are not the same on all dates");
   chart.columns = 3;
-  for (std::size_t joint = 0; joint < 6; ++joint) {
+  for (std::size_t joint = 0; joint < charts.joints.size(); ++joint) {
     if (!charts.joints[joint].points.empty()) chart.diagrams.push_back(controlPanel(fleet, charts, joint));
   }
   if (chart.diagrams.empty()) return {};

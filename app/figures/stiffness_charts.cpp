@@ -15,6 +15,10 @@ namespace stiffscope::app {
 
 namespace {
 
+int jointsOf(const identification::Identification& result) {
+  return static_cast<int>(result.identifiability.joints.size());
+}
+
 render::Interval intervalOf(const identification::StiffnessEstimate& estimate, int joint) {
   if (!estimate.identifiable[static_cast<std::size_t>(joint)]) return {};
   const double value = estimate.stiffness(joint),
@@ -27,7 +31,7 @@ render::Interval intervalOf(const identification::StiffnessEstimate& estimate, i
 std::string disagreement(const identification::Identification& result) {
   double worst = 0.0;
   int at = -1;
-  for (int joint = 0; joint < 6; ++joint) {
+  for (int joint = 0; joint < jointsOf(result); ++joint) {
     std::vector<double> values;
     for (const identification::Method method : identification::kMethods) {
       const identification::MethodResult& one = result.of(method);
@@ -54,7 +58,7 @@ render::IntervalChart stiffnessIntervals(const reports::ReportCampaign& one) {
   chart.y_title = "Stiffness (Nm/rad)";
   chart.category_title = "Joint";
   chart.logarithmic = true;
-  for (int joint = 0; joint < 6; ++joint) {
+  for (int joint = 0; joint < jointsOf(one.identification); ++joint) {
     const bool seen = one.identification.identifiability.joints[static_cast<std::size_t>(joint)].identifiable;
     chart.categories.push_back(reports::jointName(joint) + (seen ? "" : ": not seen"));
   }
@@ -62,7 +66,7 @@ render::IntervalChart stiffnessIntervals(const reports::ReportCampaign& one) {
     const identification::MethodResult& result = one.identification.of(method);
     if (!result.available) continue;
     render::IntervalSeries series{reports::longName(method), colourOf(method), {}};
-    for (int joint = 0; joint < 6; ++joint) {
+    for (int joint = 0; joint < jointsOf(one.identification); ++joint) {
       series.intervals.push_back(intervalOf(result.estimate, joint));
       if (series.intervals.back().doubtful) chart.doubtful_name = "negative or imprecise";
     }
@@ -73,7 +77,7 @@ render::IntervalChart stiffnessIntervals(const reports::ReportCampaign& one) {
 
 reports::Figure describeStiffnessIntervals(const reports::ReportCampaign& one) {
   std::vector<std::string> unseen;
-  for (int joint = 0; joint < 6; ++joint) {
+  for (int joint = 0; joint < jointsOf(one.identification); ++joint) {
     const bool seen = one.identification.identifiability.joints[static_cast<std::size_t>(joint)].identifiable;
     if (!seen) unseen.push_back(reports::jointName(joint));
   }
@@ -138,14 +142,14 @@ render::SpreadChart subsetSpreads(const reports::ReportCampaign& one, bool with_
     methods.push_back(method);
     chart.methods.push_back({reports::longName(method), colourOf(method)});
   }
-  for (int joint = 0; joint < 6; ++joint) {
+  for (int joint = 0; joint < jointsOf(one.identification); ++joint) {
     render::SpreadPanel panel;
     panel.title = reports::jointName(joint);
     for (const identification::Method method : methods)
       panel.spreads.push_back(spreadIn(one.identification.of(method), joint, unit));
     for (const identification::Method method : methods) {
       if (!with_paper) break;
-      const auto paper = reports::paperStiffness(one.campaign.double_encoder, method, joint);
+      const auto paper = reports::paperStiffness(one.campaign, method, joint);
       const double mean = paper ? paper->mean * reports::kMega / unit.size : 0.0;
       const bool drawn = paper && fits(panel, mean);
       panel.references.push_back(drawn ? std::optional<double>(mean) : std::nullopt);
@@ -168,7 +172,7 @@ reports::Figure describeSubsetSpreads(const reports::ReportCampaign& one) {
   for (const identification::Method method : identification::kMethods) {
     double widest = 0.0;
     int at = -1;
-    for (int joint = 0; joint < 6; ++joint) {
+    for (int joint = 0; joint < jointsOf(one.identification); ++joint) {
       const identification::MethodResult& result = one.identification.of(method);
       if (!hasSpread(result, joint)) continue;
       const identification::StiffnessSpread spread = identification::spreadOf(result.subsets, joint);

@@ -20,7 +20,7 @@ frames::RigidPoints rigidSweeps(const reports::ReportCampaign& one) {
   const frames::Frames& frames = one.identification.frames;
   const auto shown = reports::shownMethod(one.identification);
   if (!frames.sag_removed || !shown) return frames::rigidPoints(one.campaign, {});
-  const Vector6d& compliance = one.identification.of(*shown).geometry.compliance;
+  const JointVector& compliance = one.identification.of(*shown).geometry.compliance;
   return frames::rigidPoints(one.campaign,
                              frames::SagModel(frames.arm.arm, frames.weight, compliance, frames.targets_in_r0_at_zero,
                                               frames.arm.r0_from_points.inverse()));
@@ -108,7 +108,7 @@ std::optional<render::PointChart> sweepCircles(const reports::ReportCampaign& on
   chart.note = "A ring a reflector; rings are not to scale, residuals are, by the bar. Angle zero is at the right.";
   chart.columns = 3;
   std::size_t most = 0;
-  for (int axis = 0; axis < 6; ++axis) {
+  for (int axis = 0; axis < static_cast<int>(one.identification.frames.axes.size()); ++axis) {
     if (one.identification.frames.axes[static_cast<std::size_t>(axis)].measured)
       chart.shapes.push_back(circlePanel(one, points, axis, most));
   }

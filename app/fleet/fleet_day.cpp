@@ -49,7 +49,7 @@ void keepAudit(const audit::AuditReport& report, CampaignResult& result) {
 fleet::SpringsOfDay springsOf(const Identification& springs, identification::Method method) {
   const identification::MethodResult& own = springs.of(method);
   const identification::StiffnessEstimate& estimate = own.estimate;
-  fleet::SpringsOfDay kept;
+  fleet::SpringsOfDay kept(estimate.joints());
   if (!own.available || estimate.influences.size() != springs.cases.size() || !estimate.covariance.allFinite())
     return kept;
   kept.available = true;
@@ -67,7 +67,7 @@ void keepIdentification(const campaign::Campaign& campaign, const Identification
   result.method = reports::shownMethod(model);
   if (result.method) {
     const identification::MethodResult& shown = model.of(*result.method);
-    for (std::size_t j = 0; j < 6; ++j) {
+    for (std::size_t j = 0; j < result.stiffness.size(); ++j) {
       if (!shown.estimate.identifiable[j]) continue;
       const auto interval = identification::stiffnessInterval(shown.estimate, static_cast<int>(j));
       result.stiffness[j] = {shown.estimate.stiffness(static_cast<int>(j)), interval.low, interval.high};
@@ -125,7 +125,7 @@ CampaignResult fleetDay(const std::string& folder, bool springs_only) {
   const preparation::PreparedCampaign prepared =
       preparation::prepareCampaign(openCampaign(folder, campaign::Hashes::left));
   const campaign::Campaign& campaign = prepared.campaign;
-  CampaignResult result;
+  CampaignResult result(campaign.robot.joints());
   result.name = campaign.name, result.date = campaign.date, result.robot = campaign.robot.name;
   result.encoders = campaign.double_encoder;
   keepAudit(audit::audit(prepared), result);
@@ -158,7 +158,7 @@ fleet::PairResult fleetPair(const std::string& before, const std::string& after)
   };
   const preparation::PreparedCampaign first = prepared(before), second = prepared(after);
   const comparison::GeometryChange change = comparison::compareGeometry(first.campaign, second.campaign);
-  fleet::PairResult result;
+  fleet::PairResult result(second.campaign.robot.joints());
   result.kind = fleet::DayKind::unloaded;
   result.reason = reports::words(change.reason);
   if (!result.reason.empty()) return result;

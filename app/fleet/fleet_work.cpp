@@ -283,7 +283,7 @@ fleet::Fleet fleetFrom(const FleetRequest& request, const std::vector<FoundCampa
     if (pair.result) continue;
     const auto json = readResult(fileOf(pair));
     if (json && json->contains("result"))
-      pair.result = reports::keptPair(json->at("result"));
+      pair.result = reports::keptPair(json->at("result"), campaigns[pair.after].result->joints());
     else
       pair.failure = json ? json->at("failure").get<std::string>() : readMessage(fileOf(pair)).value_or("");
   }

@@ -215,7 +215,7 @@ ViewMaterial sweepMaterial(const campaign::Campaign& campaign, const frames::Fra
   }
   const Eigen::Isometry3d scene_from_points = Eigen::Translation3d(0.0, 0.0, heightOfR0(frames)) * *r0_from_points;
   const std::vector<Circle> circles = circlesOf(*campaign.circle_sweeps);
-  for (int axis = 0; axis < 6; ++axis) {
+  for (int axis = 0; axis < static_cast<int>(frames.axes.size()); ++axis) {
     const auto of_axis =
         std::find_if(circles.begin(), circles.end(), [&](const Circle& circle) { return circle.axis == axis; });
     if (of_axis == circles.end()) continue;
@@ -247,7 +247,8 @@ frames::LoadingGeometry shownGeometry(const campaign::Campaign& campaign,
     if (identified.of(method).available) return identified.of(method).geometry;
   }
   const identification::MethodResult& partial = identified.of(identification::Method::partial_pose);
-  const Vector6d sag = partial.available ? Vector6d(partial.estimate.compliance.cwiseMax(0.0)) : Vector6d::Zero();
+  const JointVector sag = partial.available ? JointVector(partial.estimate.compliance.cwiseMax(0.0))
+                                            : JointVector(JointVector::Zero(campaign.robot.joints()));
   frames::LoadingGeometry swept = frames::sweptGeometry(campaign, identified.frames, sag);
   if (partial.available && identification::loadCases(campaign, swept, identified.step).empty()) return partial.geometry;
   return swept;
@@ -271,7 +272,7 @@ std::vector<identification::CaseEquations> alignedRows(const std::vector<identif
 
 identification::Identification underLoadStep(const campaign::Campaign& campaign,
                                              const identification::Identification& identified, int step) {
-  identification::Identification other;
+  identification::Identification other(campaign.robot.joints());
   other.step = step;
   other.steps = {step};
   other.frames = identified.frames;

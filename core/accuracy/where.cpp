@@ -93,11 +93,12 @@ std::vector<Part> quarters(const std::vector<Left>& left, const char* format, do
 }
 
 /// What a turn of each joint alone explains of a posture's residuals. Several can explain the same: their shares are
-/// those of what all six together explain, in proportion to what each does alone.
+/// those of what all together explain, in proportion to what each does alone.
 diagnosis::WhereTable byJoint(const UnloadedDay& day, const ArmFit& fit, const std::vector<Left>& left,
                               double all_squares) {
   const calibration::FittedDay fitted(day, fit);
-  std::array<Part, 6> parts;
+  const int joints = day.arm.joints();
+  std::vector<Part> named(static_cast<std::size_t>(joints));
   double together = 0.0;
   for (std::size_t from = 0; from < left.size();) {
     std::size_t end = from;
@@ -105,24 +106,25 @@ diagnosis::WhereTable byJoint(const UnloadedDay& day, const ArmFit& fit, const s
     const calibration::Posture& posture = day.postures[left[from].posture];
     const frames::PlacedPosture placed(fitted.arm(), fitted.anglesOf(posture));
     const auto rows = 3 * static_cast<Eigen::Index>(end - from);
-    Eigen::MatrixXd by_angles(rows, 6);
-    Eigen::VectorXd residual(rows), noise = Eigen::VectorXd::Zero(6);
+    Eigen::MatrixXd by_angles(rows, joints);
+    Eigen::VectorXd residual(rows), noise = Eigen::VectorXd::Zero(joints);
     for (std::size_t k = from; k < end; ++k) {
       const auto row = 3 * static_cast<Eigen::Index>(k - from);
-      const Matrix36d own = placed.byAngles(left[k].at);
+      const PointJacobian own = placed.byAngles(left[k].at);
       by_angles.middleRows<3>(row) = own;
       residual.segment<3>(row) = left[k].residual;
       noise += (own.transpose() * left[k].covariance * own).diagonal();
     }
     const Eigen::VectorXd product = by_angles.transpose() * residual, square = by_angles.colwise().squaredNorm();
-    for (std::size_t j = 0; j < 6; ++j) {
+    for (std::size_t j = 0; j < named.size(); ++j) {
       const auto at = static_cast<Eigen::Index>(j);
-      if (square[at] > 0.0) parts[j].add(product[at] * product[at] / square[at], noise[at] / square[at], 1.0);
+      if (square[at] > 0.0) named[j].add(product[at] * product[at] / square[at], noise[at] / square[at], 1.0);
     }
-    together += residual.dot(Eigen::VectorXd(by_angles * leastSquaresSolution(by_angles, residual)));
+    // Of more than six joints there is always a turn that nothing shows, which rounding must not fill.
+    constexpr double kNotSeen = 1e-9;
+    together += residual.dot(Eigen::VectorXd(by_angles * leastSquaresSolution(by_angles, residual, kNotSeen)));
     from = end;
   }
-  std::vector<Part> named(parts.begin(), parts.end());
   double alone = 0.0;
   for (std::size_t j = 0; j < named.size(); ++j) {
     named[j].name = fmt::format("joint {}", j + 1);

@@ -106,13 +106,14 @@ std::vector<Remark> unansweredBy(const std::set<std::string>& made, std::span<co
 std::optional<Remark> tooFewToCalibrate(const AuditInput& input) {
   constexpr double kSamePosture = 1e-3;  // rad: nearer ones say the same of the geometry, however often they are read
   struct Posture {
-    Vector6d q;
+    JointVector q;
     std::set<int> targets;
   };
-  std::map<std::pair<int, int>, Vector6d> angles;
+  std::map<std::pair<int, int>, JointVector> angles;
   if (input.campaign.states)
     for (const campaign::State& row : input.campaign.states->rows) angles.emplace(std::pair(row.pose, row.step), row.q);
-  const std::size_t parameters = 24 + 3 * input.campaign.targets.size();
+  const std::size_t parameters =
+      4 * input.campaign.robot.axes_in_base_at_zero.size() + 3 * input.campaign.targets.size();
   std::vector<Posture> different;
   std::size_t coordinates = 0;
   for (const campaign::StatePoints& state : input.states) {

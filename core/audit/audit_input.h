@@ -18,21 +18,25 @@ namespace stiffscope::audit {
 /// What one posture's unloaded reflectors say about its reported joint angles, after the common fit.
 struct PostureReadBack {
   int pose = 0;
-  Vector6d correction = Vector6d::Zero();    ///< angles that would put the reflectors where they are, rad
-  Vector6d significance = Vector6d::Zero();  ///< each in parts of its uncertainty by the reading noise
-  int joint = 0;                             ///< that explains most on its own
-  double joint_correction = 0.0;             ///< of that joint alone, rad
-  double sag_doubt = 0.0;                    ///< of that joint: what a wrong sag could put there, rad
-  double explained = 0.0;                    ///< share of the posture's misfit that joint angles explain
-  double score = 0.0;                        ///< largest significance in parts of the campaign's own scatter
-  bool outlier = false;                      ///< score beyond its limit, and more than the sag leaves in doubt
+  JointVector correction;         ///< angles that would put the reflectors where they are, rad
+  JointVector significance;       ///< each in parts of its uncertainty by the reading noise
+  int joint = 0;                  ///< that explains most on its own
+  double joint_correction = 0.0;  ///< of that joint alone, rad
+  double sag_doubt = 0.0;         ///< of that joint: what a wrong sag could put there, rad
+  double explained = 0.0;         ///< share of the posture's misfit that joint angles explain
+  double score = 0.0;             ///< largest significance in parts of the campaign's own scatter
+  bool outlier = false;           ///< score beyond its limit, and more than the sag leaves in doubt
+
+  /// Of an arm of so many joints, whose angles are right as far as is known.
+  PostureReadBack(int of_pose, int joints)
+      : pose(of_pose), correction(JointVector::Zero(joints)), significance(correction) {}
 };
 
 /// Unloaded absolute positions against forward kinematics in the swept geometry, with the arm's own sag. In
 /// R0.
 ///
 /// One weighted linear least squares in: a rigid shift of the loading against the sweeps (free), the
-/// reflectors' places (free), the six axes (4 parameters each, held by the covariance of their sweeps) and
+/// reflectors' places (free), the axes (4 parameters each, held by the covariance of their sweeps) and
 /// the compliances by which the own weight sags (held to a stated share). Postures whose joint angles stand
 /// apart are left out.
 struct AbsoluteFit {

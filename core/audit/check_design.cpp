@@ -60,7 +60,7 @@ Findings checkPostureSet(const AuditInput& input) {
   std::vector<std::size_t> seen;
   std::vector<Remark> missing;
   bool expected_missing = false;
-  for (std::size_t j = 0; j < 6; ++j) {
+  for (std::size_t j = 0; j < judged.joints.size(); ++j) {
     const identification::JointIdentifiability& joint = judged.joints[j];
     check.details.push_back(described(j, joint));
     if (joint.identifiable) {

@@ -179,13 +179,13 @@ struct Loaded {
 };
 
 /// Turns a reading into axes of the flange where the cell's own do not turn with it.
-Eigen::Matrix3d toolFromCell(const campaign::Campaign& campaign, const Vector6d& q) {
+Eigen::Matrix3d toolFromCell(const campaign::Campaign& campaign, const JointVector& q) {
   const campaign::LoadCell& cell = *campaign.load_cell;
   const std::string& link = cell.axes_link ? *cell.axes_link : cell.parent;
   const Eigen::Matrix3d turned =
       cell.axes_link ? Eigen::Matrix3d::Identity() : Eigen::Matrix3d(cell.parent_from_cell.linear());
   for (const robot::LinkFrame& frame : campaign.robot.links) {
-    if (frame.name != link || frame.body == 6) continue;
+    if (frame.name != link || frame.body == campaign.robot.joints()) continue;
     const robot::ArmPosture posture = robot::postureAt(campaign.robot, q);
     const Eigen::Matrix3d base_from_link =
         posture.motion[static_cast<std::size_t>(frame.body)].linear() * frame.base_from_link_at_zero.linear();

@@ -142,7 +142,7 @@ DeclaredNoise judgeTracker(const AuditInput& input) {
             judged.evidence);
   }
   NoiseSum short_sweeps;  // of few readings: together
-  for (std::size_t axis = 0; axis < 6; ++axis) {
+  for (std::size_t axis = 0; axis < input.frames.axes.size(); ++axis) {
     const metrology::AxisFit& fit = input.frames.axes[axis].fit;
     if (!input.frames.axes[axis].measured || !fit.determined) continue;
     const NoiseSum sum = over(fit.chi2_per_dof * fit.degrees_of_freedom, fit.degrees_of_freedom);

@@ -203,8 +203,8 @@ double longestLever(const identification::LoadedArm& arm) {
   double longest = 0.0;
   for (const identification::LoadCase& load_case : arm.cases) {
     for (const identification::TargetMove& move : load_case.targets) {
-      const Matrix6d jacobian = robot::jacobianAt(load_case.axes, move.unloaded);
-      longest = std::max(longest, jacobian.topRows<3>().colwise().norm().maxCoeff());
+      const PointJacobian jacobian = robot::pointJacobianAt(load_case.axes, move.unloaded);
+      longest = std::max(longest, jacobian.colwise().norm().maxCoeff());
     }
   }
   return longest;

@@ -65,19 +65,20 @@ class Causes {
   std::vector<std::size_t> running_;
 };
 
-preparation::AuditCheck residualCheck(const AuditInput& input, const std::array<std::vector<SweptCircle>, 6>& axes) {
+preparation::AuditCheck residualCheck(const AuditInput& input, const SweptCircles& axes) {
   preparation::AuditCheck check;
   check.id = "circle_residual";
   check.limit_source = preparation::byChance(Remark(LimitId::chi_square_of_axes));
   check.value = 0.0;
   std::vector<Remark> beyond;
   Causes causes;
-  for (std::size_t axis = 0; axis < 6; ++axis) {
+  for (std::size_t axis = 0; axis < axes.size(); ++axis) {
     const frames::MeasuredAxis& measured = input.frames.axes[axis];
     const metrology::AxisFit& fit = measured.fit;
     if (!fit.determined) continue;
     const double limit =
-        numerics::chiSquareLimit(preparation::kLevel / 6.0, fit.degrees_of_freedom) / fit.degrees_of_freedom;
+        numerics::chiSquareLimit(preparation::kLevel / static_cast<double>(axes.size()), fit.degrees_of_freedom) /
+        fit.degrees_of_freedom;
     const double ratio = std::sqrt(fit.chi2_per_dof);
     const WorstReading worst = worstReading(measured, axes[axis]);
     const std::string row = campaign::rowName(input.campaign.circle_sweeps->file, worst.line);
@@ -117,7 +118,7 @@ const metrology::AxisCircle& widest(const metrology::AxisFit& fit) {
 }
 
 /// Farthest that any swept reflector stands from the axis it turns about: the reach over which a tilt works.
-double reachOf(const std::array<frames::MeasuredAxis, 6>& axes) {
+double reachOf(const frames::MeasuredAxes& axes) {
   double reach = 0.0;
   for (const frames::MeasuredAxis& axis : axes) {
     if (axis.fit.determined) reach = std::max(reach, widest(axis.fit).radius);
@@ -157,13 +158,13 @@ preparation::AuditCheck arcCheck(const frames::MeasuredAxis& axis, std::size_t n
   return check;
 }
 
-preparation::AuditCheck countCheck(const std::array<std::vector<SweptCircle>, 6>& axes, const std::string& file) {
+preparation::AuditCheck countCheck(const SweptCircles& axes, const std::string& file) {
   preparation::AuditCheck check;
   check.id = "circle_count";
   check.limit = kLeastCircleReadings;
   check.limit_source = Remark(LimitId::circle_redundancy);
   std::size_t least = SIZE_MAX;
-  for (std::size_t axis = 0; axis < 6; ++axis) {
+  for (std::size_t axis = 0; axis < axes.size(); ++axis) {
     for (const SweptCircle& circle : axes[axis]) {
       if (circle.lines.size() >= least) continue;
       least = circle.lines.size();
@@ -188,7 +189,7 @@ Findings checkCircleSweeps(const AuditInput& input) {
   const auto axes = sweptCircles(input);
   const double reach = reachOf(input.frames.axes);
   Findings findings;
-  for (std::size_t axis = 0; axis < 6; ++axis) {
+  for (std::size_t axis = 0; axis < axes.size(); ++axis) {
     const frames::MeasuredAxis& measured = input.frames.axes[axis];
     if (measured.fit.determined) {
       findings.push_back(arcCheck(measured, axis, reach, static_cast<int>(axes[axis].front().lines.size())));
@@ -264,7 +265,7 @@ Findings checkSweepAngles(const AuditInput& input) {
   check.id = "sweep_angles";
   check.limit = kLimit;
   check.limit_source = Remark(LimitId::turns_as_reported);
-  for (int axis = 0; axis < 6; ++axis) {
+  for (int axis = 0; axis < input.campaign.robot.joints(); ++axis) {
     const frames::MeasuredAxis& measured = input.frames.axes[static_cast<std::size_t>(axis)];
     if (!measured.measured || measured.fit.circles.empty()) continue;
     // One reflector may have been hidden over a part of the way that others were read on.
@@ -305,8 +306,8 @@ double largestSd(double arc, int readings) {
 
 }  // namespace
 
-std::array<std::vector<SweptCircle>, 6> sweptCircles(const AuditInput& input) {
-  std::array<std::vector<SweptCircle>, 6> axes;
+SweptCircles sweptCircles(const AuditInput& input) {
+  SweptCircles axes(input.campaign.robot.axes_in_base_at_zero.size());
   if (!input.campaign.circle_sweeps) return axes;
   const auto& rows = input.campaign.circle_sweeps->rows;
   for (std::size_t i = 0; i < rows.size(); ++i) {

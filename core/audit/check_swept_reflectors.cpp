@@ -43,12 +43,12 @@ double disagreement(const metrology::MeasuredLine& common, const metrology::Axis
   return mahalanobisSquared(Eigen::VectorXd(difference), covariance);
 }
 
-preparation::AuditCheck agreementCheck(const AuditInput& input, const std::array<std::vector<SweptCircle>, 6>& axes) {
+preparation::AuditCheck agreementCheck(const AuditInput& input, const SweptCircles& axes) {
   preparation::AuditCheck check;
   check.id = "axis_agreement";
   double worst = 0.0;
   int pairs = 0;
-  for (std::size_t axis = 0; axis < 6; ++axis) {
+  for (std::size_t axis = 0; axis < axes.size(); ++axis) {
     const frames::MeasuredAxis& measured = input.frames.axes[axis];
     if (!measured.fit.determined) continue;
     std::vector<std::pair<std::size_t, metrology::AxisFit>> own;
@@ -81,14 +81,14 @@ preparation::AuditCheck agreementCheck(const AuditInput& input, const std::array
   return check;
 }
 
-preparation::AuditCheck onAxisCheck(const AuditInput& input, const std::array<std::vector<SweptCircle>, 6>& axes) {
+preparation::AuditCheck onAxisCheck(const AuditInput& input, const SweptCircles& axes) {
   preparation::AuditCheck check;
   check.id = "reflector_on_axis";
   check.limit = kReflectorRadius;
   check.limit_source = Remark(LimitId::reflector_radius);
   double least = INFINITY;
   std::vector<Remark> names, near;
-  for (std::size_t axis = 0; axis < 6; ++axis) {
+  for (std::size_t axis = 0; axis < axes.size(); ++axis) {
     const metrology::AxisFit& fit = input.frames.axes[axis].fit;
     if (!fit.determined) continue;
     for (std::size_t k = 0; k < axes[axis].size(); ++k) {

@@ -20,7 +20,7 @@ namespace stiffscope::audit {
 
 namespace {
 
-constexpr Eigen::Index kCentre = 3, kAxes = 12;
+constexpr Eigen::Index kCentre = 3;
 
 /// One reading: radial distance less the model's, its derivatives, its standard deviation. The derivative by its
 /// reflector's radius is 1, by the others' 0.
@@ -28,13 +28,13 @@ struct Row {
   double residual = 0.0, sd = 0.0;
   int target = 0;
   Eigen::RowVector3d by_centre;
-  Eigen::Matrix<double, 1, kAxes> by_axes;
+  Eigen::RowVectorXd by_axes;  ///< four an axis of the wrist
 
   Eigen::RowVectorXd jacobian(Eigen::Index targets) const {
-    Eigen::RowVectorXd all = Eigen::RowVectorXd::Zero(kCentre + targets + kAxes);
+    Eigen::RowVectorXd all = Eigen::RowVectorXd::Zero(kCentre + targets + by_axes.size());
     all.head<kCentre>() = by_centre;
     all[kCentre + target] = 1.0;
-    all.tail<kAxes>() = by_axes;
+    all.tail(by_axes.size()) = by_axes;
     return all;
   }
 };
@@ -45,6 +45,7 @@ std::vector<Row> rowsOf(const AuditInput& input) {
   const robot::Robot& arm = frames.arm.arm;
   const frames::WristCentre& wrist = frames.wrist;
   const frames::PlacedArm placed(frames::sweptAxes(frames, arm.axes_in_base_at_zero));
+  const int carrying = robot::armJointsOf(arm.joints()), of_wrist = 4 * robot::wristJointsOf(arm.joints());
   std::vector<Row> rows;
   rows.reserve(sweep.rows.size());
   for (std::size_t i = 0; i < sweep.rows.size(); ++i) {
@@ -53,8 +54,8 @@ std::vector<Row> rowsOf(const AuditInput& input) {
     if (!at_zero) continue;
     const Eigen::Vector3d from_centre = frames.arm.r0_from_points * input.rigid.wrist_sweep[i] - wrist.centre_in_r0;
     const robot::ArmPosture posture = robot::postureAt(arm, reading.q);
-    const Eigen::Vector3d centre = posture.motion[3] * wrist.centre_at_zero_in_r0;
-    const Eigen::Vector3d modelled = posture.motion[6] * *at_zero;
+    const Eigen::Vector3d centre = posture.motion[static_cast<std::size_t>(carrying)] * wrist.centre_at_zero_in_r0;
+    const Eigen::Vector3d modelled = posture.motion.back() * *at_zero;
     const Eigen::Vector3d radial = from_centre.normalized();
     const Eigen::Vector3d seen = frames.arm.r0_from_points.linear().transpose() * radial;
     Row row;
@@ -62,9 +63,9 @@ std::vector<Row> rowsOf(const AuditInput& input) {
     row.sd = std::sqrt(seen.dot(input.noise->covarianceAt(reading.point) * seen));
     row.target = reading.target;
     row.by_centre = radial.transpose();
-    // Axes 4 to 6 do not move the centre.
+    // The wrist's axes do not move the centre.
     row.by_axes = (modelled - centre).normalized().transpose() *
-                  frames::PlacedPosture(placed, posture).byAxes(modelled).rightCols<kAxes>();
+                  frames::PlacedPosture(placed, posture).byAxes(modelled).rightCols(of_wrist);
     rows.push_back(row);
   }
   return rows;
@@ -72,11 +73,12 @@ std::vector<Row> rowsOf(const AuditInput& input) {
 
 /// Normal matrix of the prior on the axes.
 Eigen::MatrixXd priorOf(const frames::Frames& frames, Eigen::Index targets) {
-  const Eigen::Index at = kCentre + targets;
-  Eigen::MatrixXd prior = Eigen::MatrixXd::Zero(at + kAxes, at + kAxes);
-  for (Eigen::Index j = 0; j < 3; ++j) {
-    prior.block<4, 4>(at + 4 * j, at + 4 * j) =
-        frames.axes[static_cast<std::size_t>(3 + j)].at_zero.covariance.inverse();
+  const int joints = frames.arm.arm.joints(), carrying = robot::armJointsOf(joints);
+  const Eigen::Index at = kCentre + targets, size = at + 4 * robot::wristJointsOf(joints);
+  Eigen::MatrixXd prior = Eigen::MatrixXd::Zero(size, size);
+  for (int j = carrying; j < joints; ++j) {
+    const Eigen::Index place = at + 4 * (j - carrying);
+    prior.block<4, 4>(place, place) = frames.axes[static_cast<std::size_t>(j)].at_zero.covariance.inverse();
   }
   return prior;
 }
@@ -122,6 +124,13 @@ WristResiduals wristResiduals(const AuditInput& input) {
 
 namespace {
 
+/// A remark that names the wrist's first and last joint after `its` other values.
+template <class Id, class... Values>
+Remark ofWrist(const AuditInput& input, Id id, Values... its) {
+  const int joints = input.campaign.robot.joints();
+  return Remark(id, its..., robot::armJointsOf(joints) + 1, joints);
+}
+
 preparation::AuditCheck sphereCheck(const AuditInput& input) {
   const WristResiduals left = wristResiduals(input);
   preparation::AuditCheck check;
@@ -129,7 +138,7 @@ preparation::AuditCheck sphereCheck(const AuditInput& input) {
   if (left.dof <= 0) return preparation::notTestable(check.id, Remark(MissingId::few_wrist_readings));
   check.value = std::sqrt(left.chi2 / left.dof);
   check.limit = std::sqrt(numerics::chiSquareLimit(preparation::kLevel, left.dof) / left.dof);
-  check.limit_source = preparation::byChance(Remark(LimitId::chi_square_held_axes, left.dof));
+  check.limit_source = preparation::byChance(ofWrist(input, LimitId::chi_square_held_axes, left.dof));
   const auto says = [&](std::vector<Remark> more) {
     return Remark(RemarkId::wrist_residuals, input.frames.wrist.spheres.rms, left.rms, *check.value, std::move(more));
   };
@@ -142,12 +151,12 @@ preparation::AuditCheck sphereCheck(const AuditInput& input) {
   return check;
 }
 
-/// Share of P_wrist's displacement that turning in joints 4-6 puts there; empty without loads, or where the
+/// Share of P_wrist's displacement that turning in the wrist's joints puts there; empty without loads, or where the
 /// axes meet exactly.
 std::optional<double> leakOf(const AuditInput& input) {
   identification::LoadedArm arm = input.arm;
   if (arm.wrist.empty()) return std::nullopt;
-  const Vector6d compliance = identification::sagCompliance(input.campaign, {}, arm);
+  const JointVector compliance = identification::sagCompliance(input.campaign, {}, arm);
   const double leak = identification::wristLeak(arm, input.frames.wrist.centre_at_zero_in_r0, compliance);
   return leak > 0.0 ? std::optional(leak) : std::nullopt;
 }
@@ -157,33 +166,37 @@ preparation::AuditCheck missCheck(const AuditInput& input) {
   const std::optional<double> leak = leakOf(input);
   preparation::AuditCheck check;
   check.id = "wrist_axes_meet";
-  const bool first = wrist.miss_45 >= wrist.miss_56;
-  const double sd = first ? wrist.miss_45_sd : wrist.miss_56_sd;
-  check.value = std::max(wrist.miss_45, wrist.miss_56);
+  const frames::WristAxesMiss& worst = *std::max_element(
+      wrist.misses.begin(), wrist.misses.end(),
+      [](const frames::WristAxesMiss& a, const frames::WristAxesMiss& b) { return a.distance < b.distance; });
+  check.value = worst.distance;
   const double bearable =
       leak ? *check.value * identification::kWristLeakBorne / *leak : identification::TrustLimits().position;
-  check.limit = std::max(bearable, numerics::normalLimit(preparation::kLevel / 2.0) * sd);
-  check.where = first ? Remark(RemarkId::at_axes, 4, 5) : Remark(RemarkId::at_axes, 5, 6);
-  check.limit_source = Remark(leak ? LimitId::leak_that_decoupling_bears : LimitId::places_or_sweeps);
+  check.limit = std::max(
+      bearable, numerics::normalLimit(preparation::kLevel / static_cast<double>(wrist.misses.size())) * worst.sd);
+  check.where = Remark(RemarkId::at_axes, worst.first + 1, worst.first + 2);
+  check.limit_source = leak ? ofWrist(input, LimitId::leak_that_decoupling_bears) : Remark(LimitId::places_or_sweeps);
   std::vector<Remark> more;
-  if (leak) more.push_back(Remark(RemarkId::wrist_leak, *leak));
+  if (leak) more.push_back(ofWrist(input, RemarkId::wrist_leak, *leak));
   if (*check.value > *check.limit) {
     check.verdict = preparation::AuditVerdict::warn;
     more.push_back(Remark(RemarkId::decoupling_needs_one_point));
   }
+  std::vector<double> figures;
+  for (const frames::WristAxesMiss& miss : wrist.misses) figures.insert(figures.end(), {miss.distance, miss.sd});
   check.message =
-      Remark(RemarkId::wrist_axes_miss,
-             std::vector<double>{wrist.miss_45, wrist.miss_45_sd, wrist.miss_56, wrist.miss_56_sd}, std::move(more));
+      Remark(RemarkId::wrist_axes_miss, std::move(figures), std::move(more), wrist.misses.front().first + 1);
   return check;
 }
 
 }  // namespace
 
 Findings checkWrist(const AuditInput& input) {
-  const Remark not_swept(MissingId::wrist_axes_not_swept);
+  const Remark not_swept = ofWrist(input, MissingId::wrist_axes_not_swept);
   const frames::WristCentre& wrist = input.frames.wrist;
   const auto& axes = input.frames.axes;
-  const bool swept = axes[3].measured && axes[4].measured && axes[5].measured;
+  const bool swept = std::all_of(axes.end() - robot::wristJointsOf(input.campaign.robot.joints()), axes.end(),
+                                 [](const frames::MeasuredAxis& axis) { return axis.measured; });
   Findings findings;
   if (!wrist.measured) {
     findings.push_back(preparation::notTestable("wrist_sphere", wrist.reason));

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "core/audit/audit_input.h"
@@ -21,7 +20,8 @@ struct SweptCircle {
 };
 
 /// Circles of each axis in the order in which MeasuredAxis has them.
-std::array<std::vector<SweptCircle>, 6> sweptCircles(const AuditInput& input);
+using SweptCircles = PerJoint<std::vector<SweptCircle>>;
+SweptCircles sweptCircles(const AuditInput& input);
 
 /// Standard uncertainty of an axis, the larger of its two directions.
 struct AxisUncertainty {
@@ -90,7 +90,7 @@ Findings checkReturnToZero(const AuditInput& input);
 /// tare, gravity_direction, moment_lever.
 Findings checkLoadCell(const AuditInput& input);
 
-/// load_size: force over displacement, against what six-axis arms give (core/identification/warnings.h).
+/// load_size: force over displacement, against what arms give (core/identification/warnings.h).
 /// Fails where no arm is like that.
 Findings checkLoadSize(const AuditInput& input);
 

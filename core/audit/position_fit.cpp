@@ -84,39 +84,60 @@ Normal sumUp(const frames::AbsoluteRows& rows, const Weights& weights) {
   return normal;
 }
 
-constexpr Eigen::Index kShiftAt = frames::ArmParameters::kBaseAt;
+Eigen::Index shiftAt(const frames::AbsoluteRows& rows) { return frames::ArmParameters(rows.joints).baseAt(); }
 
-double leastSquares(Normal normal, bool shift_held) {
-  if (shift_held) {
-    normal.matrix.middleRows<6>(kShiftAt).setZero();
-    normal.matrix.middleCols<6>(kShiftAt).setZero();
-    normal.matrix.block<6, 6>(kShiftAt, kShiftAt).setIdentity();
-    normal.right.segment<6>(kShiftAt).setZero();
+/// The sum of squares that is left; `held`: with the six parameters of the shift from there on at zero.
+double leastSquares(Normal normal, std::optional<Eigen::Index> held = {}) {
+  if (held) {
+    normal.matrix.middleRows<6>(*held).setZero();
+    normal.matrix.middleCols<6>(*held).setZero();
+    normal.matrix.block<6, 6>(*held, *held).setIdentity();
+    normal.right.segment<6>(*held).setZero();
   }
   return normal.squares - normal.right.dot(Eigen::VectorXd(solveSymmetric(normal.matrix, normal.right)));
 }
 
 constexpr double kSigmas = 3.0;  // of the share to which the sag is trusted
 
+/// Joint angles by their normal equations, and the standard deviation of each. More joints than a body has freedoms
+/// always leave a turn that no reflector shows; it takes no part, whatever rounding says of it.
+struct SolvedAngles {
+  JointVector angles, sd;
+};
+
+SolvedAngles solveAngles(const JointMatrix& normal, const JointVector& right) {
+  constexpr Eigen::Index kFreedoms = 6;
+  if (right.size() <= kFreedoms)
+    return {leastSquaresSolution(normal, right), pseudoInverse(normal).diagonal().cwiseMax(0.0).cwiseSqrt()};
+  constexpr double kNotSeen = 1e-12;  // of the largest eigenvalue, a square
+  const SymmetricEigen eigen = symmetricEigen(normal);
+  Eigen::VectorXd inverse = Eigen::VectorXd::Zero(right.size());
+  for (Eigen::Index k = 0; k < right.size(); ++k) {
+    if (eigen.values[k] > kNotSeen * eigen.values[right.size() - 1]) inverse[k] = 1.0 / eigen.values[k];
+  }
+  const Eigen::MatrixXd covariance = eigen.vectors * inverse.asDiagonal() * eigen.vectors.transpose();
+  return {covariance * right, covariance.diagonal().cwiseMax(0.0).cwiseSqrt()};
+}
+
 /// Joint angles of one posture from what the fit leaves of its reflectors.
 PostureReadBack readBackOf(const std::vector<const frames::AbsoluteRow*>& rows, const Eigen::VectorXd& parameters) {
-  PostureReadBack result;
-  result.pose = rows.front()->pose;
-  Matrix6d normal = Matrix6d::Zero();
-  Vector6d right = Vector6d::Zero();
-  Vector6d sag = Vector6d::Zero();
+  const Eigen::Index joints = rows.front()->sag.size();
+  PostureReadBack result(rows.front()->pose, static_cast<int>(joints));
+  JointMatrix normal = JointMatrix::Zero(joints, joints);
+  JointVector right = JointVector::Zero(joints);
+  const JointVector& sag = rows.front()->sag;  // the same in all rows of a posture
   double squares = 0.0;
   for (const frames::AbsoluteRow* row : rows) {
-    sag = row->sag;
     const Eigen::Vector3d left = row->residual - row->jacobian * parameters;
     normal += row->by_angles.transpose() * row->weight * row->by_angles;
     right += row->by_angles.transpose() * row->weight * left;
     squares += left.dot(row->weight * left);
   }
-  result.correction = leastSquaresSolution(normal, right);
-  const Vector6d sd = pseudoInverse(normal).diagonal().cwiseMax(0.0).cwiseSqrt();
+  const SolvedAngles solved = solveAngles(normal, right);
+  const JointVector& sd = solved.sd;
+  result.correction = solved.angles;
   double best = -1.0;
-  for (int j = 0; j < 6; ++j) {
+  for (int j = 0; j < joints; ++j) {
     result.significance[j] = sd[j] > 0.0 ? result.correction[j] / sd[j] : 0.0;
     const double alone = normal(j, j) > 0.0 ? right[j] * right[j] / normal(j, j) : 0.0;
     if (alone <= best) continue;
@@ -136,7 +157,7 @@ std::vector<PostureReadBack> readBacks(const frames::AbsoluteRows& rows, const E
   std::vector<PostureReadBack> postures;
   for (const int pose : rows.poses) {
     const auto own = by_pose.find(pose);
-    postures.push_back(own == by_pose.end() ? PostureReadBack{pose} : readBackOf(own->second, parameters));
+    postures.push_back(own == by_pose.end() ? PostureReadBack(pose, rows.joints) : readBackOf(own->second, parameters));
   }
   return postures;
 }
@@ -178,10 +199,10 @@ Eigen::VectorXd robustFit(const frames::AbsoluteRows& rows) {
 
 /// Scores against the campaign's own scatter of each joint (median absolute deviation, never below the
 /// reading noise), because geometry errors put more than noise into every posture.
-void scorePostures(std::vector<PostureReadBack>& postures, double limit) {
+void scorePostures(int joints, double limit, std::vector<PostureReadBack>& postures) {
   constexpr double kMadOfNormal = 1.4826;  // median absolute deviation to standard deviation
   for (PostureReadBack& posture : postures) posture.score = 0.0;
-  for (int j = 0; j < 6; ++j) {
+  for (int j = 0; j < joints; ++j) {
     std::vector<double> values;
     for (const PostureReadBack& posture : postures) values.push_back(posture.significance[j]);
     const double middle = numerics::upperMedian(values);
@@ -198,20 +219,21 @@ void scorePostures(std::vector<PostureReadBack>& postures, double limit) {
 
 /// Limit of a score: Student's t, the median absolute deviation being worth 0.37 of its sample (its
 /// efficiency).
-double scoreLimit(std::size_t postures) {
+double scoreLimit(int joints, std::size_t postures) {
   const double count = static_cast<double>(postures);
-  return numerics::studentLimit(preparation::kLevel / (6.0 * count), std::max(1.0, 0.37 * (count - 1.0)));
+  return numerics::studentLimit(preparation::kLevel / (joints * count), std::max(1.0, 0.37 * (count - 1.0)));
 }
 
 void describe(const frames::AbsoluteRows& rows, const Weights& weights, AbsoluteFit& fit) {
   const Normal normal = sumUp(rows, weights);
   const Eigen::VectorXd parameters = solveSymmetric(normal.matrix, normal.right);
-  fit.shift = -parameters.segment<6>(kShiftAt);  // what the readings' motion takes back
+  const Eigen::Index shift_at = shiftAt(rows);
+  fit.shift = -parameters.segment<6>(shift_at);  // what the readings' motion takes back
   const Eigen::Index size = normal.right.size();
-  fit.shift_covariance = solveSymmetric(normal.matrix, Eigen::MatrixXd::Identity(size, size).middleCols<6>(kShiftAt))
-                             .middleRows<6>(kShiftAt);
-  fit.chi2 = leastSquares(normal, false);
-  fit.shift_chi2 = leastSquares(normal, true) - fit.chi2;
+  fit.shift_covariance = solveSymmetric(normal.matrix, Eigen::MatrixXd::Identity(size, size).middleCols<6>(shift_at))
+                             .middleRows<6>(shift_at);
+  fit.chi2 = leastSquares(normal);
+  fit.shift_chi2 = leastSquares(normal, shift_at) - fit.chi2;
   fit.positions = normal.rows / 3;
   fit.dof = normal.rows - 6 - 3 * rows.targets;
   for (const frames::AbsoluteRow& row : rows.rows) {
@@ -242,9 +264,9 @@ AbsoluteFit fitAbsolutePositions(const campaign::Campaign& campaign, const frame
     fit.reason = Remark(MissingId::few_unloaded_postures, rows.poses.size(), kLeastPostures);
     return fit;
   }
-  fit.score_limit = scoreLimit(rows.poses.size());
+  fit.score_limit = scoreLimit(rows.joints, rows.poses.size());
   fit.postures = readBacks(rows, robustFit(rows));
-  scorePostures(fit.postures, fit.score_limit);
+  scorePostures(rows.joints, fit.score_limit, fit.postures);
   Weights weights = equalWeights(rows);
   for (const PostureReadBack& posture : fit.postures) {
     if (posture.outlier) weights[static_cast<std::size_t>(posture.pose)] = 0.0;

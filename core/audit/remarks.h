@@ -100,8 +100,8 @@ enum class RemarkId {
   // wrist_sphere, wrist_axes_meet.
   wrist_residuals,    ///< rms m, of it without the axes' missing each other m, in parts of the noise, more
   wrist_reading_off,  ///< row
-  wrist_axes_miss,    ///< axes 4 and 5, their sd, axes 5 and 6, their sd, all in m; more
-  wrist_leak,         ///< share of the displacement
+  wrist_axes_miss,    ///< of each two that follow each other: distance, its sd, m; more; the first axis of them
+  wrist_leak,         ///< share of the displacement; first and last joint of the wrist
   decoupling_needs_one_point,
 
   // frame_moved, unloaded_positions, joint_read_back.
@@ -169,7 +169,7 @@ enum class LimitId {
   chi_square,               ///< degrees of freedom
   chi_square_and_states,    ///< degrees of freedom
   chi_square_and_postures,  ///< degrees of freedom
-  chi_square_held_axes,     ///< degrees of freedom
+  chi_square_held_axes,     ///< degrees of freedom; first and last axis of the wrist
   chi_square_of_axes,
   chi_square_of_pairs,  ///< pairs of reflectors
   chi_square_of_tare,
@@ -187,7 +187,7 @@ enum class LimitId {
   turns_as_reported,
   reflector_radius,
   built_to_drawing,
-  leak_that_decoupling_bears,
+  leak_that_decoupling_bears,  ///< first and last joint of the wrist
   places_or_sweeps,
   turn_at_lever,  ///< longest lever, m
   load_cell_axes,
@@ -233,7 +233,7 @@ enum class MissingId {
   no_two_reflectors_off_axis,
   no_two_reflectors_in_states,
   few_wrist_readings,
-  wrist_axes_not_swept,
+  wrist_axes_not_swept,  ///< first and last
   no_readings_of_arm,
   few_loads_of_model,
   no_controller_poses,

@@ -10,8 +10,6 @@
 
 namespace stiffscope::calibration {
 
-using frames::ArmParameters;
-
 namespace {
 
 constexpr double kMedianChi2Of3 = 2.365974;  // of a chi-square variable with three degrees of freedom
@@ -34,7 +32,7 @@ class Fitting {
     prior_ = Eigen::VectorXd::Zero(fit_.steps.size() + fit_.sizes.size());
     constexpr double kAnywhere = 1.0;  // m and rad: base and reflectors, found by the start to millimetres
     prior_.head(fit_.steps.size()).setConstant(1.0 / (kAnywhere * kAnywhere));
-    for (Eigen::Index k = 0; k < ArmParameters::kAxes; ++k) {
+    for (Eigen::Index k = 0; k < fit_.places().axes(); ++k) {
       const double sd = k % 4 < 2 ? kAxisShiftPrior : kAxisTiltPrior;
       prior_[k] = 1.0 / (sd * sd);
     }
@@ -111,7 +109,8 @@ class Fitting {
   FitSum sums() {
     if (!fit_.free.empty()) return sums_.over(fit_, visited_, fit_.free, distances_);
     std::vector<int> all;
-    for (int k = options_.axes ? 0 : ArmParameters::kBaseAt; k < static_cast<int>(count()); ++k) all.push_back(k);
+    for (int k = options_.axes ? 0 : static_cast<int>(fit_.places().baseAt()); k < static_cast<int>(count()); ++k)
+      all.push_back(k);
     return sums_.over(fit_, visited_, all, distances_);
   }
 
@@ -122,8 +121,9 @@ class Fitting {
     fit_.free.clear();
     fit_.held.clear();
     std::vector<int> order;
-    for (int k = ArmParameters::kBaseAt; k < static_cast<int>(fit_.steps.size()); ++k) order.push_back(k);
-    for (int axis = 5; options_.axes && axis >= 0; --axis) {
+    for (int k = static_cast<int>(fit_.places().baseAt()); k < static_cast<int>(fit_.steps.size()); ++k)
+      order.push_back(k);
+    for (int axis = day_.arm.joints() - 1; options_.axes && axis >= 0; --axis) {
       for (int k = 0; k < 4; ++k) order.push_back(4 * axis + k);
     }
     const auto size = static_cast<Eigen::Index>(order.size());
@@ -145,7 +145,7 @@ class Fitting {
         lower(rank, rank) = std::sqrt(rest);
         ++rank;
         fit_.free.push_back(column);
-      } else if (column < ArmParameters::kAxes) {
+      } else if (column < fit_.places().axes()) {
         fit_.held.push_back(column);
       }
     }
@@ -342,14 +342,14 @@ ArmFit fitArm(const UnloadedDay& day, const ArmPlace& place, const std::vector<E
   for (const EffectPart& part : parts) terms += static_cast<Eigen::Index>(part.terms.size());
   fit.sizes = Eigen::VectorXd::Zero(terms);
   fit.refused.assign(static_cast<std::size_t>(terms), false);
-  fit.steps = Eigen::VectorXd::Zero(ArmParameters::count(day.targets.size()));
+  fit.steps = Eigen::VectorXd::Zero(fit.places().count(day.targets.size()));
   const double readings = static_cast<double>(std::max<std::size_t>(1, day.readings()));
   for (const Posture& posture : day.postures) {
     for (const Reading& reading : posture.readings) fit.centre += place.base_from_points * reading.point / readings;
   }
   if (from != nullptr) {
     fit.steps = from->steps;
-    if (!options.axes) fit.steps.head<ArmParameters::kAxes>().setZero();
+    if (!options.axes) fit.steps.head(fit.places().axes()).setZero();
     fit.model_sd = from->model_sd;
   }
   Fitting(day, options, fit).run(from != nullptr);

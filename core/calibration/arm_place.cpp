@@ -24,7 +24,7 @@ std::vector<Seen> seenReadings(const UnloadedDay& day, const std::vector<double>
   std::vector<Seen> all;
   std::size_t at = 0;
   for (const Posture& posture : day.postures) {
-    const Eigen::Isometry3d motion = robot::postureAt(day.arm, posture.q).motion[6];
+    const Eigen::Isometry3d motion = robot::postureAt(day.arm, posture.q).motion.back();
     for (const Reading& reading : posture.readings) {
       if (weights[at++] > 0.0) all.push_back({motion, reading.point, static_cast<std::size_t>(reading.target)});
     }

@@ -9,8 +9,6 @@
 
 namespace stiffscope::calibration {
 
-using frames::ArmParameters;
-
 namespace {
 
 /// All models of one set of postures.
@@ -129,7 +127,7 @@ std::vector<preparation::RejectedReading> rejectedOf(const campaign::Campaign& c
 
 std::vector<Remark> notIdentifiable(const ArmFit& fit) {
   std::vector<Remark> remarks;
-  for (int k = 0; k < ArmParameters::kAxes; ++k) {
+  for (int k = 0; k < fit.places().axes(); ++k) {
     const int axis = k / 4 + 1, which = k % 4;
     if (std::find(fit.held.begin(), fit.held.end(), k) != fit.held.end()) {
       // Base and joint 1's zero take all of axis 1 and two numbers of axis 2.
@@ -176,7 +174,8 @@ Calibration calibrateBy(const campaign::Campaign& campaign, const CalibrationOpt
     result.reason = Remark(RemarkId::no_unloaded_readings);
     return result;
   }
-  const Eigen::Index parameters = ArmParameters::count(day.targets.size()) - ArmParameters::kBase;
+  const Eigen::Index parameters =
+      frames::ArmParameters(day.arm.joints()).count(day.targets.size()) - frames::ArmParameters::kBase;
   if (3 * static_cast<Eigen::Index>(readings) <= parameters) {
     result.reason = Remark(RemarkId::too_few_readings, readings, parameters);
     return result;

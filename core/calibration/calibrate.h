@@ -20,8 +20,8 @@ namespace stiffscope::calibration {
 /// How well the fullest model predicts held-out postures from the reported joint angles and from the commanded ones. A
 /// smaller model would judge by what it lacks, which is often larger than the difference of the angles.
 struct AngleComparison {
-  std::array<bool, 6> joints{};  ///< which have commanded angles in every unloaded posture
-  double largest = 0.0;          ///< largest difference between the two, rad
+  PerJoint<bool> joints;  ///< which have commanded angles in every unloaded posture
+  double largest = 0.0;   ///< largest difference between the two, rad
   PositionErrors reported, commanded;
   /// Mean over the postures of how much larger the squared error with the reported angles is, over its own standard
   /// uncertainty: positive where the commanded ones fit better.

@@ -97,15 +97,16 @@ std::string calibratedUrdf(std::string_view bytes, const std::string& file, cons
   const Eigen::Isometry3d flange_moved =
       calibrated.base_from_flange_at_zero * nominal.base_from_flange_at_zero.inverse();
   Eigen::Isometry3d parent = Eigen::Isometry3d::Identity(), parent_as_built = Eigen::Isometry3d::Identity();
+  const std::size_t axes = nominal.axes_in_base_at_zero.size();
   std::size_t turning = 0;
   for (XMLElement* joint : chainOf(*document.RootElement(), base_link, flange_link)) {
     const Eigen::Isometry3d origin = originOf(*joint);
     const Eigen::Isometry3d as_built = parent_as_built * origin;
     Eigen::Isometry3d placed = parent * origin;
     const char* type = joint->Attribute("type");
-    if (type != nullptr && std::string_view(type) != "fixed" && turning < 6) {
+    if (type != nullptr && std::string_view(type) != "fixed" && turning < axes) {
       const metrology::Line& axis = calibrated.axes_in_base_at_zero[turning];
-      if (turning == 5) {
+      if (turning + 1 == axes) {
         placed = flange_moved * as_built;
       } else {
         const Eigen::Vector3d& direction = nominal.axes_in_base_at_zero[turning].direction;

@@ -29,7 +29,7 @@ double significanceOf(const UnloadedDay& day, const std::vector<double>& weights
 
 double largestDifference(const campaign::Campaign& campaign) {
   if (!campaign.states) return 0.0;
-  const std::array<bool, 6> joints = commandedJoints(campaign);
+  const PerJoint<bool> joints = commandedJoints(campaign);
   double largest = 0.0;
   for (const campaign::State& state : campaign.states->rows) {
     for (std::size_t j = 0; j < joints.size(); ++j) {

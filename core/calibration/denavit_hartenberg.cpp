@@ -75,16 +75,17 @@ Eigen::Isometry3d LinkParameters::at(double q) const {
   return motion;
 }
 
-Eigen::Isometry3d DenavitHartenberg::flangeAt(const Vector6d& q) const {
+Eigen::Isometry3d DenavitHartenberg::flangeAt(const JointVector& q) const {
   Eigen::Isometry3d frame = base_from_first;
   for (std::size_t i = 0; i < links.size(); ++i) frame = frame * links[i].at(q[static_cast<Eigen::Index>(i)]);
-  return frame * AngleAxisd(q[5], Vector3d::UnitZ()) * last_from_flange;
+  return frame * AngleAxisd(q[q.size() - 1], Vector3d::UnitZ()) * last_from_flange;
 }
 
 DenavitHartenberg denavitHartenberg(const robot::Robot& arm, const robot::Robot& nominal) {
   const auto& axes = arm.axes_in_base_at_zero;
   const auto& as_built = nominal.axes_in_base_at_zero;
   DenavitHartenberg result;
+  result.links.resize(axes.size() - 1);
   const auto firstFrame = [](const metrology::Line& axis) {
     Vector3d x = Vector3d::UnitX() - axis.direction * axis.direction.x();
     if (x.norm() < 0.5) x = Vector3d::UnitY() - axis.direction * axis.direction.y();

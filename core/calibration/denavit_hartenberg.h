@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <array>
 
 #include "core/robot/robot.h"
 
@@ -19,13 +18,13 @@ struct LinkParameters {
 };
 
 /// An arm by Denavit and Hartenberg's parameters:
-///   base_from_flange(q) = base_from_first * A_1(q_1) ... A_5(q_5) * Rz(q_6) * last_from_flange.
+///   base_from_flange(q) = base_from_first * A_1(q_1) ... A_n-1(q_n-1) * Rz(q_n) * last_from_flange.
 struct DenavitHartenberg {
   Eigen::Isometry3d base_from_first = Eigen::Isometry3d::Identity();
-  std::array<LinkParameters, 5> links;
+  PerJoint<LinkParameters> links;  ///< from axis to axis: one fewer than joints
   Eigen::Isometry3d last_from_flange = Eigen::Isometry3d::Identity();
 
-  Eigen::Isometry3d flangeAt(const Vector6d& q) const;
+  Eigen::Isometry3d flangeAt(const JointVector& q) const;
 };
 
 /// Parameters of an arm. Where a common perpendicular can point either way it points as the URDF's arm `nominal` has

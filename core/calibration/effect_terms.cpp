@@ -11,7 +11,7 @@ namespace stiffscope::calibration {
 
 namespace {
 
-using Angles = std::function<Vector6d(const Posture&)>;
+using Angles = std::function<JointVector(const Posture&)>;
 using Offset = std::function<Eigen::Vector3d(const Posture&, const ReflectorAt&)>;
 
 EffectTerm turning(std::string name, std::string unit, double most, Angles angles) {
@@ -28,7 +28,7 @@ std::string jointName(int joint) { return fmt::format("joint {}", joint + 1); }
 template <class Of>
 Angles onJoint(int joint, Of of) {
   return [joint, of](const Posture& posture) {
-    Vector6d angles = Vector6d::Zero();
+    JointVector angles = JointVector::Zero(posture.q.size());
     angles[joint] = of(posture);
     return angles;
   };
@@ -66,7 +66,7 @@ constexpr double kMostCompliance = 1e-3;  // rad/Nm: a joint of 1000 Nm/rad, sof
 std::vector<EffectPart> jointCompliances(const UnloadedDay& day) {
   std::vector<EffectPart> parts;
   if (!day.masses_known) return parts;
-  for (int j = 0; j < 6; ++j) {
+  for (int j = 0; j < day.arm.joints(); ++j) {
     EffectTerm term = turning(jointName(j), "rad/Nm", kMostCompliance,
                               onJoint(j, [j](const Posture& posture) { return posture.torque[j]; }));
     term.positive = true;
@@ -130,7 +130,7 @@ EffectPart wholeOf(UnloadedEffect effect, const std::vector<EffectPart>& parts) 
 std::vector<EffectPart> freeMomentTwists(const UnloadedDay& day) {
   constexpr double kMost = 1e-3;  // rad/(m/s^2): a hundredth of a radian by gravity
   std::vector<EffectPart> parts;
-  for (int j = 0; j < 6; ++j) {
+  for (int j = 0; j < day.arm.joints(); ++j) {
     EffectPart part{UnloadedEffect::joint_compliance, jointName(j), {}};
     for (std::size_t k = 0; k < day.free_moments.size(); ++k) {
       const FreeMoment& of = day.free_moments[k];
@@ -232,8 +232,8 @@ std::vector<EffectTerm> scaling(Of of, const std::string& when) {
 }
 
 /// From axis to axis: the links' directions with all joints at zero, as long as the links are.
-std::array<Eigen::Vector3d, 5> linksAtZero(const UnloadedDay& day) {
-  std::array<Eigen::Vector3d, 5> links;
+PerJoint<Eigen::Vector3d> linksAtZero(const UnloadedDay& day) {
+  PerJoint<Eigen::Vector3d> links(day.arm.axes_in_base_at_zero.size() - 1);
   for (std::size_t i = 0; i < links.size(); ++i)
     links[i] = day.arm.axes_in_base_at_zero[i + 1].point - day.arm.axes_in_base_at_zero[i].point;
   return links;
@@ -282,14 +282,14 @@ EffectFamily thermalGrowth(const UnloadedDay& day) {
   return family;
 }
 
-std::vector<EffectPart> ratioErrors() {
+std::vector<EffectPart> ratioErrors(int joints) {
   std::vector<EffectPart> parts;
   constexpr double kMostShare = 0.1;
-  for (int j = 0; j < 6; ++j) {
-    for (int of = 0; of < 6; ++of) {
+  const int wrist = robot::armJointsOf(joints);  // its first joint, from 0
+  for (int j = 0; j < joints; ++j) {
+    for (int of = 0; of < joints; ++of) {
       // A share of the next joint out or in, or of any other of the wrist: gears and parallelograms join these.
-      constexpr int kWrist = 3;
-      if (std::abs(of - j) > 1 && std::min(of, j) < kWrist) continue;
+      if (std::abs(of - j) > 1 && std::min(of, j) < wrist) continue;
       const std::string detail =
           of == j ? jointName(j) : fmt::format("joints {} and {}", std::min(of, j) + 1, std::max(of, j) + 1);
       parts.push_back({UnloadedEffect::ratio_error,
@@ -303,17 +303,18 @@ std::vector<EffectPart> ratioErrors() {
 
 EffectFamily backlash(const UnloadedDay& day) {
   EffectFamily family{UnloadedEffect::backlash};
-  for (int j = 0; j < 6; ++j) {
+  const int joints = day.arm.joints();
+  for (int j = 0; j < joints; ++j) {
     family.parts.push_back({family.effect,
                             jointName(j),
                             {turning(jointName(j), "rad", kMostJointError,
                                      onJoint(j, [j](const Posture& posture) { return posture.side[j]; }))}});
   }
-  for (EffectPart& part : family.parts) part.tried = 6;
+  for (EffectPart& part : family.parts) part.tried = joints;
   family.wholes.push_back(wholeOf(family.effect, family.parts));
   // Where more than its friction pulls on a joint the play stands on the side of the pull, wherever it came from. What
   // the friction is nobody says: shares of the day's postures stand on either side of it.
-  for (int j = 0; day.masses_known && j < 6; ++j) {
+  for (int j = 0; day.masses_known && j < joints; ++j) {
     std::vector<double> pulls;
     for (const Posture& posture : day.postures) pulls.push_back(std::abs(posture.torque[j]));
     std::sort(pulls.begin(), pulls.end());
@@ -333,14 +334,14 @@ EffectFamily backlash(const UnloadedDay& day) {
   return family;
 }
 
-EffectFamily readBackError() {
+EffectFamily readBackError(int joints) {
   EffectFamily family{UnloadedEffect::read_back_error};
   family.wholes.push_back(
       {family.effect, "", {turning("share of the last move", "rad/rad", kMostLag, [](const Posture& posture) {
          return posture.move;
        })}});
   EffectPart by_joint{family.effect, "", {}};
-  for (int j = 0; j < 6; ++j) {
+  for (int j = 0; j < joints; ++j) {
     by_joint.terms.push_back(turning("share of the last move of " + jointName(j), "rad/rad", kMostLag,
                                      onJoint(j, [j](const Posture& posture) { return posture.move[j]; })));
   }
@@ -386,9 +387,9 @@ std::vector<EffectFamily> effectFamilies(const UnloadedDay& day) {
     families.push_back(bendingFamily(day, effect));
   if (!twists.empty()) families.push_back(gravityCompensator(twists));
   families.push_back({UnloadedEffect::transmission_error});
-  families.push_back({UnloadedEffect::ratio_error, ratioErrors(), {}});
+  families.push_back({UnloadedEffect::ratio_error, ratioErrors(day.arm.joints()), {}});
   families.push_back(backlash(day));
-  families.push_back(readBackError());
+  families.push_back(readBackError(day.arm.joints()));
   families.push_back({UnloadedEffect::tracker_drift,
                       {},
                       wandering(UnloadedEffect::tracker_drift,

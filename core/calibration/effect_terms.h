@@ -56,8 +56,8 @@ struct EffectTerm {
   std::string name, unit;
   double most = 0.0;       ///< physical bound of its magnitude
   bool positive = false;   ///< a compliance: never negative
-  int compliance_of = -1;  ///< the joint (0..5) whose compliance about its axis this is; -1: of none
-  std::function<Vector6d(const Posture&)> angles;
+  int compliance_of = -1;  ///< the joint (from 0) whose compliance about its axis this is; -1: of none
+  std::function<JointVector(const Posture&)> angles;
   std::function<Eigen::Vector3d(const Posture&, const ReflectorAt&)> offset;
 };
 
@@ -92,7 +92,7 @@ std::vector<EffectFamily> effectFamilies(const UnloadedDay& day);
 /// c_j times the own weight's torque on joint j, a part a joint.
 std::vector<EffectPart> jointCompliances(const UnloadedDay& day);
 
-/// a sin(k q_j) + b cos(k q_j) on joint j (0..5): an eccentric gear or encoder ring (k 1, 2), a gear's own order.
+/// a sin(k q_j) + b cos(k q_j) on joint j (from 0): an eccentric gear or encoder ring (k 1, 2), a gear's own order.
 EffectPart transmissionError(int joint, double order);
 
 /// From `from` (Posture::time) on: station or robot elsewhere, a reflector elsewhere on the flange, another scale.

@@ -18,8 +18,8 @@ double logTail(double x, int dof) {
   return std::min(0.0, -x / 2.0 + (half - 1.0) * std::log(std::max(1e-300, x / 2.0)) - std::lgamma(half));
 }
 
-/// Once or twice a turn of one of six joints is what gears and encoder rings do first; any other order is one of many.
-constexpr int kUsual = 12;
+/// Once or twice a turn of one of the joints is what gears and encoder rings do first; any other order is one of many.
+int usualOf(int joints) { return 2 * joints; }
 
 constexpr std::size_t kFewestAside = 5;  // postures on either side of a start: fewer are outliers
 
@@ -147,7 +147,7 @@ double FamilyFit::leastPenalty(std::size_t family) const {
   const int postures = static_cast<int>(day_.postures().size());
   switch (families_[family].effect) {
     case UnloadedEffect::transmission_error:
-      return penaltyOf(2, kUsual);
+      return penaltyOf(2, usualOf(day_.day().arm.joints()));
     case UnloadedEffect::frame_error:
       return penaltyOf(6, postures);
     case UnloadedEffect::target_motion:
@@ -213,8 +213,10 @@ std::optional<FamilyFit::Candidate> FamilyFit::bestPeriodic(const Periodogram& p
   const auto highest = std::max_element(peaks.begin(), peaks.end(),
                                         [](const PeriodicPeak& a, const PeriodicPeak& b) { return a.gain < b.gain; });
   if (highest == peaks.end()) return std::nullopt;
+  const int joints = day_.day().arm.joints();
   const bool usual = highest->order == 1.0 || highest->order == 2.0;
-  return candidateOf(transmissionError(highest->joint, highest->order), usual ? kUsual : Periodogram::kTried);
+  return candidateOf(transmissionError(highest->joint, highest->order),
+                     usual ? usualOf(joints) : Periodogram::triedOf(joints));
 }
 
 std::optional<FamilyFit::Candidate> FamilyFit::bestPart(std::size_t family, const LinearModel& model,

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -27,8 +26,8 @@ struct PeriodicPeak {
 class Periodogram {
  public:
   static constexpr double kFirst = 1.0, kLast = 100.0, kStep = 0.25;
-  static constexpr int kOrders = 397;         ///< (kLast - kFirst) / kStep + 1
-  static constexpr int kTried = 6 * kOrders;  ///< for the probability of a false alarm
+  static constexpr int kOrders = 397;                          ///< (kLast - kFirst) / kStep + 1
+  static int triedOf(int joints) { return joints * kOrders; }  ///< for the probability of a false alarm
 
   /// `basis`: columns are orthonormal; `residual` is across them. Rows posture by posture as in `equations`.
   Periodogram(const std::vector<PostureEquations>& equations, const std::vector<std::size_t>& postures,
@@ -53,7 +52,7 @@ class Periodogram {
   void takeOff(std::size_t joint, const Eigen::MatrixXd& products);
 
   const std::vector<PostureEquations>* equations_;
-  std::array<OfJoint, 6> joints_;
+  PerJoint<OfJoint> joints_;
 };
 
 /// Whitened columns of a part's terms across the geometry, and their lengths before that was projected off.

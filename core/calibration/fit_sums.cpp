@@ -7,8 +7,6 @@
 
 namespace stiffscope::calibration {
 
-using frames::ArmParameters;
-
 /// Of some postures. A reading has no derivative by where the other reflectors stand: sums are kept reflector by
 /// reflector, by what all have in common, the reflector's own place and the residual.
 struct FitSums::Block {
@@ -38,7 +36,7 @@ FitSums::FitSums(const UnloadedDay& day, const ArmFit& fit) : day_(day), terms_(
     first_.push_back(at);
     at += posture.readings.size();
   }
-  by_terms_.resize(6, terms_ * static_cast<Eigen::Index>(day.postures.size()));
+  by_terms_.resize(day.arm.joints(), terms_ * static_cast<Eigen::Index>(day.postures.size()));
   if (terms_ == 0) return;
   const FittedDay fitted(day, fit);
   numerics::smallWorkOnAllCores(day.postures.size(), [&](std::size_t i) {
@@ -53,7 +51,7 @@ FitSum FitSums::over(const ArmFit& fit, const std::vector<std::size_t>& postures
   std::vector<int> common, own;
   std::vector<bool> asked(static_cast<std::size_t>(fit.steps.size()), false);
   for (const int place : places) {
-    const bool target = place >= ArmParameters::kTargetsAt && place < fit.steps.size();
+    const bool target = place >= fit.places().targetsAt() && place < fit.steps.size();
     if (target) {
       asked[static_cast<std::size_t>(place)] = true;
     } else {
@@ -95,7 +93,7 @@ FitSum FitSums::over(const ArmFit& fit, const std::vector<std::size_t>& postures
     // Where each of the reflector's rows belongs; below zero: nobody asked.
     std::vector<Eigen::Index> at(common.begin(), common.end());
     for (Eigen::Index k = 0; k < 3; ++k) {
-      const Eigen::Index place = ArmParameters::targetAt(t) + k;
+      const Eigen::Index place = fit.places().targetAt(t) + k;
       at.push_back(asked[static_cast<std::size_t>(place)] ? place : -1);
     }
     at.push_back(last);

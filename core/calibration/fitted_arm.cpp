@@ -7,8 +7,6 @@
 
 namespace stiffscope::calibration {
 
-using frames::ArmParameters;
-
 robot::Robot ArmFit::arm(const robot::Robot& nominal) const {
   frames::LoadingGeometry geometry;
   geometry.arm = nominal;
@@ -16,13 +14,13 @@ robot::Robot ArmFit::arm(const robot::Robot& nominal) const {
 }
 
 Eigen::Isometry3d ArmFit::basePointsMotion() const {
-  const Vector6d base = steps.segment<ArmParameters::kBase>(ArmParameters::kBaseAt);
+  const Vector6d base = steps.segment<frames::ArmParameters::kBase>(places().baseAt());
   return metrology::motionAbout(centre, base) * place.base_from_points;
 }
 
 std::vector<Eigen::Vector3d> ArmFit::targetsAtZero() const {
   std::vector<Eigen::Vector3d> all = place.targets_at_zero;
-  for (std::size_t t = 0; t < all.size(); ++t) all[t] += steps.segment<3>(ArmParameters::targetAt(t));
+  for (std::size_t t = 0; t < all.size(); ++t) all[t] += steps.segment<3>(places().targetAt(t));
   return all;
 }
 

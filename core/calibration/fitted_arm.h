@@ -26,7 +26,7 @@ struct ArmPlace {
 std::optional<ArmPlace> placeArm(const UnloadedDay& day, const std::vector<double>& weights);
 
 /// An arm fitted to a day, all in base_link: axes, base, reflectors as frames::ArmParameters, and sizes of effects.
-///   y = B exp(xi_1 q'_1) ... exp(xi_6 q'_6) x_t + sum_k offset_k a_k,   q' = q + sum_k angles_k a_k
+///   y = B exp(xi_1 q'_1) ... exp(xi_n q'_n) x_t + sum_k offset_k a_k,   q' = q + sum_k angles_k a_k
 /// The readings' frame stands against base_link by `base_from_points` and the base's parameters. What frames leave free
 /// is held in the axes: 1 and 2 keep what the postures do not see of them.
 struct ArmFit {
@@ -46,6 +46,9 @@ struct ArmFit {
   double chi2_per_dof = 0.0;
   double design_effect = 1.0;  ///< by how much reflectors of one posture err together: variance of their sum
   int parameters = 0;
+
+  /// In `steps`.
+  frames::ArmParameters places() const { return frames::ArmParameters(static_cast<int>(start.size())); }
 
   robot::Robot arm(const robot::Robot& nominal) const;  ///< the calibrated one
   Eigen::Isometry3d basePointsMotion() const;           ///< base_from_points, the base's parameters in it

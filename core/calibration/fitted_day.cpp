@@ -11,12 +11,10 @@
 
 namespace stiffscope::calibration {
 
-using frames::ArmParameters;
-
 FittedDay::FittedDay(const UnloadedDay& day, const ArmFit& fit)
     : fit_(fit),
-      arm_(fit.start, fit.centre, fit.steps.head<ArmParameters::kAxes>(),
-           fit.steps.segment<ArmParameters::kBase>(ArmParameters::kBaseAt)),
+      arm_(fit.start, fit.centre, fit.steps.head(fit.places().axes()),
+           fit.steps.segment<frames::ArmParameters::kBase>(fit.places().baseAt())),
       station_(fit.place.base_from_points * day.station) {
   for (const EffectPart& part : fit.parts) {
     for (const EffectTerm& term : part.terms) terms_.push_back(&term);
@@ -24,7 +22,7 @@ FittedDay::FittedDay(const UnloadedDay& day, const ArmFit& fit)
 }
 
 AnglesByTerms FittedDay::anglesByTerms(const Posture& posture) const {
-  AnglesByTerms angles = AnglesByTerms::Zero(6, static_cast<Eigen::Index>(terms_.size()));
+  AnglesByTerms angles = AnglesByTerms::Zero(posture.q.size(), static_cast<Eigen::Index>(terms_.size()));
   for (std::size_t k = 0; k < terms_.size(); ++k) {
     if (terms_[k]->angles) angles.col(static_cast<Eigen::Index>(k)) = terms_[k]->angles(posture);
   }
@@ -34,7 +32,7 @@ AnglesByTerms FittedDay::anglesByTerms(const Posture& posture) const {
 ReflectorAt FittedDay::reflector(const frames::PlacedPosture& placed, const Reading& reading) const {
   const auto target = static_cast<std::size_t>(reading.target);
   const Eigen::Vector3d at_zero =
-      fit_.place.targets_at_zero[target] + fit_.steps.segment<3>(ArmParameters::targetAt(target));
+      fit_.place.targets_at_zero[target] + fit_.steps.segment<3>(fit_.places().targetAt(target));
   return {placed, reading.target, placed.position(at_zero), station_};
 }
 
@@ -72,6 +70,8 @@ ReadingDerivatives::ReadingDerivatives(const FittedDay& fitted, const std::vecto
     : fitted_(fitted), motions_(6, places.size()), rows_(3, places.size()) {
   motions_.setZero();
   const auto steps = static_cast<std::size_t>(fitted.fit().steps.size());
+  const auto base_at = static_cast<std::size_t>(fitted.fit().places().baseAt()),
+             targets_at = static_cast<std::size_t>(fitted.fit().places().targetsAt());
   for (std::size_t k = 0; k < places.size(); ++k) {
     const auto column = static_cast<Eigen::Index>(k);
     if (places[k] < 0) {
@@ -79,13 +79,13 @@ ReadingDerivatives::ReadingDerivatives(const FittedDay& fitted, const std::vecto
       continue;
     }
     const auto place = static_cast<std::size_t>(places[k]);
-    if (place < ArmParameters::kBaseAt) {
+    if (place < base_at) {
       axes_.push_back({column, place});
-    } else if (place < ArmParameters::kTargetsAt) {
-      const frames::SmallMotion motion = fitted.arm().byBase(place - ArmParameters::kBaseAt);
+    } else if (place < targets_at) {
+      const frames::SmallMotion motion = fitted.arm().byBase(place - base_at);
       motions_.col(column) << motion.rotation, motion.shift;
     } else if (place < steps) {
-      targets_.push_back({column, place - ArmParameters::kTargetsAt});
+      targets_.push_back({column, place - targets_at});
     } else {
       (fitted.terms()[place - steps]->angles ? angles_ : offsets_).push_back({column, place - steps});
     }
@@ -98,13 +98,21 @@ void ReadingDerivatives::enter(const frames::PlacedPosture& placed, const Eigen:
     motions_.col(axis.column) << motion.rotation, motion.shift;
   }
   if (angles_.empty()) return;
-  Matrix6d by_joints;
-  for (std::size_t j = 0; j < 6; ++j) {
+  Jacobian by_joints(6, by_terms.rows());
+  for (std::size_t j = 0; j < fitted_.arm().axes.size(); ++j) {
     const frames::SmallMotion motion = placed.byJoint(j);
     by_joints.col(static_cast<Eigen::Index>(j)) << motion.rotation, motion.shift;
   }
-  for (const Place& term : angles_)
-    motions_.col(term.column) = (by_joints * by_terms.col(static_cast<Eigen::Index>(term.of))).array();
+  // In every turn of a fit, in every posture, for every term: at fixed size where there are six.
+  const bool six = by_joints.cols() == 6;
+  for (const Place& term : angles_) {
+    const auto angles = by_terms.col(static_cast<Eigen::Index>(term.of));
+    if (six) {
+      motions_.col(term.column) = (by_joints.leftCols<6>() * angles.head<6>()).array();
+    } else {
+      motions_.col(term.column) = (by_joints * angles).array();
+    }
+  }
 }
 
 const ReadingDerivatives::Rows& ReadingDerivatives::of(const Posture& posture, const ReflectorAt& at,
@@ -179,7 +187,7 @@ PostureEquations equationsOf(const FittedDay& fitted, const Posture& posture, st
   PostureEquations equations;
   const auto rows = 3 * static_cast<Eigen::Index>(posture.readings.size());
   equations.by_parameters.resize(rows, static_cast<Eigen::Index>(fit.free.size()));
-  equations.by_angles.resize(rows, 6);
+  equations.by_angles.resize(rows, posture.q.size());
   equations.by_motion.resize(rows, 6);
   equations.residual.resize(rows);
   Eigen::Index row = 0;

@@ -8,7 +8,9 @@
 
 namespace stiffscope::calibration {
 
-using AnglesByTerms = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+/// A row a joint.
+using AnglesByTerms =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMostJoints, Eigen::Dynamic>;
 
 /// The arm and its readings at some values of all parameters.
 class FittedDay {
@@ -24,8 +26,8 @@ class FittedDay {
   /// What a unit of each term turns the joints by, whatever the fit; zero of terms that move reflectors instead.
   AnglesByTerms anglesByTerms(const Posture& posture) const;
   /// As reported, and what the effects turn the joints besides, rad.
-  Vector6d anglesOf(const Posture& posture) const { return anglesOf(posture, anglesByTerms(posture)); }
-  Vector6d anglesOf(const Posture& posture, const Eigen::Ref<const AnglesByTerms>& by_terms) const {
+  JointVector anglesOf(const Posture& posture) const { return anglesOf(posture, anglesByTerms(posture)); }
+  JointVector anglesOf(const Posture& posture, const Eigen::Ref<const AnglesByTerms>& by_terms) const {
     return posture.q + by_terms * fit_.sizes;
   }
   ReflectorAt reflector(const frames::PlacedPosture& placed, const Reading& reading) const;
@@ -79,7 +81,7 @@ std::vector<Eigen::Vector3d> residualsOf(const UnloadedDay& day, const ArmFit& f
 /// of rows a posture; only readings of weight above 0.
 struct PostureEquations {
   Eigen::MatrixXd by_parameters;  ///< 3 rows a reading, by `fit.free`
-  Eigen::MatrixXd by_angles;      ///< by the joint angles, 6 columns
+  Eigen::MatrixXd by_angles;      ///< by the joint angles, a column each
   Eigen::MatrixXd by_motion;      ///< by a turn about the base origin (3) and a shift (3) of all that is seen
   Eigen::VectorXd residual;
   std::vector<int> targets;                ///< of each reading

@@ -7,8 +7,6 @@
 
 namespace stiffscope::calibration {
 
-using frames::ArmParameters;
-
 namespace {
 
 /// Covariance of `count` parameters from `first` on; zero where they are held.
@@ -36,13 +34,13 @@ UncertainPoint stationInBase(const UnloadedDay& day, const ArmFit& fit) {
   const Eigen::Vector3d lever = point.value - fit.centre;
   for (int k = 0; k < 3; ++k) by_base.col(k) = Eigen::Vector3d::Unit(k).cross(lever);
   by_base.rightCols<3>().setIdentity();
-  point.sd = sdOf(by_base * covarianceFrom(fit, ArmParameters::kBaseAt, 6) * by_base.transpose());
+  point.sd = sdOf(by_base * covarianceFrom(fit, fit.places().baseAt(), 6) * by_base.transpose());
   return point;
 }
 
 UncertainPoint turnOfStation(const ArmFit& fit) {
   const Eigen::AngleAxisd turn(fit.basePointsMotion().linear());
-  return {turn.angle() * turn.axis(), sdOf(covarianceFrom(fit, ArmParameters::kBaseAt, 3))};
+  return {turn.angle() * turn.axis(), sdOf(covarianceFrom(fit, fit.places().baseAt(), 3))};
 }
 
 std::vector<UncertainPoint> targetsInFlange(const UnloadedDay& day, const ArmFit& fit) {
@@ -50,7 +48,7 @@ std::vector<UncertainPoint> targetsInFlange(const UnloadedDay& day, const ArmFit
   const Eigen::Matrix3d turn = flange_from_base.linear();
   std::vector<UncertainPoint> points;
   for (const Eigen::Vector3d& at_zero : fit.targetsAtZero()) {
-    const Eigen::MatrixXd covariance = covarianceFrom(fit, ArmParameters::targetAt(points.size()), 3);
+    const Eigen::MatrixXd covariance = covarianceFrom(fit, fit.places().targetAt(points.size()), 3);
     points.push_back({flange_from_base * at_zero, sdOf(turn * covariance * turn.transpose())});
   }
   return points;

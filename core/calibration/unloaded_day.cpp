@@ -43,8 +43,8 @@ class Bending {
     return terms;
   }
 
-  std::vector<frames::SmallMotion> at(const Vector6d& q) const {
-    const effects::PostureStates states{effects::stateAt(geometry_, q, Vector6d::Zero())};
+  std::vector<frames::SmallMotion> at(const JointVector& q) const {
+    const effects::PostureStates states{effects::stateAt(geometry_, q, JointVector::Zero(q.size()))};
     const effects::LinearizationPoint point;
     std::vector<frames::SmallMotion> motions;
     for (const effects::EffectModel& model : models_) {
@@ -62,19 +62,23 @@ class Bending {
   std::vector<effects::EffectModel> models_;
 };
 
-/// Of the bodies beyond joints 2 to 6 on the joints that carry them; of joint 2 the next body's too, since the forearm
-/// is as heavy. Axis 1 is upright. Moments along a joint's own axis pull on nothing.
-std::vector<FreeMoment> freeMoments() {
+/// Of the body beyond each joint but the first on that joint; on the arm's joints those of the arm's bodies further
+/// out, too (of six joints: on joint 2 the one beyond joint 3), since the forearm is as heavy. Axis 1 is upright.
+/// Moments along a joint's own axis pull on nothing.
+std::vector<FreeMoment> freeMoments(int joints) {
   std::vector<FreeMoment> moments;
   const auto add = [&](int joint, int body) {
     for (int k = 0; k < 3; ++k) moments.push_back({joint, body, Eigen::Vector3d::Unit(k)});
   };
-  for (int joint = 1; joint < 6; ++joint) add(joint, joint);
-  add(1, 2);
+  for (int joint = 1; joint < joints; ++joint) add(joint, joint);
+  const int arm = std::max(3, robot::armJointsOf(joints));
+  for (int joint = 1; joint < arm; ++joint) {
+    for (int body = joint + 1; body < arm; ++body) add(joint, body);
+  }
   return moments;
 }
 
-std::vector<double> pullsOf(const UnloadedDay& day, const Vector6d& q, const Eigen::Vector3d& gravity) {
+std::vector<double> pullsOf(const UnloadedDay& day, const JointVector& q, const Eigen::Vector3d& gravity) {
   const robot::ArmPosture posture = robot::postureAt(day.arm, q);
   std::vector<double> pulls;
   for (const FreeMoment& moment : day.free_moments) {
@@ -117,16 +121,16 @@ void setWarmth(std::vector<double> temperatures, UnloadedDay& day) {
 /// A row of `states` and the angles that the arm is taken to have stood at.
 struct LoggedPosture {
   const campaign::State* state = nullptr;
-  Vector6d q = Vector6d::Zero();
+  JointVector q;
 };
 
 std::vector<LoggedPosture> loggedPostures(const campaign::Campaign& campaign, JointAngles angles) {
   std::vector<LoggedPosture> log;
   if (!campaign.states) return log;
-  const std::array<bool, 6> commanded = commandedJoints(campaign);
+  const PerJoint<bool> commanded = commandedJoints(campaign);
   for (const campaign::State& state : campaign.states->rows) {
     log.push_back({&state, state.q});
-    for (Eigen::Index j = 0; j < 6 && angles == JointAngles::commanded; ++j) {
+    for (Eigen::Index j = 0; j < state.q.size() && angles == JointAngles::commanded; ++j) {
       // Rows under load need none.
       if (commanded[static_cast<std::size_t>(j)] && !std::isnan(state.commanded[j]))
         log.back().q[j] = state.commanded[j];
@@ -139,14 +143,15 @@ std::vector<LoggedPosture> loggedPostures(const campaign::Campaign& campaign, Jo
 void setMoves(const std::vector<LoggedPosture>& log, UnloadedDay& day) {
   constexpr double kStill = 1e-5;  // rad: below the last digit of most logs
   struct Move {
-    Vector6d by = Vector6d::Zero(), side = Vector6d::Zero();
+    JointVector by, side;
   };
-  std::vector<Move> moves(day.pose_ids.size());
+  const JointVector still = JointVector::Zero(day.arm.joints());
+  std::vector<Move> moves(day.pose_ids.size(), {still, still});
   const LoggedPosture* before = nullptr;
-  Vector6d side = Vector6d::Zero();
+  JointVector side = still;
   for (const LoggedPosture& at : log) {
-    const Vector6d by = before != nullptr ? Vector6d(at.q - before->q) : Vector6d(Vector6d::Zero());
-    for (Eigen::Index j = 0; j < 6; ++j) {
+    const JointVector by = before != nullptr ? JointVector(at.q - before->q) : still;
+    for (Eigen::Index j = 0; j < by.size(); ++j) {
       if (std::abs(by[j]) >= kStill) side[j] = by[j] > 0.0 ? 1.0 : -1.0;
     }
     if (at.state->step == 0) moves[static_cast<std::size_t>(at.state->pose)] = {by, side};
@@ -166,10 +171,9 @@ std::size_t UnloadedDay::readings() const {
   return sum;
 }
 
-std::array<bool, 6> commandedJoints(const campaign::Campaign& campaign) {
-  std::array<bool, 6> given{};
+PerJoint<bool> commandedJoints(const campaign::Campaign& campaign) {
+  PerJoint<bool> given(campaign.robot.axes_in_base_at_zero.size(), campaign.states.has_value());
   if (!campaign.states) return given;
-  given.fill(true);
   for (const campaign::State& state : campaign.states->rows) {
     for (std::size_t j = 0; j < given.size(); ++j) {
       if (state.step == 0 && std::isnan(state.commanded[static_cast<Eigen::Index>(j)])) given[j] = false;
@@ -202,14 +206,14 @@ UnloadedDay unloadedDay(const campaign::Campaign& campaign, JointAngles angles) 
   if (day.masses_known) {
     day.bending = bending.terms();
   } else {
-    day.free_moments = freeMoments();
+    day.free_moments = freeMoments(day.arm.joints());
   }
   std::vector<double> times, temperatures;
   for (const campaign::StatePoints& points : campaign::statePoints(campaign)) {
     if (points.source != campaign::StatePoints::Source::loading || points.step != 0) continue;
     const LoggedPosture* at = at_pose[static_cast<std::size_t>(points.pose)];
     if (at == nullptr) continue;
-    Posture posture;
+    Posture posture(day.arm.joints());
     posture.pose = points.pose;
     posture.q = at->q;
     if (day.masses_known) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -27,17 +26,20 @@ struct Reading {
 
 struct Posture {
   int pose = 0;
-  Vector6d q = Vector6d::Zero();       ///< as reported, rad
-  Vector6d move = Vector6d::Zero();    ///< q less that of the state before in `states`; zero for the first
-  Vector6d side = Vector6d::Zero();    ///< -1 or +1: sign of the joint's last move; 0 where it has not moved yet
-  Vector6d torque = Vector6d::Zero();  ///< of the own weight on the joints of the nominal arm, Nm; zero: no masses
-  double warmth = 0.0;                 ///< temperature less the day's mean, K; 0 where it is not given
-  double time = 0.0;                   ///< 0 at the first posture, 1 at the last: by time_s, else by the order
+  JointVector q;        ///< as reported, rad
+  JointVector move;     ///< q less that of the state before in `states`; zero for the first
+  JointVector side;     ///< -1 or +1: sign of the joint's last move; 0 where it has not moved yet
+  JointVector torque;   ///< of the own weight on the joints of the nominal arm, Nm; zero: no masses
+  double warmth = 0.0;  ///< temperature less the day's mean, K; 0 where it is not given
+  double time = 0.0;    ///< 0 at the first posture, 1 at the last: by time_s, else by the order
   /// What bearings, links and base do by the own weight, by a unit of each of the day's elastic terms, in base_link.
   std::vector<frames::SmallMotion> bends;
   /// Where masses are not known: the torque of a unit of each of the day's free moments on its joint, m/s^2.
   std::vector<double> pulls;
   std::vector<Reading> readings;
+
+  /// Of an arm of so many joints, all at zero.
+  explicit Posture(int joints) : q(JointVector::Zero(joints)), move(q), side(q), torque(q) {}
 };
 
 /// One compliance of the arm's structure that its own weight bends.
@@ -51,7 +53,7 @@ struct BendingTerm {
 /// Where masses are not known: the moment (mass times centre, kg m) along one axis of base_link, with all joints at
 /// zero, of a body that one joint carries. Only its product with that joint's compliance is seen.
 struct FreeMoment {
-  int joint = 0, body = 0;  ///< 0..5: the joint, and the one that moves the body
+  int joint = 0, body = 0;  ///< from 0: the joint, and the one that moves the body
   Eigen::Vector3d along = Eigen::Vector3d::Zero();
 };
 
@@ -61,7 +63,7 @@ struct UnloadedDay {
   robot::Robot arm;
   JointAngles angles = JointAngles::reported;
   robot::GravityLoad weight;
-  bool masses_known = false;       ///< of every body beyond joint 2
+  bool masses_known = false;       ///< of every body that carries others on joints, see robot::gravityLoad
   bool times_known = false;        ///< every posture has one; else their order stands for time
   bool temperature_known = false;  ///< of every posture, and it changes
   double first_time_s = 0.0, time_span_s = 0.0;
@@ -79,6 +81,6 @@ struct UnloadedDay {
 UnloadedDay unloadedDay(const campaign::Campaign& campaign, JointAngles angles = JointAngles::reported);
 
 /// Joints with a commanded angle in every unloaded row of `states`.
-std::array<bool, 6> commandedJoints(const campaign::Campaign& campaign);
+PerJoint<bool> commandedJoints(const campaign::Campaign& campaign);
 
 }  // namespace stiffscope::calibration

@@ -87,6 +87,12 @@ struct State {
         commanded(JointVector::Constant(joints, kNotGiven)),
         motor_side(commanded),
         link_side(commanded) {}
+  State(int of_pose, int of_step, double at_s, const JointVector& angles, const Vector6d& wrench)
+      : State(static_cast<int>(angles.size())) {
+    pose = of_pose, step = of_step, time_s = at_s;
+    q = angles;
+    wrench_in_cell = wrench;
+  }
 };
 
 struct Displacement {

@@ -69,22 +69,22 @@ std::vector<CauseEvidence> causesOfMachine(const GeometryNumbers& numbers, const
         Eigen::VectorXd::Unit(static_cast<Eigen::Index>(seen.size()), static_cast<Eigen::Index>(k));
     causes.push_back(fitting.fit(ChangeCause::joint_zero, number.axis, by, &moves));
   }
-  constexpr int kLast = 5;
-  for (int axis = 1; axis <= kLast; ++axis)
+  const int last = arm.joints() - 1;
+  for (int axis = 1; axis <= last; ++axis)
     causes.push_back(fitting.fit(ChangeCause::link, axis, numbers.byLink(arm, axis)(seen, Eigen::all), &moves));
-  // Axis 1 alone is a bent link 1 with another base, axis 6 alone a bent link 5 with other reflectors.
-  for (int axis = 2; axis <= kLast; ++axis)
+  // Axis 1 alone is a bent link 1 with another base, the last axis alone a bent link before it with other reflectors.
+  for (int axis = 2; axis <= last; ++axis)
     causes.push_back(fitting.fit(ChangeCause::axis, axis, numbers.byAxis(arm, axis)(seen, Eigen::all), &moves));
   causes.push_back(fitting.fit(ChangeCause::growth, 0, numbers.byGrowth(arm)(seen), &moves));
   sortByBic(causes);
   return causes;
 }
 
-std::vector<CauseEvidence> causesOfReflectors(const Eigen::VectorXd& by_turn, const FoundChange& found) {
+std::vector<CauseEvidence> causesOfReflectors(const Eigen::VectorXd& by_turn, int last_axis, const FoundChange& found) {
   const Fitting fitting(found);
   const Eigen::Index size = found.change.size();
   std::vector<CauseEvidence> causes{
-      fitting.fit(ChangeCause::turn_about_6, 6, by_turn, nullptr),
+      fitting.fit(ChangeCause::turn_about_last, last_axis, by_turn, nullptr),
       fitting.fit(ChangeCause::reflectors, 0, Eigen::MatrixXd::Identity(size, size), nullptr)};
   sortByBic(causes);
   return causes;

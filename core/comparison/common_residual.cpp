@@ -31,7 +31,7 @@ std::optional<Method> methodOfBoth(const Identification& before, const Identific
 }
 
 std::vector<Eigen::VectorXd> residuals(const std::vector<CaseEquations>& equations, const robot::JointMask& joints) {
-  const Vector6d compliance = identification::solveNormal(identification::normalEquations(equations), joints);
+  const JointVector compliance = identification::solveNormal(identification::normalEquations(equations), joints);
   std::vector<Eigen::VectorXd> left;
   for (const CaseEquations& one : equations) left.emplace_back(one.right - one.matrix * compliance);
   return left;
@@ -95,7 +95,7 @@ void judgePairs(const campaign::Campaign& before_campaign, const Identification&
                 const campaign::Campaign& after_campaign, const Identification& after, Method method,
                 const std::vector<PosturePair>& pairs, CommonResidual& result) {
   robot::JointMask joints = before.of(method).estimate.identifiable;
-  for (std::size_t j = 0; j < 6; ++j) joints[j] = joints[j] && after.of(method).estimate.identifiable[j];
+  for (std::size_t j = 0; j < joints.size(); ++j) joints[j] = joints[j] && after.of(method).estimate.identifiable[j];
   std::vector<CaseEquations> rows_before, rows_after;
   for (const PosturePair& pair : pairs) {
     rows_before.push_back(before.of(method).target_rows[pair.before]);

@@ -81,7 +81,10 @@ Comparison compareCampaigns(const campaign::Campaign& before_campaign, const ide
   Comparison result;
   result.reason = differenceOfMachines(before_campaign.robot, after_campaign.robot);
   if (!result.reason.empty()) {
-    for (StiffnessChange& method : result.methods) method.reason = result.reason;
+    for (StiffnessChange& method : result.methods) {
+      method.reason = result.reason;
+      method.joints.resize(before_campaign.robot.axes_in_base_at_zero.size());
+    }
     result.at_wrist.reason = result.at_targets.reason = result.reason;
     return result;
   }
@@ -214,11 +217,11 @@ void differByModels(const identification::StiffnessEstimate& before, const ident
   if (avoided_by_unit == 0.0) change.avoided = {kNone, kNone, 0.0};
 }
 
-void correctForJoints(std::array<JointChange, 6>& joints) {
+void correctForJoints(PerJoint<JointChange>& joints) {
   std::vector<double> p_values;
   for (const JointChange& joint : joints) p_values.push_back(joint.comparable ? joint.p_value : kNone);
   const std::vector<double> corrected = holm(p_values);
-  for (std::size_t j = 0; j < 6; ++j) joints[j].p_holm = corrected[j];
+  for (std::size_t j = 0; j < joints.size(); ++j) joints[j].p_holm = corrected[j];
 }
 
 }  // namespace
@@ -229,6 +232,7 @@ StiffnessChange compareStiffness(const campaign::Campaign& before_campaign,
                                  const MatchedPostures& matched, const SupportedModels& models) {
   const identification::MethodResult &first = before.of(method), &second = after.of(method);
   StiffnessChange result;
+  result.joints.resize(before_campaign.robot.axes_in_base_at_zero.size());
   if (!first.available || !second.available) {
     result.reason = !first.available ? Remark(RemarkId::of_one_campaign, When::before, first.reason)
                                      : Remark(RemarkId::of_one_campaign, When::after, second.reason);
@@ -237,12 +241,12 @@ StiffnessChange compareStiffness(const campaign::Campaign& before_campaign,
   const PairedFit fit = pairedFit(before_campaign, before, after_campaign, after, method, matched);
   result.available = fit.available;
   result.same_postures = fit.same_postures, result.postures = fit.postures;
-  const Vector6d by_unit = fit.available
-                               ? avoidedByUnit(before_campaign, before, after_campaign, after, method, matched)
-                               : Vector6d(Vector6d::Zero());
+  const JointVector by_unit = fit.available
+                                  ? avoidedByUnit(before_campaign, before, after_campaign, after, method, matched)
+                                  : JointVector(JointVector::Zero(before_campaign.robot.joints()));
   const bool modelled = models.given() && models.before->of(method).available && models.after->of(method).available;
   result.by_models = modelled && result.available && !result.same_postures;
-  for (std::size_t j = 0; j < 6; ++j) {
+  for (std::size_t j = 0; j < result.joints.size(); ++j) {
     JointChange& change = result.joints[j];
     if (!fit.joints[j]) {
       const bool seen_before = first.estimate.identifiable[j], seen_after = second.estimate.identifiable[j];

@@ -82,10 +82,10 @@ struct JointChange {
 struct StiffnessChange {
   bool available = false;
   Remark reason;
-  std::array<JointChange, 6> joints;
-  bool same_postures = false;  ///< differences are of fits on the postures that correspond
-  bool by_models = false;      ///< they are not: differences are of the two models, with their intervals
-  std::size_t postures = 0;    ///< that correspond
+  PerJoint<JointChange> joints;  ///< as many as the machine has
+  bool same_postures = false;    ///< differences are of fits on the postures that correspond
+  bool by_models = false;        ///< they are not: differences are of the two models, with their intervals
+  std::size_t postures = 0;      ///< that correspond
   /// What the joints' `avoided` leave of the share of the deflection avoided at the reflectors; not a number where none
   /// of these is one.
   double avoided_rest = 0.0;

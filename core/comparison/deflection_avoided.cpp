@@ -72,17 +72,17 @@ DeflectionAvoided deflectionAvoidedAtTargets(const identification::Identificatio
   return ofPairs(before.target_displacement, after.target_displacement, matched, options);
 }
 
-Vector6d avoidedByUnit(const campaign::Campaign& before_campaign, const identification::Identification& before,
-                       const campaign::Campaign& after_campaign, const identification::Identification& after,
-                       identification::Method method, const MatchedPostures& matched) {
+JointVector avoidedByUnit(const campaign::Campaign& before_campaign, const identification::Identification& before,
+                          const campaign::Campaign& after_campaign, const identification::Identification& after,
+                          identification::Method method, const MatchedPostures& matched) {
   const auto &rows_before = before.of(method).target_rows, &rows_after = after.of(method).target_rows;
-  Vector6d sum = Vector6d::Zero();
+  JointVector sum = JointVector::Zero(before_campaign.robot.joints());
   if (rows_before.size() != before.cases.size() || rows_after.size() != after.cases.size()) return sum;
   double whole = 0.0;
   for (const PosturePair& pair : matched.pairs) {
     const identification::LoadCase &first = before.cases[pair.before], &second = after.cases[pair.after];
     const std::vector<ReflectorPair> reflectors = reflectorsInBoth(before_campaign, first, after_campaign, second);
-    Vector6d own = Vector6d::Zero();
+    JointVector own = JointVector::Zero(sum.size());
     for (const ReflectorPair& one : reflectors) {
       const Eigen::Vector3d d_before = first.targets[one.before].displacement(),
                             d_after = second.targets[one.after].displacement();
@@ -90,14 +90,14 @@ Vector6d avoidedByUnit(const campaign::Campaign& before_campaign, const identifi
       if (!(lengths > 0.0)) continue;
       const auto row_before = static_cast<Eigen::Index>(3 * one.before),
                  row_after = static_cast<Eigen::Index>(3 * one.after);
-      const Matrix36d mean = 0.5 * (rows_before[pair.before].matrix.middleRows<3>(row_before) +
-                                    rows_after[pair.after].matrix.middleRows<3>(row_after));
+      const PointJacobian mean = 0.5 * (rows_before[pair.before].matrix.middleRows<3>(row_before) +
+                                        rows_after[pair.after].matrix.middleRows<3>(row_after));
       own += mean.transpose() * (d_before + d_after) / lengths;
     }
     if (!reflectors.empty()) sum += own / static_cast<double>(reflectors.size());
     whole += before.target_displacement[pair.before];
   }
-  return whole > 0.0 ? Vector6d(sum / whole) : Vector6d(Vector6d::Zero());
+  return whole > 0.0 ? JointVector(sum / whole) : JointVector(JointVector::Zero(sum.size()));
 }
 
 }  // namespace stiffscope::comparison

@@ -50,9 +50,9 @@ DeflectionAvoided deflectionAvoidedAtTargets(const identification::Identificatio
 /// the mean over reflectors) sum_j u_j (c_b,j - c_a,j) and a rest make up the share avoided. The rest is noise, what
 /// loads and postures differ in, and what is no joint spring. Zero where no posture corresponds, or the method's
 /// equations are not of all load cases. The method must be available.
-Vector6d avoidedByUnit(const campaign::Campaign& before_campaign, const identification::Identification& before,
-                       const campaign::Campaign& after_campaign, const identification::Identification& after,
-                       identification::Method method, const MatchedPostures& matched);
+JointVector avoidedByUnit(const campaign::Campaign& before_campaign, const identification::Identification& before,
+                          const campaign::Campaign& after_campaign, const identification::Identification& after,
+                          identification::Method method, const MatchedPostures& matched);
 
 /// The share of sums and its percentile bootstrap over postures (seeded): what other postures would have
 /// given.

@@ -2,13 +2,14 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <array>
+#include <numeric>
 
 #include "metrology/linear_algebra.h"
 
 namespace stiffscope::comparison {
 
-FitEquations::FitEquations(const calibration::UnloadedDay& day, const calibration::ArmFit& fit) {
+FitEquations::FitEquations(const calibration::UnloadedDay& day, const calibration::ArmFit& fit)
+    : joints(day.arm.joints()) {
   std::size_t reading = 0;
   for (std::size_t i = 0; i < day.postures.size(); ++i) {
     calibration::PostureEquations of = calibration::equationsOf(day, fit, i, reading);
@@ -23,41 +24,42 @@ FitEquations::FitEquations(const calibration::UnloadedDay& day, const calibratio
 }
 
 ErrorComponents errorComponents(const FitEquations& fit, const std::vector<Eigen::VectorXd>& residuals) {
-  constexpr int kCount = 7;  // coordinates, then joints
+  const int joints = fit.joints, count = 1 + joints;  // coordinates, then joints
   const Eigen::Index unknowns = fit.normal_inverse.rows();
   // Q^T A of an orthonormal basis Q of the fit's columns: by a root of the inverse normal matrix.
   const Eigen::MatrixXd root = covarianceRoot(fit.normal_inverse);
-  std::array<Eigen::MatrixXd, 6> gram;  // of Q^T a, over postures
-  gram.fill(Eigen::MatrixXd::Zero(unknowns, unknowns));
-  Eigen::Matrix<double, kCount, kCount> normal = Eigen::Matrix<double, kCount, kCount>::Zero();
-  Eigen::Matrix<double, kCount, 1> right = Eigen::Matrix<double, kCount, 1>::Zero();
+  PerJoint<Eigen::MatrixXd> gram(static_cast<std::size_t>(joints),
+                                 Eigen::MatrixXd::Zero(unknowns, unknowns));  // of Q^T a, over postures
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(count, count);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(count);
   double basis = 0.0;
   for (std::size_t p = 0; p < fit.equations.size(); ++p) {
     const calibration::PostureEquations& of = fit.equations[p];
     const Eigen::MatrixXd in_basis = root.transpose() * of.by_parameters.transpose();
     const Eigen::MatrixXd turns = in_basis * of.by_angles;
-    const Matrix6d products = of.by_angles.transpose() * of.by_angles, inside = turns.transpose() * turns;
+    const JointMatrix products = of.by_angles.transpose() * of.by_angles, inside = turns.transpose() * turns;
     basis += in_basis.squaredNorm();
     normal(0, 0) += static_cast<double>(of.residual.size());
     right[0] += residuals[p].squaredNorm();
-    const Vector6d along = of.by_angles.transpose() * residuals[p];
-    for (int k = 0; k < 6; ++k) {
+    const JointVector along = of.by_angles.transpose() * residuals[p];
+    for (int k = 0; k < joints; ++k) {
       normal(0, k + 1) += products(k, k) - inside(k, k);
       right[k + 1] += along[k] * along[k];
       gram[static_cast<std::size_t>(k)].noalias() += turns.col(k) * turns.col(k).transpose();
-      for (int l = 0; l < 6; ++l)
+      for (int l = 0; l < joints; ++l)
         normal(k + 1, l + 1) += products(k, l) * products(k, l) - 2.0 * products(k, l) * inside(k, l);
     }
   }
   normal(0, 0) -= basis;
-  for (int k = 0; k < 6; ++k) {
+  for (int k = 0; k < joints; ++k) {
     normal(k + 1, 0) = normal(0, k + 1);
-    for (int l = 0; l < 6; ++l) {
+    for (int l = 0; l < joints; ++l) {
       normal(k + 1, l + 1) += gram[static_cast<std::size_t>(k)].cwiseProduct(gram[static_cast<std::size_t>(l)]).sum();
     }
   }
-  std::vector<int> kept{0, 1, 2, 3, 4, 5, 6};
-  ErrorComponents errors;
+  std::vector<int> kept(static_cast<std::size_t>(count));
+  std::iota(kept.begin(), kept.end(), 0);
+  ErrorComponents errors(joints);
   while (true) {
     const Eigen::MatrixXd own = normal(kept, kept);
     const Eigen::VectorXd scale = own.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();

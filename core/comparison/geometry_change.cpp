@@ -244,16 +244,16 @@ class Comparing {
       result_.causes = causesOfMachine(*numbers_, arm, seen_,
                                        {difference_(seen_), covariance_(seen_, seen_), dof_, postures}, moves_);
     } else if (result_.reflectors_moved) {
-      result_.causes =
-          causesOfReflectors(reflectorsOnAxis6(), {reflectors_shift_, reflectors_covariance_, dof_, postures});
+      result_.causes = causesOfReflectors(reflectorsOnLastAxis(), before_.robot.joints(),
+                                          {reflectors_shift_, reflectors_covariance_, dof_, postures});
     }
   }
 
-  /// How each reflector moves by a turn about axis 6, flange axes.
-  Eigen::VectorXd reflectorsOnAxis6() const {
+  /// How each reflector moves by a turn about the last axis, flange axes.
+  Eigen::VectorXd reflectorsOnLastAxis() const {
     const robot::Robot& arm = before_.robot;
     const Eigen::Isometry3d flange_from_base = arm.base_from_flange_at_zero.inverse();
-    const metrology::Line& axis = arm.axes_in_base_at_zero[5];
+    const metrology::Line& axis = arm.axes_in_base_at_zero.back();
     const std::vector<Eigen::Vector3d> at_zero = pair_->fits[0].targetsAtZero();
     Eigen::VectorXd by(reflectors_shift_.size());
     for (std::size_t t = 0; t < pair_->targets[0].size(); ++t) {
@@ -269,7 +269,7 @@ class Comparing {
     if (result_.effects_changed) result_.cautions.emplace_back(RemarkId::effects_changed, result_.effects_p);
     if (pair_->targets[0].empty()) result_.cautions.emplace_back(RemarkId::no_common_reflector);
     result_.cautions.emplace_back(RemarkId::zero_1_with_base);
-    result_.cautions.emplace_back(RemarkId::zero_6_with_reflectors);
+    result_.cautions.emplace_back(RemarkId::zero_of_last_with_reflectors, before_.robot.joints());
   }
 
   const campaign::Campaign &before_, &after_;

@@ -34,8 +34,8 @@ double& valueOf(LinkParameters& link, NumberKind kind) {
   return link.beta;
 }
 
-/// base_from_frame on axis 6 with all joints at `q`: the frame that reflectors are fixed to.
-Eigen::Isometry3d lastFrame(const DenavitHartenberg& arm, const Vector6d& q) {
+/// base_from_frame on the last axis with all joints at `q`: the frame that reflectors are fixed to.
+Eigen::Isometry3d lastFrame(const DenavitHartenberg& arm, const JointVector& q) {
   return arm.flangeAt(q) * arm.last_from_flange.inverse();
 }
 
@@ -49,7 +49,7 @@ Eigen::Isometry3d firstAlongAxis(const LinkParameters& first) {
 
 GeometryNumbers::GeometryNumbers(const robot::Robot& nominal) : nominal_(nominal) {
   const DenavitHartenberg links = denavitHartenberg(nominal, nominal);
-  for (int axis = 1; axis <= 5; ++axis) {
+  for (int axis = 1; axis < nominal.joints(); ++axis) {
     const bool hayati = links.links[static_cast<std::size_t>(axis) - 1].hayati;
     if (axis > 1) numbers_.push_back({NumberKind::joint_zero, axis});
     if (axis > 1 && !hayati) numbers_.push_back({NumberKind::along, axis});
@@ -94,7 +94,8 @@ Eigen::VectorXd GeometryNumbers::allOf(const robot::Robot& nominal, const calibr
   all.head(count()) = of(arm);
   const DenavitHartenberg built = denavitHartenberg(nominal_, nominal_);
   const Eigen::Isometry3d flange_from_base =
-      built.last_from_flange.inverse() * lastFrame(denavitHartenberg(arm, nominal_), Vector6d::Zero()).inverse();
+      built.last_from_flange.inverse() *
+      lastFrame(denavitHartenberg(arm, nominal_), JointVector::Zero(nominal_.joints())).inverse();
   const std::vector<Eigen::Vector3d> at_zero = fit.targetsAtZero();
   for (std::size_t t = 0; t < targets.size(); ++t) {
     all.segment<3>(count() + 3 * static_cast<Eigen::Index>(t)) =
@@ -110,7 +111,7 @@ Eigen::MatrixXd GeometryNumbers::movesOfReflectors(const robot::Robot& arm,
                                                    const std::vector<Eigen::Vector3d>& targets_at_zero,
                                                    const std::vector<const calibration::UnloadedDay*>& days) const {
   constexpr std::size_t kEnough = 600;  // postures: a rms over more is the same
-  std::vector<Vector6d> postures;
+  std::vector<JointVector> postures;
   for (const calibration::UnloadedDay* day : days) {
     const std::size_t stride = day->postures.size() / (kEnough / days.size()) + 1;
     for (std::size_t i = 0; i < day->postures.size(); i += stride) postures.push_back(day->postures[i].q);
@@ -119,12 +120,12 @@ Eigen::MatrixXd GeometryNumbers::movesOfReflectors(const robot::Robot& arm,
   std::vector<DenavitHartenberg> moved(numbers_.size(), links);
   for (std::size_t k = 0; k < numbers_.size(); ++k)
     valueOf(moved[k].links[static_cast<std::size_t>(numbers_[k].axis) - 1], numbers_[k].kind) += kStep;
-  const Eigen::Isometry3d last_from_base = lastFrame(links, Vector6d::Zero()).inverse();
+  const Eigen::Isometry3d last_from_base = lastFrame(links, JointVector::Zero(nominal_.joints())).inverse();
   const auto targets = static_cast<Eigen::Index>(targets_at_zero.size());
   const Eigen::Index rows = 3 * targets * static_cast<Eigen::Index>(postures.size());
   Eigen::MatrixXd moves(rows, count()), others = Eigen::MatrixXd::Zero(rows, 6 + 3 * targets);
   Eigen::Index row = 0;
-  for (const Vector6d& q : postures) {
+  for (const JointVector& q : postures) {
     const Eigen::Isometry3d frame = lastFrame(links, q);
     std::vector<Eigen::Isometry3d> frames;
     for (const DenavitHartenberg& one : moved) frames.push_back(lastFrame(one, q));
@@ -159,7 +160,7 @@ Eigen::MatrixXd GeometryNumbers::byLink(const robot::Robot& arm, int axis) const
       motion.translation() = kStep * Eigen::Vector3d::Unit(k - 3);
     }
     robot::Robot bent = arm;
-    for (std::size_t j = static_cast<std::size_t>(axis); j < 6; ++j) {
+    for (std::size_t j = static_cast<std::size_t>(axis); j < bent.axes_in_base_at_zero.size(); ++j) {
       metrology::Line& line = bent.axes_in_base_at_zero[j];
       line = {motion * line.point, motion.linear() * line.direction};
     }

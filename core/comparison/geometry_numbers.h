@@ -20,15 +20,15 @@ enum class NumberKind {
 
 struct GeometryNumber {
   NumberKind kind = {};
-  int axis = 1;  ///< i, 1 to 5
+  int axis = 1;  ///< i, from 1 to one before the last
 
   bool isLength() const { return kind == NumberKind::along || kind == NumberKind::distance; }
 };
 
 /// The geometry of a machine in numbers that a day without a load sees whatever the base, the reflectors and the choice
-/// of frames: Denavit and Hartenberg's (Hayati's where axes are parallel) from axis 1 to axis 6, without those of the
+/// of frames: Denavit and Hartenberg's (Hayati's where axes are parallel) from axis 1 to the last, without those of the
 /// first link that turn and shift all along axis 1. The first are the base's (joint 1's zero looks like a base that is
-/// turned), and joint 6's zero is the reflectors'.
+/// turned), and the last joint's zero is the reflectors'.
 class GeometryNumbers {
  public:
   explicit GeometryNumbers(const robot::Robot& nominal);
@@ -40,8 +40,8 @@ class GeometryNumbers {
   /// b - a, angles within half a turn.
   Eigen::VectorXd difference(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const;
 
-  /// All that two days are compared by: `of` the fitted arm, then reflectors (flange axes from the frame that axes 5
-  /// and 6 carry, m), then how base_link stands against `points_from_base`: rotation vector, shift.
+  /// All that two days are compared by: `of` the fitted arm, then reflectors (flange axes from the frame that the last
+  /// two axes carry, m), then how base_link stands against `points_from_base`: rotation vector, shift.
   Eigen::VectorXd allOf(const robot::Robot& nominal, const calibration::ArmFit& fit, const std::vector<int>& targets,
                         const Eigen::Isometry3d& points_from_base) const;
   /// Where base_link stands in the readings' frame by a fit: its axis 1, and on it what link 1's first numbers say.
@@ -53,8 +53,8 @@ class GeometryNumbers {
   Eigen::MatrixXd movesOfReflectors(const robot::Robot& arm, const std::vector<Eigen::Vector3d>& targets_at_zero,
                                     const std::vector<const calibration::UnloadedDay*>& days) const;
 
-  /// How the numbers change by a small motion (rotation, then shift) of everything beyond axis i (1 to 5), by a small
-  /// step of axis i alone (shifts and tilts across it), and by all lengths growing.
+  /// How the numbers change by a small motion (rotation, then shift) of everything beyond axis i (but the last), by a
+  /// small step of axis i alone (shifts and tilts across it), and by all lengths growing.
   Eigen::MatrixXd byLink(const robot::Robot& arm, int axis) const;
   Eigen::MatrixXd byAxis(const robot::Robot& arm, int axis) const;
   Eigen::VectorXd byGrowth(const robot::Robot& arm) const;

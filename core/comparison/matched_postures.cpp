@@ -35,7 +35,7 @@ Remark whyAbsent(const campaign::Campaign& campaign, const identification::Ident
 }
 
 /// Why two load cases of one pose id are not the same; empty where they are.
-Remark difference(const Vector6d& q_before, const Eigen::Vector3d& force, const Vector6d& q_after,
+Remark difference(const JointVector& q_before, const Eigen::Vector3d& force, const JointVector& q_after,
                   const Eigen::Vector3d& other, const MatchLimits& limits) {
   Eigen::Index joint = 0;
   const double angle = (q_after - q_before).cwiseAbs().maxCoeff(&joint);
@@ -53,7 +53,7 @@ Remark difference(const identification::LoadCase& before, const identification::
 
 }  // namespace
 
-bool corresponds(const Vector6d& q_before, const Eigen::Vector3d& force_before, const Vector6d& q_after,
+bool corresponds(const JointVector& q_before, const Eigen::Vector3d& force_before, const JointVector& q_after,
                  const Eigen::Vector3d& force_after, const MatchLimits& limits) {
   return difference(q_before, force_before, q_after, force_after, limits).empty();
 }
@@ -98,7 +98,8 @@ std::vector<ReflectorPair> reflectorsInBoth(const campaign::Campaign& before_cam
 }
 
 Remark differenceOfMachines(const robot::Robot& before, const robot::Robot& after) {
-  for (std::size_t j = 0; j < 6; ++j) {
+  if (before.joints() != after.joints()) return Remark(RemarkId::other_joint_count, before.joints(), after.joints());
+  for (std::size_t j = 0; j < before.axes_in_base_at_zero.size(); ++j) {
     const metrology::Line &a = before.axes_in_base_at_zero[j], &b = after.axes_in_base_at_zero[j];
     const double turn = (a.direction - b.direction).norm();
     const double apart = (b.point - a.point).cross(a.direction).norm();  // points slide along their axis

@@ -27,7 +27,7 @@ struct MatchLimits {
 };
 
 /// Whether joint angles (rad) and force vectors (R0, N) of two days differ by no more than that.
-bool corresponds(const Vector6d& q_before, const Eigen::Vector3d& force_before, const Vector6d& q_after,
+bool corresponds(const JointVector& q_before, const Eigen::Vector3d& force_before, const JointVector& q_after,
                  const Eigen::Vector3d& force_after, const MatchLimits& limits = {});
 
 struct MatchedPostures {
@@ -55,8 +55,8 @@ std::vector<ReflectorPair> reflectorsInBoth(const campaign::Campaign& before_cam
 /// m, rad: beyond what two descriptions of one arm round to.
 inline constexpr double kSamePlace = 1e-3, kSameDirection = 1e-3;
 
-/// Why the two nominal arms are not one machine: an axis that stands more than 1 mm or 1 mrad elsewhere in
-/// base_link. Empty where they are.
+/// Why the two nominal arms are not one machine: another number of joints, or an axis that stands more than 1 mm or
+/// 1 mrad elsewhere in base_link. Empty where they are.
 Remark differenceOfMachines(const robot::Robot& before, const robot::Robot& after);
 
 /// What else in two URDFs with the same axes says that they are not of one machine: another name, a

@@ -169,15 +169,12 @@ void PairedDays::setCovariances() {
   for (std::size_t k = 0; k < 2; ++k) {
     std::vector<Eigen::VectorXd> residuals;
     for (const calibration::PostureEquations& of : equations[k].equations) residuals.push_back(of.residual);
-    ErrorComponents errors;
+    if (same_postures) residuals = differences(k, equations[k]);
+    ErrorComponents errors = errorComponents(equations[k], residuals);
     if (same_postures) {
-      residuals = differences(k, equations[k]);
-      errors = errorComponents(equations[k], residuals);
       errors.coordinate *= 0.5, errors.angle *= 0.5;
       constexpr double kLeast = 1e-6;  // readings to the same digits are no evidence of no noise
       errors.coordinate = std::max(errors.coordinate, std::max(kLeast, noiseShare(k)));
-    } else {
-      errors = errorComponents(equations[k], residuals);
     }
     covariances[k] = covarianceBy(equations[k], errors);
   }

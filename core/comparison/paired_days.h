@@ -17,6 +17,7 @@ struct FitEquations {
   std::vector<std::size_t> postures;  ///< in the day, with readings used
   std::vector<calibration::PostureEquations> equations;
   Eigen::MatrixXd normal_inverse;  ///< of the unknowns, the prior in it
+  int joints = 0;                  ///< of the machine
 
   FitEquations(const calibration::UnloadedDay& day, const calibration::ArmFit& fit);
 };
@@ -25,8 +26,10 @@ struct FitEquations {
 /// reflectors of a posture together. What gears do differs from posture to posture like an error of the angle, and
 /// makes a joint's zero more uncertain than errors of single coordinates would.
 struct ErrorComponents {
+  explicit ErrorComponents(int joints) : angle(JointVector::Zero(joints)) {}
+
   double coordinate = 1.0;
-  Vector6d angle = Vector6d::Zero();
+  JointVector angle;
 };
 
 /// By the moments r^T M r of the residuals: M the identity, and for each joint the sum over postures of a a^T, a what a

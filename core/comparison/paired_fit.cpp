@@ -80,8 +80,8 @@ std::vector<CaseEquations> ofCases(const std::vector<CaseEquations>& equations, 
 }
 
 /// A^T W A of those load cases by the tracker's noise; empty where it is not declared.
-std::vector<Matrix6d> noiseOf(const campaign::Campaign& campaign, const Identification& result,
-                              const std::vector<CaseEquations>& equations, const std::vector<std::size_t>& cases) {
+std::vector<JointMatrix> noiseOf(const campaign::Campaign& campaign, const Identification& result,
+                                 const std::vector<CaseEquations>& equations, const std::vector<std::size_t>& cases) {
   if (!campaign.tracker) return {};
   identification::LoadedArm arm;
   arm.geometry = result.geometry;
@@ -109,7 +109,7 @@ StiffnessEstimate solvedFrom(const campaign::Campaign& campaign, const Identific
 }
 
 /// Variances of what all postures of a state share.
-Vector6d sharedVariance(const StiffnessEstimate& estimate) {
+JointVector sharedVariance(const StiffnessEstimate& estimate) {
   return (estimate.covariance - estimate.parts.scatter).diagonal().cwiseMax(0.0);
 }
 
@@ -127,18 +127,20 @@ void pairInfluences(const StiffnessEstimate& before, const StiffnessEstimate& af
     paired_before[pair.before] = paired_after[pair.after] = true;
   }
   for (std::size_t p = 0; p < paired_before.size(); ++p) {
-    if (!paired_before[p]) fit.influences.push_back({before.influences[p], Vector6d::Zero()});
+    if (!paired_before[p]) fit.influences.push_back({before.influences[p], JointVector::Zero(fit.before.size())});
   }
   for (std::size_t p = 0; p < paired_after.size(); ++p) {
-    if (!paired_after[p]) fit.influences.push_back({Vector6d::Zero(), after.influences[p]});
+    if (!paired_after[p]) fit.influences.push_back({JointVector::Zero(fit.before.size()), after.influences[p]});
   }
 }
 
 /// Whether the pairs are enough to leave the other postures out.
-bool enough(const MatchedPostures& matched, const Identification& before, const Identification& after) {
-  constexpr std::size_t kFewest = 6;  // 18 coordinates of a reflector for six joints; below it t soars
+bool enough(const MatchedPostures& matched, const Identification& before, const Identification& after,
+            std::size_t joints) {
+  // 18 coordinates of a reflector for six joints; below it t soars.
+  const std::size_t fewest = std::max<std::size_t>(6, joints);
   const std::size_t pairs = matched.pairs.size();
-  return pairs >= kFewest && 2 * pairs >= std::min(before.cases.size(), after.cases.size());
+  return pairs >= fewest && 2 * pairs >= std::min(before.cases.size(), after.cases.size());
 }
 
 /// Whether a method has equations and influences of all load cases; its own geometry may leave one out.
@@ -155,17 +157,17 @@ bool hasEquations(const Identification& result, Method method) {
 PairedFit pairedFit(const campaign::Campaign& before_campaign, const Identification& before,
                     const campaign::Campaign& after_campaign, const Identification& after, Method method,
                     const MatchedPostures& matched) {
-  PairedFit fit;
+  PairedFit fit(before_campaign.robot.joints());
   if (!before.of(method).available || !after.of(method).available) return fit;
   const StiffnessEstimate &first = before.of(method).estimate, &second = after.of(method).estimate;
-  for (std::size_t j = 0; j < 6; ++j) {
+  for (std::size_t j = 0; j < fit.joints.size(); ++j) {
     fit.joints[j] = first.identifiable[j] && second.identifiable[j];
     fit.available = fit.available || fit.joints[j];
   }
   if (!fit.available) return fit;
   fit.shared_before = sharedVariance(first), fit.shared_after = sharedVariance(second);
   const bool paired = hasEquations(before, method) && hasEquations(after, method);
-  fit.same_postures = paired && enough(matched, before, after);
+  fit.same_postures = paired && enough(matched, before, after, fit.joints.size());
   fit.postures = matched.pairs.size();
   StiffnessEstimate solved_before = first, solved_after = second;
   std::vector<PosturePair> pairs = paired ? matched.pairs : std::vector<PosturePair>{};

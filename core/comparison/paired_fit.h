@@ -29,16 +29,25 @@ struct Uncertain {
 /// (bearings, links, base). It does not where it acts through the springs themselves (friction and lost motion in the
 /// joint that changed). Errors that scale a state's compliances (a load cell's gain) scale their difference.
 struct PairedFit {
+  explicit PairedFit(int of_joints)
+      : joints(static_cast<std::size_t>(of_joints), false),
+        before(JointVector::Zero(of_joints)),
+        after(before),
+        dof_before(before),
+        dof_after(before),
+        shared_before(before),
+        shared_after(before) {}
+
   bool available = false;
   bool same_postures = false;  ///< false: each state from all of its own postures, and what differs does not cancel
   std::size_t postures = 0;    ///< that both were solved from; those that correspond, where not the same
-  robot::JointMask joints{};   ///< solved for in both: identifiable in both
-  Vector6d before = Vector6d::Zero(), after = Vector6d::Zero();  ///< compliances, rad/Nm
+  robot::JointMask joints;     ///< solved for in both: identifiable in both
+  JointVector before, after;   ///< compliances, rad/Nm
   /// How each posture's errors move the compliances, g of StiffnessEstimate, before and after; a posture that only one
   /// state has is zero in the other.
-  std::vector<std::array<Vector6d, 2>> influences;
-  Vector6d dof_before = Vector6d::Zero(), dof_after = Vector6d::Zero();  ///< of the scatter, each state's own
-  Vector6d shared_before = Vector6d::Zero(), shared_after = Vector6d::Zero();
+  std::vector<std::array<JointVector, 2>> influences;
+  JointVector dof_before, dof_after;  ///< of the scatter, each state's own
+  JointVector shared_before, shared_after;
 
   /// w_b c_b + w_a c_a of one joint and its uncertainty: the scatter between postures, paired,
   ///   sum_p (w_b g_b,p + w_a g_a,p)^2,

@@ -7,11 +7,12 @@ enum class When { before, after, both };
 
 enum class RemarkId {
   // What says that the two machines are not one.
-  axis_turned,       ///< axis number, turn rad
-  axis_elsewhere,    ///< axis number, distance m
-  other_name,        ///< name before, after
-  flange_elsewhere,  ///< distance m, turn rad
-  other_masses,      ///< of all links before kg, after kg
+  other_joint_count,  ///< joints before, after
+  axis_turned,        ///< axis number, turn rad
+  axis_elsewhere,     ///< axis number, distance m
+  other_name,         ///< name before, after
+  flange_elsewhere,   ///< distance m, turn rad
+  other_masses,       ///< of all links before kg, after kg
   // What else to know before believing the numbers.
   same_encoders,  ///< whether active
   encoders_swapped,
@@ -23,7 +24,7 @@ enum class RemarkId {
   effects_changed,             ///< probability of unchanged ones
   no_common_reflector,
   zero_1_with_base,
-  zero_6_with_reflectors,
+  zero_of_last_with_reflectors,  ///< the last joint's number
   // Why something cannot be compared.
   nothing_comparable,  ///< why no deflection, why no stiffness
   of_one_campaign,     ///< When, what its identification says

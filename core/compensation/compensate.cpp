@@ -1,10 +1,11 @@
 #include "core/compensation/compensate.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "core/compensation/joint_correction.h"
 #include "core/identification/load_case.h"
 #include "core/io/units.h"
 #include "core/numerics/parallel.h"
@@ -25,6 +26,13 @@ std::vector<Remark> implausibleCommands(const std::vector<CompensatedPosture>& p
     remarks.emplace_back(RemarkId::implausible_command, posture.posture.id, joint + 1, turn);
   }
   return remarks;
+}
+
+std::vector<Remark> jointCountRemarks(const std::vector<CompensatedPosture>& postures) {
+  const auto solved = std::find_if(postures.begin(), postures.end(), [](const auto& one) { return one.solved; });
+  if (solved == postures.end() || solved->commands.size() == 6) return {};
+  const Eigen::Index joints = solved->commands.size();
+  return {Remark(joints < 6 ? RemarkId::position_first : RemarkId::least_turns, joints)};
 }
 
 namespace {
@@ -61,6 +69,7 @@ class Compensator {
   CompensatedPosture run(const PostureToCompensate& asked) const {
     CompensatedPosture result;
     result.posture = asked;
+    result.commands = JointVector::Zero(asked.q.size());
     const auto unloaded_angles = effects::loadedAngles(geometry_, estimate_.compliance, asked.q, effects::FlangeLoad());
     if (!unloaded_angles) {
       result.reason = Remark(RemarkId::unloaded_arm_does_not_rest);
@@ -90,19 +99,19 @@ class Compensator {
     return {flange.inverse() * wrench.point, wrench.force, wrench.moment};
   }
 
-  Vector6d torqueOf(const robot::ArmPosture& posture, const Eigen::Isometry3d& flange,
-                    const effects::FlangeLoad& load) const {
+  JointVector torqueOf(const robot::ArmPosture& posture, const Eigen::Isometry3d& flange,
+                       const effects::FlangeLoad& load) const {
     return robot::jointTorque(geometry_.arm, posture, {flange * load.point_in_flange, load.force, load.moment});
   }
 
   /// Where the loaded arm stands with these commands; empty where it does not come to rest.
-  std::optional<robot::ArmPosture> loadedPosture(const Vector6d& commands, const effects::FlangeLoad& load) const {
+  std::optional<robot::ArmPosture> loadedPosture(const JointVector& commands, const effects::FlangeLoad& load) const {
     const auto angles = effects::loadedAngles(geometry_, estimate_.compliance, commands, load);
     return angles ? std::optional<robot::ArmPosture>(robot::postureAt(geometry_.arm, *angles)) : std::nullopt;
   }
 
   /// Where the flange of the loaded arm stands with these commands, `posture` the one of its springs alone.
-  std::optional<Eigen::Isometry3d> loadedFlange(const Vector6d& commands, const robot::ArmPosture& posture,
+  std::optional<Eigen::Isometry3d> loadedFlange(const JointVector& commands, const robot::ArmPosture& posture,
                                                 const effects::FlangeLoad& load) const {
     return with_ ? with_->flange(commands, load) : robot::flangeAt(geometry_.arm, posture);
   }
@@ -122,7 +131,7 @@ class Compensator {
     if (range_ == nullptr) return {};
     if (found.load_ratio > options_.load_most)
       return Remark(RemarkId::load_far_beyond, found.load_ratio, options_.load_most);
-    for (int joint = turnsFreely(geometry_, 0) ? 1 : 0; joint < 6; ++joint) {
+    for (int joint = turnsFreely(geometry_, 0) ? 1 : 0; joint < geometry_.arm.joints(); ++joint) {
       if (beyondAngles(found.posture.q, joint) > options_.posture_most)
         return Remark(RemarkId::posture_far_beyond, joint + 1, found.posture.q[joint], range_->low[joint],
                       range_->high[joint], options_.posture_most);
@@ -141,10 +150,10 @@ class Compensator {
     result.load_ratio = loadRatio(*range_, {wanted * load.point_in_flange, load.force, load.moment}, axes);
     if (result.load_ratio > options_.load_caution)
       result.cautions.emplace_back(RemarkId::load_beyond, result.load_ratio);
-    const Vector6d torque = torqueOf(unloaded, wanted, load);
-    const Matrix36d rows = robot::pointJacobianAt(axes, wanted * tcp_);
+    const JointVector torque = torqueOf(unloaded, wanted, load);
+    const PointJacobian rows = robot::pointJacobianAt(axes, wanted * tcp_);
     const double size = result.tcp.deflection.norm();
-    for (int joint = 0; joint < 6; ++joint) {
+    for (int joint = 0; joint < geometry_.arm.joints(); ++joint) {
       if (beyondAngles(result.posture.q, joint) > options_.posture_caution)
         result.cautions.emplace_back(RemarkId::posture_beyond, joint + 1, result.posture.q[joint], range_->low[joint],
                                      range_->high[joint]);
@@ -161,7 +170,7 @@ class Compensator {
   }
 
   /// How far a joint stands outside the angles that identified, rad; whole turns do not count.
-  double beyondAngles(const Vector6d& q, int joint) const {
+  double beyondAngles(const JointVector& q, int joint) const {
     constexpr double kTurn = 2.0 * std::numbers::pi;
     const double low = range_->low[joint], high = range_->high[joint];
     const double past = std::remainder(q[joint] - 0.5 * (low + high), kTurn);
@@ -170,8 +179,8 @@ class Compensator {
 
   /// The reason to refuse where the load turns a joint of unknown stiffness, which counts as rigid here, or
   /// of a negative one, by which the commands would go the wrong way.
-  Remark turnsUnusableJoint(const Vector6d& torque) const {
-    for (int joint = 0; joint < 6; ++joint) {
+  Remark turnsUnusableJoint(const JointVector& torque) const {
+    for (int joint = 0; joint < geometry_.arm.joints(); ++joint) {
       const bool known = estimate_.identifiable[static_cast<std::size_t>(joint)];
       if (known && estimate_.compliance[joint] >= 0.0) continue;
       if (std::abs(torque[joint]) <= options_.share_unknown * torque.cwiseAbs().maxCoeff()) continue;
@@ -183,7 +192,7 @@ class Compensator {
 
   /// Errors of three coordinates, a draw each column. `rows`: of the joints, J diag(tau); `by`: of the effects'
   /// parameters; `left`: model error of each, m (or rad).
-  Eigen::Matrix3Xd errorsOf(const Matrix36d& rows, const Eigen::Ref<const Eigen::MatrixXd>& by,
+  Eigen::Matrix3Xd errorsOf(const PointJacobian& rows, const Eigen::Ref<const Eigen::MatrixXd>& by,
                             const Eigen::Vector3d& predicted, double left) const {
     Eigen::Matrix3Xd errors = rows * draws_.compliance + left * draws_.model_error;
     if (by.cols() > 0) errors += by * draws_.parameters;
@@ -194,7 +203,7 @@ class Compensator {
     return errors;
   }
 
-  PointDeflection deflectionOf(const Eigen::Vector3d& deflection, const Matrix36d& rows,
+  PointDeflection deflectionOf(const Eigen::Vector3d& deflection, const PointJacobian& rows,
                                const Eigen::Ref<const Eigen::MatrixXd>& by, double left) const {
     const PredictionSpread spread = spreadOf(errorsOf(rows, by, deflection, left));
     PointDeflection point{deflection, spread.sd, spread.interval, spread.expanded};
@@ -206,7 +215,7 @@ class Compensator {
   }
 
   /// The flange of the arm with what is uncertain moved; as it is where that does not come to rest.
-  std::vector<Moved> variedBy(const Vector6d& q, const effects::FlangeLoad& load, const Moved& as_it_is) const {
+  std::vector<Moved> variedBy(const JointVector& q, const effects::FlangeLoad& load, const Moved& as_it_is) const {
     std::vector<Moved> moved;
     for (const effects::RestingFlange& flange : with_->varied) {
       const auto unloaded = flange(q, effects::FlangeLoad()), loaded = flange(q, load);
@@ -217,7 +226,7 @@ class Compensator {
 
   /// What a unit of each uncertain parameter changes: of the deflection of the points (fixed to the flange, which
   /// stands at `flange.unloaded`), three rows each, and of the flange's rotation.
-  Eigen::MatrixXd byParameters(const Vector6d& q, const effects::FlangeLoad& load, const Moved& flange,
+  Eigen::MatrixXd byParameters(const JointVector& q, const effects::FlangeLoad& load, const Moved& flange,
                                const std::vector<Eigen::Vector3d>& points) const {
     const auto count = static_cast<Eigen::Index>(points.size());
     Eigen::MatrixXd by = Eigen::MatrixXd::Zero(3 * count + 3, draws_.parameters.rows());
@@ -266,7 +275,7 @@ class Compensator {
     }
     result.predicted = true;
     const Moved flange{wanted, *resting};
-    const Vector6d torque = torqueOf(unloaded, wanted, load);
+    const JointVector torque = torqueOf(unloaded, wanted, load);
     std::vector<Eigen::Vector3d> points{tcp_};
     const auto& places = geometry_.targets_at_zero;
     if (std::all_of(places.begin(), places.end(), [](const auto& place) { return place.has_value(); })) {
@@ -285,7 +294,7 @@ class Compensator {
       return three;
     };
     for (std::size_t p = 0; p < points.size(); ++p) {
-      const Matrix36d rows = robot::pointJacobianAt(axes, wanted * points[p]) * torque.asDiagonal();
+      const PointJacobian rows = robot::pointJacobianAt(axes, wanted * points[p]) * torque.asDiagonal();
       const PointDeflection point =
           deflectionOf(moveOf(flange, points[p]), rows, rowsFrom(3 * static_cast<Eigen::Index>(p)), left);
       if (p == 0) {
@@ -294,19 +303,19 @@ class Compensator {
         result.targets.push_back(point);
       }
     }
-    const Matrix6d jacobian = robot::jacobianAt(geometry_.arm, unloaded, wanted * tcp_);
+    const Jacobian jacobian = robot::jacobianAt(geometry_.arm, unloaded, wanted * tcp_);
     result.rotation = turnOf(flange);
     const double turn_left = range_ && range_->tool_size > 0.0 ? left / range_->tool_size : 0.0;
     result.rotation_sd = spreadOf(errorsOf(jacobian.bottomRows<3>() * torque.asDiagonal(), rowsFrom(by.rows() - 3),
                                            result.rotation, turn_left))
                              .sd;
-    result.conditioning = robot::conditioningAt(axes, wanted * tcp_);
+    result.conditioning = stepConditioning(axes, wanted * tcp_);
   }
 
-  void solve(const PostureToCompensate& asked, const Vector6d& unloaded_angles, const Eigen::Isometry3d& wanted,
+  void solve(const PostureToCompensate& asked, const JointVector& unloaded_angles, const Eigen::Isometry3d& wanted,
              const effects::FlangeLoad& load, CompensatedPosture& result) const {
     const auto once = effects::loadedAngles(geometry_, estimate_.compliance, asked.q, load);
-    Vector6d commands = asked.q - (*once - unloaded_angles);  // the predicted turn, mirrored: the first try
+    JointVector commands = asked.q - (*once - unloaded_angles);  // the predicted turn, mirrored: the first try
     constexpr int kMostSteps = 20;
     constexpr double kThere = 1e-9;  // m and rad
     for (int step = 0; step < kMostSteps; ++step) {
@@ -321,19 +330,34 @@ class Compensator {
       error << wanted * tcp_ - flange * tcp_, robot::rotationVector(wanted.linear() * flange.linear().transpose());
       result.remaining = error.head<3>().norm();
       if (step == 0) result.mirrored_remaining = result.remaining;
-      if (error.cwiseAbs().maxCoeff() < kThere) {
-        result.commands = commands;
-        result.reason = outsideLimits(commands, RemarkId::command_outside_limits);
-        result.solved = result.reason.empty();
+      const bool whole = commands.size() >= 6;
+      const auto next = [&] {
+        return jointStep(robot::jacobianAt(geometry_.arm, *posture, flange * tcp_), error, commands - asked.q);
+      };
+      // Fewer joints are where they should be when the position is right and a step brings the orientation no nearer.
+      const bool there = whole
+                             ? error.cwiseAbs().maxCoeff() < kThere
+                             : error.head<3>().cwiseAbs().maxCoeff() < kThere && next().cwiseAbs().maxCoeff() < kThere;
+      if (there) {
+        finish(commands, whole ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : Eigen::Vector3d(-error.tail<3>()), result);
         return;
       }
-      commands += solveLu(robot::jacobianAt(geometry_.arm, *posture, flange * tcp_), error);
+      commands += next();
     }
     result.reason = Remark(RemarkId::steps_do_not_converge);
   }
 
-  Remark outsideLimits(const Vector6d& angles, RemarkId what) const {
-    for (int joint = 0; joint < 6; ++joint) {
+  void finish(const JointVector& commands, const Eigen::Vector3d& turn_left, CompensatedPosture& result) const {
+    result.commands = commands;
+    result.remaining_turn = turn_left;
+    result.reason = outsideLimits(commands, RemarkId::command_outside_limits);
+    result.solved = result.reason.empty();
+    if (result.solved && turn_left.norm() > options_.negligible_turn)
+      result.cautions.emplace_back(RemarkId::turn_left, turn_left.norm(), turn_left.x(), turn_left.y(), turn_left.z());
+  }
+
+  Remark outsideLimits(const JointVector& angles, RemarkId what) const {
+    for (int joint = 0; joint < geometry_.arm.joints(); ++joint) {
       const robot::JointLimits& limits = geometry_.arm.limits[static_cast<std::size_t>(joint)];
       if (angles[joint] < limits.lower || angles[joint] > limits.upper)
         return Remark(what, joint + 1, angles[joint], limits.lower, limits.upper);
@@ -375,7 +399,7 @@ bool turnsFreely(const frames::LoadingGeometry& geometry, int joint) {
 
 std::optional<Eigen::Isometry3d> restingFlange(const frames::LoadingGeometry& geometry,
                                                const identification::StiffnessEstimate& estimate,
-                                               const effects::EffectDeflection* with, const Vector6d& commands) {
+                                               const effects::EffectDeflection* with, const JointVector& commands) {
   if (with != nullptr) return with->flange(commands, effects::FlangeLoad());
   const auto angles = effects::loadedAngles(geometry, estimate.compliance, commands, effects::FlangeLoad());
   if (!angles) return std::nullopt;

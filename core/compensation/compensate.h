@@ -24,7 +24,10 @@ namespace stiffscope::compensation {
 /// Displacement of points of the flange body (R0, unloaded places) under a load by a unit of each parameter, to first
 /// order: three rows a point, one column a parameter, m per unit.
 using DisplacementByParameters = std::function<Eigen::MatrixXd(
-    const Vector6d& commands, const effects::FlangeLoad& load, const std::vector<Eigen::Vector3d>& points)>;
+    const JointVector& commands, const effects::FlangeLoad& load, const std::vector<Eigen::Vector3d>& points)>;
+
+/// Of each joint a row, of each draw a column.
+using JointDraws = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMostJoints, Eigen::Dynamic>;
 
 /// What may be true of the arm instead of its model, a draw each column (Monte Carlo, JCGM 101). All draws are equally
 /// likely, and one draw is the same arm in all postures and under all loads: an effect that the day's loads could not
@@ -32,7 +35,7 @@ using DisplacementByParameters = std::function<Eigen::MatrixXd(
 struct DeflectionDraws {
   /// c less the model's, rad/Nm; of a draw of `springs_alone` c itself. A joint that the day cannot see is anywhere
   /// between rigid and as weak as the weaker of its neighbours.
-  Eigen::Matrix<double, 6, Eigen::Dynamic> compliance;
+  JointDraws compliance;
   Eigen::MatrixXd parameters;   ///< of what gives besides joint springs, less the model's
   DisplacementByParameters by;  ///< null: the parameters are moves along EffectDeflection::varied
   Eigen::VectorXd load;         ///< error of the wrench's size, a share
@@ -45,7 +48,7 @@ struct DeflectionDraws {
 
 /// Joint springs alone. `covariance`: of their compliances, scaled to normal numbers (coveringCovariance). `load_sd`:
 /// of the load cell's scale. `varied`: further parameters, standard normal and independent.
-DeflectionDraws springDraws(const identification::StiffnessEstimate& estimate, const Matrix6d& covariance,
+DeflectionDraws springDraws(const identification::StiffnessEstimate& estimate, const JointMatrix& covariance,
                             double load_sd = 0.0, Eigen::Index varied = 0);
 
 /// The posterior predictive: each draw one of springs and effects together (extended_model/hidden_effects.h) with one
@@ -70,10 +73,12 @@ PredictionSpread spreadOf(const Eigen::Matrix3Xd& errors);
 
 /// The loads and postures that a day's stiffnesses come from, and what the model left of the day's own deflections.
 struct IdentifiedRange {
-  double force = 0.0;                                        ///< largest, N
-  double moment = 0.0;                                       ///< largest about the wrist, Nm
-  Vector6d torque = Vector6d::Zero();                        ///< largest of each joint by the load, Nm
-  Vector6d low = Vector6d::Zero(), high = Vector6d::Zero();  ///< joint angles, rad
+  explicit IdentifiedRange(int joints) : torque(JointVector::Zero(joints)), low(torque), high(torque) {}
+
+  double force = 0.0;        ///< largest, N
+  double moment = 0.0;       ///< largest about the wrist, Nm
+  JointVector torque;        ///< largest of each joint by the load, Nm
+  JointVector low, high;     ///< joint angles, rad
   double model_error = 0.0;  ///< rms per coordinate of a reflector, beyond noise, under the largest load, m
   double tool_size = 0.0;    ///< rms distance of the reflectors from their middle, m
 };
@@ -85,7 +90,8 @@ struct IdentifiedRange {
 /// r of postures left out; never below zero. Load: as loadRatio.
 IdentifiedRange identifiedRange(const identification::Identification& result, identification::Method method);
 
-/// Where axes 5 and 6 come nearest to each other: what moments of a load are taken about.
+/// Where the last two axes come nearest to each other, where they are parallel between them at the last joint: what
+/// moments of a load are taken about.
 Eigen::Vector3d wristOf(const robot::ArmAxes& axes);
 
 /// How large a load is beside the largest of the day: the larger of the ratios of force and of moment about the wrist.
@@ -94,7 +100,7 @@ double loadRatio(const IdentifiedRange& range, const robot::Wrench& wrench, cons
 /// A posture and the load-cell reading expected there (as in the `states` table).
 struct PostureToCompensate {
   std::string id;
-  Vector6d q = Vector6d::Zero();               ///< rad
+  JointVector q;                               ///< rad
   Vector6d wrench_in_cell = Vector6d::Zero();  ///< N, Nm, in the load cell's axes
   /// Where the load is known by its direction in R0 instead: then the reading plays no part.
   std::optional<effects::FlangeLoad> load = std::nullopt;
@@ -119,11 +125,14 @@ struct CompensatedPosture {
   double load_ratio = 0.0;               ///< to the largest load that identified (loadRatio); 0: nothing known of that
   std::vector<Remark> cautions;          ///< what to know of the prediction, refused or not
   bool solved = false;
-  Remark reason;                         ///< why there are no commands
-  Vector6d commands = Vector6d::Zero();  ///< joint angles to command, rad
-  double mirrored_remaining = 0.0;       ///< |move of P_TCP| left where the predicted turn is subtracted once, m
-  double remaining = 0.0;     ///< the same by the commands: |P_TCP(loaded, commands) - P_TCP(unloaded, q)|, m
-  double conditioning = 0.0;  ///< least over largest singular value of J at P_TCP, lengths over 1 m
+  Remark reason;                    ///< why there are no commands
+  JointVector commands;             ///< joint angles to command, rad
+  double mirrored_remaining = 0.0;  ///< |move of P_TCP| left where the predicted turn is subtracted once, m
+  double remaining = 0.0;           ///< the same by the commands: |P_TCP(loaded, commands) - P_TCP(unloaded, q)|, m
+  /// How the loaded flange stays turned by the commands against the unloaded one, rotation vector in R0, rad. Of six
+  /// joints or more it does not.
+  Eigen::Vector3d remaining_turn = Eigen::Vector3d::Zero();
+  double conditioning = 0.0;  ///< stepConditioning at P_TCP
 };
 
 struct CompensateOptions {
@@ -140,7 +149,8 @@ struct CompensateOptions {
   double posture_caution = 0.26, posture_most = 1.57;
   /// U over the size of the deflection of P_TCP: from one on, commands may do more harm than good.
   double uncertain_caution = 0.5, uncertain_most = 1.0;
-  double negligible = 1e-6;  ///< U, m, below which no share matters
+  double negligible = 1e-6;       ///< U, m, below which no share matters
+  double negligible_turn = 1e-5;  ///< that commands may leave of the flange's turn without a caution, rad
 };
 
 /// How far predictions can be trusted: what may be true instead of the model, and what it stands on.
@@ -172,6 +182,10 @@ struct DeflectingArm {
 /// whose stiffness is not known or came out negative. Nor, with `certainty`, far beyond the loads and postures that
 /// identified, or where the prediction is as uncertain as it is large; before that there are cautions.
 ///
+/// Six joints bring the flange back in position and orientation. Of more there are many corrections that do, of which
+/// the one with the least sum of squares is given. Of fewer the commands bring P_TCP back, and the orientation as far
+/// as the remaining freedom allows: `remaining_turn` says what is left, with a caution (jointStep).
+///
 /// Uncertainty: each draw of the certainty moves a point, to first order, by J diag(tau) (c_draw - c) and the columns
 /// of its effects times their parameters; to that comes the error of the wrench's size, and the model error that the
 /// day left, times the load's ratio to the day's. Not a number where the stiffnesses' uncertainty is not. Without
@@ -193,7 +207,7 @@ bool turnsFreely(const frames::LoadingGeometry& geometry, int joint);
 /// `compensate` predicts by. Empty where it does not come to rest.
 std::optional<Eigen::Isometry3d> restingFlange(const frames::LoadingGeometry& geometry,
                                                const identification::StiffnessEstimate& estimate,
-                                               const effects::EffectDeflection* with, const Vector6d& commands);
+                                               const effects::EffectDeflection* with, const JointVector& commands);
 
 /// How many postures have commands, and why others have none.
 struct CompensationSummary {
@@ -212,10 +226,14 @@ CompensationSummary summaryOf(const std::vector<CompensatedPosture>& postures);
 /// what a heavy load does to a weak joint, so that forces, moments or angles are rather in another unit.
 std::vector<Remark> implausibleCommands(const std::vector<CompensatedPosture>& postures);
 
-/// Reads postures and wrenches from a CSV file: `pose` (any name, not repeated), `q1_deg`..`q6_deg`, and the load-cell
-/// reading expected there, `fx_n fy_n fz_n mx_nm my_nm mz_nm`; columns in any order. Throws InputError as the
-/// campaign's tables do; unknown columns go to `warnings`.
-std::vector<PostureToCompensate> readPostures(const std::filesystem::path& file, std::vector<std::string>& warnings);
+/// What there is to know of all commands where a machine has not six joints, and some posture has commands; else none.
+std::vector<Remark> jointCountRemarks(const std::vector<CompensatedPosture>& postures);
+
+/// Reads postures and wrenches of a machine of so many joints from a CSV file: `pose` (any name, not repeated),
+/// `q1_deg`, `q2_deg` and so on of each joint, and the load-cell reading expected there, `fx_n fy_n fz_n mx_nm my_nm
+/// mz_nm`; columns in any order. Throws InputError as the campaign's tables do; unknown columns go to `warnings`.
+std::vector<PostureToCompensate> readPostures(const std::filesystem::path& file, int joints,
+                                              std::vector<std::string>& warnings);
 
 /// Load-cell readings by the name of the posture that they act at.
 struct NamedReading {

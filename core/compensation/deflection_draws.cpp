@@ -30,17 +30,19 @@ Eigen::MatrixXd standardNormal(Eigen::Index rows, Eigen::Index draws, RandomStre
 }
 
 /// Normal numbers of a covariance; not a number where that is not.
-Eigen::MatrixXd normalDraws(const Matrix6d& covariance, Eigen::Index draws, RandomStream& random) {
-  const Eigen::MatrixXd z = standardNormal(6, draws, random);
-  if (!covariance.allFinite()) return Eigen::MatrixXd::Constant(6, draws, std::numeric_limits<double>::quiet_NaN());
+Eigen::MatrixXd normalDraws(const JointMatrix& covariance, Eigen::Index draws, RandomStream& random) {
+  const Eigen::MatrixXd z = standardNormal(covariance.rows(), draws, random);
+  if (!covariance.allFinite())
+    return Eigen::MatrixXd::Constant(covariance.rows(), draws, std::numeric_limits<double>::quiet_NaN());
   return covarianceRoot(covariance) * z;
 }
 
 void addUnknownJoints(const StiffnessEstimate& estimate, DeflectionDraws& draws, RandomStream& random) {
-  for (int j = 0; j < 6; ++j) {
+  const auto joints = static_cast<int>(estimate.compliance.size());
+  for (int j = 0; j < joints; ++j) {
     if (estimate.identifiable[static_cast<std::size_t>(j)]) continue;
     const double weakest =
-        std::max({0.0, j > 0 ? estimate.compliance[j - 1] : 0.0, j < 5 ? estimate.compliance[j + 1] : 0.0});
+        std::max({0.0, j > 0 ? estimate.compliance[j - 1] : 0.0, j < joints - 1 ? estimate.compliance[j + 1] : 0.0});
     for (double& c : draws.compliance.row(j)) c = weakest * random.uniform();
   }
 }
@@ -51,9 +53,9 @@ void addCommon(double load_sd, DeflectionDraws& draws, RandomStream& random) {
 }
 
 /// `known`: joints whose stiffness is from elsewhere. What has been drawn of the day's joints does not have them.
-Matrix6d withKnown(const Matrix6d& others, const StiffnessEstimate& estimate) {
-  Matrix6d covariance = others;
-  for (int j = 0; j < 6; ++j) {
+JointMatrix withKnown(const JointMatrix& others, const StiffnessEstimate& estimate) {
+  JointMatrix covariance = others;
+  for (int j = 0; j < covariance.rows(); ++j) {
     if (estimate.identifiable[static_cast<std::size_t>(j)] && covariance(j, j) == 0.0)
       covariance(j, j) = estimate.covariance(j, j);
   }
@@ -69,7 +71,7 @@ DeflectionDraws hiddenDraws(const extended_model::ExtendedModel& model, identifi
   const Eigen::Index all = model.hidden->unexplained ? 2 * by_model : by_model;
   RandomStream random(1, "predictions");
   DeflectionDraws draws;
-  draws.compliance.resize(6, all);
+  draws.compliance.resize(estimate.compliance.size(), all);
   draws.compliance.leftCols(by_model) = normalDraws(withKnown(own.others, estimate), by_model, random);
   draws.parameters.setZero(hidden.off.rows(), all);
   for (Eigen::Index d = 0; d < by_model; ++d) {
@@ -85,7 +87,7 @@ DeflectionDraws hiddenDraws(const extended_model::ExtendedModel& model, identifi
   }
   addUnknownJoints(estimate, draws, random);
   addCommon(load_sd, draws, random);
-  draws.by = [&model, method](const Vector6d& commands, const effects::FlangeLoad& load,
+  draws.by = [&model, method](const JointVector& commands, const effects::FlangeLoad& load,
                               const std::vector<Eigen::Vector3d>& points) {
     return extended_model::displacementByHidden(model, method, commands, load, points);
   };
@@ -100,7 +102,7 @@ double quantile(std::vector<double>& values, double p) {
 
 }  // namespace
 
-DeflectionDraws springDraws(const StiffnessEstimate& estimate, const Matrix6d& covariance, double load_sd,
+DeflectionDraws springDraws(const StiffnessEstimate& estimate, const JointMatrix& covariance, double load_sd,
                             Eigen::Index varied) {
   RandomStream random(1, "predictions");
   DeflectionDraws draws;

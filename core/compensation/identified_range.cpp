@@ -34,7 +34,7 @@ double modelError(const Identification& result, Method method, const std::vector
   for (std::size_t fold = 0; fold < folds; ++fold) {
     std::vector<double> weights(postures, 1.0);
     for (std::size_t p = fold; p < postures; p += folds) weights[p] = 0.0;
-    const Vector6d compliance =
+    const JointVector compliance =
         extended_model::solvedCompliance(equations, method, result.of(method).estimate.identifiable, weights, no_steps);
     for (std::size_t p = fold; p < postures; p += folds) {
       const identification::CaseEquations& own = equations.reflectors[p].springs;
@@ -64,7 +64,11 @@ double toolSize(const frames::LoadingGeometry& geometry) {
 }  // namespace
 
 Eigen::Vector3d wristOf(const robot::ArmAxes& axes) {
-  const metrology::CommonPerpendicular between = metrology::commonPerpendicular(axes[4], axes[5]);
+  const metrology::Line &last = axes.back(), &before = axes[axes.size() - 2];
+  constexpr double kParallel = 0.0175;  // rad, a degree
+  if (metrology::angleBetween(before, last) < kParallel)
+    return 0.5 * (last.point + metrology::nearestPoint(before, last.point));
+  const metrology::CommonPerpendicular between = metrology::commonPerpendicular(before, last);
   return 0.5 * (between.foot_on_first + between.foot_on_second);
 }
 
@@ -75,7 +79,7 @@ double loadRatio(const IdentifiedRange& range, const robot::Wrench& wrench, cons
 }
 
 IdentifiedRange identifiedRange(const Identification& result, Method method) {
-  IdentifiedRange range;
+  IdentifiedRange range(result.geometry.arm.joints());
   if (result.cases.empty()) return range;
   range.low = range.high = result.cases.front().q;
   for (const LoadCase& one : result.cases) {
@@ -87,7 +91,7 @@ IdentifiedRange identifiedRange(const Identification& result, Method method) {
     range.low = range.low.cwiseMin(one.q);
     range.high = range.high.cwiseMax(one.q);
   }
-  for (const Vector6d& torque : identification::jointTorques(result.cases))
+  for (const JointVector& torque : identification::jointTorques(result.cases))
     range.torque = range.torque.cwiseMax(torque.cwiseAbs());
   std::vector<double> load_of_posture;
   for (std::size_t i = 0; i < result.cases.size(); ++i) {

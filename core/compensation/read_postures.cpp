@@ -8,29 +8,30 @@ namespace {
 
 struct PostureRow {
   std::string id;
-  Vector6d q = Vector6d::Zero();
+  JointVector q;
   Vector6d wrench_in_cell = Vector6d::Zero();
   std::size_t line = 0;
 };
 
-const campaign::TableLayout<PostureRow>& posturesLayout() {
+campaign::TableLayout<PostureRow> posturesLayout(int joints) {
   using Row = PostureRow;
-  static const campaign::TableLayout<Row> layout{
-      "postures",
-      campaign::joined<Row>({{{"pose", campaign::CellKind::text, [](Row& row) -> std::string& { return row.id; }}},
-                             campaign::jointColumns<Row>(),
-                             campaign::wrenchColumns<Row>()}),
-      {"pose"}};
-  return layout;
+  return {"postures",
+          campaign::joined<Row>({{{"pose", campaign::CellKind::text, [](Row& row) -> std::string& { return row.id; }}},
+                                 campaign::jointColumns<Row>(joints),
+                                 campaign::wrenchColumns<Row>()}),
+          {"pose"},
+          campaign::blankRow<Row>(joints)};
 }
 
 }  // namespace
 
-std::vector<PostureToCompensate> readPostures(const std::filesystem::path& file, std::vector<std::string>& warnings) {
+std::vector<PostureToCompensate> readPostures(const std::filesystem::path& file, int joints,
+                                              std::vector<std::string>& warnings) {
   const std::string bytes = io::readTextFile(file);
   campaign::CampaignNames names;
   std::vector<PostureToCompensate> postures;
-  for (PostureRow& row : campaign::readTable<PostureRow>({file.string(), bytes}, posturesLayout(), names, warnings)) {
+  for (PostureRow& row :
+       campaign::readTable<PostureRow>({file.string(), bytes}, posturesLayout(joints), names, warnings)) {
     postures.push_back({std::move(row.id), row.q, row.wrench_in_cell});
   }
   return postures;

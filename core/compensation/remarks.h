@@ -20,6 +20,10 @@ enum class RemarkId {
   torque_beyond,   ///< joint number, its torque by the load Nm, the largest that identified Nm
   posture_beyond,  ///< joint number, its angle, least and largest angle that identified, rad
   uncertain,       ///< U of the deflection of P_TCP m, its size m
+  turn_left,       ///< angle that the commands leave of the flange's turn rad, about x0, y0, z0 rad
+  // What to know of all commands for a machine that has not six joints.
+  position_first,  ///< joints, fewer than six
+  least_turns,     ///< joints, more than six
   // What commands are not to be believed.
   implausible_command,  ///< posture, joint number, turn rad
 };

@@ -30,8 +30,10 @@ Sought foundNormal(double value, double sd) {
 Sought stiffness(const DayResult& day, int joint) {
   if (day.identification == nullptr) return {std::nullopt, Missing::not_of_such_a_day};
   const identification::MethodResult& shown = day.identification->of(identification::bestMethod(*day.identification));
-  if (!shown.available || !shown.estimate.identifiable[static_cast<std::size_t>(joint)])
-    return {std::nullopt, Missing::not_identified};
+  if (!shown.available) return {std::nullopt, Missing::not_identified};
+  const robot::JointMask& identifiable = shown.estimate.identifiable;
+  if (joint >= static_cast<int>(identifiable.size())) return {std::nullopt, Missing::no_such_joint};
+  if (!identifiable[static_cast<std::size_t>(joint)]) return {std::nullopt, Missing::not_identified};
   const double k = shown.estimate.stiffness(joint), u = identification::expandedUncertainty(shown.estimate, joint);
   // The U that is stated; one that is open above still has a lower end.
   return found(

@@ -14,10 +14,11 @@
 
 namespace stiffscope::conformity {
 
-/// What a limit can be on, in the unit that its name ends in. Of a loaded day: the stiffnesses by the method shown
-/// first, what it compensates on postures held out, the softest direction at P_TCP over the day's postures, and, of a
-/// pair, what active encoders avoid. Of an unloaded day: position errors on postures held out, by the URDF's arm and by
-/// the calibrated one. Of circle sweeps: the largest difference of a distance between axes from the URDF's.
+/// What a limit can be on, in the unit that its name ends in. Of a loaded day: the stiffnesses, of as many joints as
+/// the machine has, by the method shown first, what it compensates on postures held out, the softest direction at P_TCP
+/// over the day's postures, and, of a pair, what active encoders avoid. Of an unloaded day: position errors on postures
+/// held out, by the URDF's arm and by the calibrated one. Of circle sweeps: the largest difference of a distance
+/// between axes from the URDF's.
 enum class Quantity {
   k1,
   k2,
@@ -25,6 +26,8 @@ enum class Quantity {
   k4,
   k5,
   k6,
+  k7,
+  k8,
   compensated_at_reflectors,
   compensated_at_wrist,
   softest,
@@ -73,6 +76,7 @@ enum class Verdict { pass, fail, not_evaluated };
 enum class Missing {
   nothing,
   not_of_such_a_day,  ///< the day measures something else
+  no_such_joint,      ///< the machine has fewer
   not_identified,     ///< of such a day, but not found on this one
   no_uncertainty      ///< too little was measured to say how far it is to be trusted
 };

@@ -22,6 +22,8 @@ const std::vector<QuantityName>& quantityNames() {
       {Quantity::k4, "k4_nm_per_rad", 1.0},
       {Quantity::k5, "k5_nm_per_rad", 1.0},
       {Quantity::k6, "k6_nm_per_rad", 1.0},
+      {Quantity::k7, "k7_nm_per_rad", 1.0},
+      {Quantity::k8, "k8_nm_per_rad", 1.0},
       {Quantity::compensated_at_reflectors, "compensated_at_reflectors_percent", kPercent},
       {Quantity::compensated_at_wrist, "compensated_at_wrist_percent", kPercent},
       {Quantity::softest, "softest_at_tcp_n_per_um", kNewtonsPerMicrometre},

@@ -39,10 +39,10 @@ void requireLoads(const campaign::Campaign& campaign) {
 
 constexpr double kClearOfFloor = 0.3;  // m, of the flange above base_link's origin
 
-Vector6d somePosture(const robot::Robot& arm, std::mt19937_64& random) {
+JointVector somePosture(const robot::Robot& arm, std::mt19937_64& random) {
   std::uniform_real_distribution<double> share(0.05, 0.95);
-  Vector6d q;
-  for (Eigen::Index j = 0; j < 6; ++j) {
+  JointVector q(arm.joints());
+  for (Eigen::Index j = 0; j < q.size(); ++j) {
     const robot::JointLimits& limits = arm.limits[static_cast<std::size_t>(j)];
     const double low = std::max(limits.lower, -std::numbers::pi), high = std::min(limits.upper, std::numbers::pi);
     q[j] = low + share(random) * (high - low);
@@ -51,15 +51,16 @@ Vector6d somePosture(const robot::Robot& arm, std::mt19937_64& random) {
 }
 
 /// Whitened normal equations of one more posture: unloaded, and under one force.
-Eigen::MatrixXd normalOf(const SystemInput& input, const GapFit& fit, const Vector6d& q, const Eigen::Vector3d& force) {
+Eigen::MatrixXd normalOf(const SystemInput& input, const GapFit& fit, const JointVector& q,
+                         const Eigen::Vector3d& force) {
   const GapPosture& like = fit.data.postures.front();
   const effects::ArmState& seen = like.states[effects::heaviestState(like.states)];
-  effects::ArmState rest = effects::stateAt(fit.state.geometry, q, Vector6d::Zero());
+  effects::ArmState rest = effects::stateAt(fit.state.geometry, q, JointVector::Zero(q.size()));
   rest.pose = like.pose;
   rest.targets = like.states.front().targets;
   for (const int target : rest.targets) {
     rest.points.push_back(
-        rest.posture.motion[6] *
+        rest.posture.motion.back() *
         fit.state.geometry.targets_at_zero[static_cast<std::size_t>(target)].value_or(Eigen::Vector3d::Zero()));
   }
   effects::ArmState loaded = rest;
@@ -71,7 +72,7 @@ Eigen::MatrixXd normalOf(const SystemInput& input, const GapFit& fit, const Vect
   const effects::PostureStates states{rest, loaded};
   const Eigen::Index rows = rest.rows();
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(rows, fit.data.layout.end + 1);
-  columns.leftCols<6>() = effects::byEachJoint(rest, loaded.load_torque);
+  columns.leftCols(fit.data.layout.joints()) = effects::byEachJoint(rest, loaded.load_torque);
   for (std::size_t m = 0; m < input.models.size(); ++m) {
     const Eigen::MatrixXd field =
         input.models[m].columns(fit.state.at, states, 1) - input.models[m].columns(fit.state.at, states, 0);
@@ -108,7 +109,7 @@ double leastSeparation(const SystemInput& input, const GapFit& fit, const std::v
 std::optional<NextMeasurement> nextFor(const SystemInput& input, const GapFit& fit, const std::vector<bool>& allowed,
                                        const Tie& tie, std::uint64_t seed) {
   const Eigen::MatrixXd now = sumOf(fit.data, std::vector<double>(fit.data.postures.size(), 1.0));
-  const double before = leastSeparation(input, fit, allowed, tie, project(now, fit.data.layout.effects));
+  const double before = leastSeparation(input, fit, allowed, tie, project(now, fit.data.layout));
   std::mt19937_64 random(seed);
   const double force = fit.state.at.largest_force;
   const double floor = fit.state.at.r0_from_base_link.translation().z() + kClearOfFloor;
@@ -116,11 +117,11 @@ std::optional<NextMeasurement> nextFor(const SystemInput& input, const GapFit& f
   NextMeasurement next;
   constexpr int kPostures = 40;
   for (int k = 0; k < kPostures; ++k) {
-    const Vector6d q = somePosture(input.campaign.robot, random);
-    if (effects::stateAt(fit.state.geometry, q, Vector6d::Zero()).flange.translation().z() < floor) continue;
+    const JointVector q = somePosture(input.campaign.robot, random);
+    if (effects::stateAt(fit.state.geometry, q, JointVector::Zero(q.size())).flange.translation().z() < floor) continue;
     for (int axis = 0; axis < 3; ++axis) {
       const Eigen::MatrixXd more = now + normalOf(input, fit, q, force * Eigen::Vector3d::Unit(axis));
-      const double apart = leastSeparation(input, fit, allowed, tie, project(more, fit.data.layout.effects));
+      const double apart = leastSeparation(input, fit, allowed, tie, project(more, fit.data.layout));
       if (apart <= best) continue;
       best = apart;
       next.what = Remark(RemarkId::posture_that_separates, std::vector<double>(q.begin(), q.end()), force, axis,
@@ -143,7 +144,8 @@ class Diagnoser {
         allowed_(study.allowed),
         given_(study.given),
         held_out_(study.held_out),
-        fit_(study.fit) {
+        fit_(study.fit),
+        result_(prepared.campaign.robot.joints()) {
     if (study.alone) alone_ = *study.alone;
     result_.not_testable = study.not_testable;
   }
@@ -214,7 +216,7 @@ class Diagnoser {
   void stiffnesses() {
     Eigen::VectorXd variance = complianceVariance(fit_, input_);
     const double scale = std::max(1.0, result_.left_over);
-    for (Eigen::Index j = 0; j < 6; ++j) {
+    for (Eigen::Index j = 0; j < variance.size(); ++j) {
       const double before = before_.for_deflection[j], after = fit_.nuisances[j];
       const double sd = std::sqrt(scale * std::max(0.0, variance[j]));
       constexpr double kSeen = 3.0;  // standard deviations

@@ -111,12 +111,20 @@ struct GeometryError {
 /// What identification states of the joints' stiffnesses, 95 %, Nm/rad.
 struct StatedStiffness {
   identification::Method method = identification::Method::decoupled_partial_pose;
-  Vector6d expanded = Vector6d::Zero();  ///< U; infinite where the interval is open
-  std::array<identification::CoverageInterval, 6> interval;
+  JointVector expanded;  ///< U; infinite where the interval is open
+  PerJoint<identification::CoverageInterval> interval;
 };
 
 /// Answer of `diagnose`.
 struct Diagnosis {
+  Diagnosis() = default;  ///< of no machine yet
+  /// Of a machine of so many joints.
+  explicit Diagnosis(int joints)
+      : stiffness_before(JointVector::Zero(joints)),
+        stiffness_after(stiffness_before),
+        stiffness_after_sd(stiffness_before),
+        identifiable(static_cast<std::size_t>(joints), false) {}
+
   bool usable = false;
   Remark unusable_reason;
   Verdict verdict;
@@ -149,9 +157,9 @@ struct Diagnosis {
   /// Nm/rad, by springs alone and with the verdict's effects, with the standard uncertainty: those of the joint fit of
   /// all load steps; where a model of identification is at hand (extended_model::stateStiffnesses), those of its
   /// method.
-  Vector6d stiffness_before = Vector6d::Zero(), stiffness_after = Vector6d::Zero();
-  Vector6d stiffness_after_sd = Vector6d::Zero();
-  std::array<bool, 6> identifiable{};
+  JointVector stiffness_before, stiffness_after;
+  JointVector stiffness_after_sd;
+  robot::JointMask identifiable;
   std::optional<StatedStiffness> stated;  ///< what that method states of them
   int postures = 0, states = 0;
 };

@@ -27,8 +27,9 @@ void boundDriftByNests(DiagnosisInput& start, SystemInput& input) {
 namespace {
 
 /// Stiffnesses to start from: those of identification on the largest load.
-Vector6d startCompliance(const campaign::Campaign& campaign, identification::LoadedArm arm) {
-  return arm.cases.empty() ? Vector6d(Vector6d::Zero()) : identification::sagCompliance(campaign, {}, arm);
+JointVector startCompliance(const campaign::Campaign& campaign, identification::LoadedArm arm) {
+  return arm.cases.empty() ? JointVector(JointVector::Zero(campaign.robot.joints()))
+                           : identification::sagCompliance(campaign, {}, arm);
 }
 
 bool sameFrame(const campaign::Campaign& campaign) {
@@ -66,7 +67,7 @@ DiagnosisInput diagnosisInput(const preparation::PreparedCampaign& prepared) {
     start.reason = Remark(RemarkId::no_usable_posture);
     return start;
   }
-  const Vector6d compliance = startCompliance(start.campaign, arm);
+  const JointVector compliance = startCompliance(start.campaign, arm);
   start.geometric_stiffness_share = identification::geometricStiffnessShare(arm, compliance);
   if (start.geometry.weight.links_known) start.geometry.compliance = compliance;
   start.state = startState(start.campaign, start.geometry, arm.cases);
@@ -94,14 +95,15 @@ Eigen::Vector3d loadOffset(const robot::Robot& arm, const std::vector<identifica
 
 namespace {
 
-Vector6d largestTorque(const frames::LoadingGeometry& geometry, const std::vector<identification::LoadCase>& cases) {
-  Vector6d largest = Vector6d::Zero();
+JointVector largestTorque(const frames::LoadingGeometry& geometry, const std::vector<identification::LoadCase>& cases) {
+  const int joints = geometry.arm.joints();
+  JointVector largest = JointVector::Zero(joints);
   for (const identification::LoadCase& one : cases) {
-    const Vector6d weight =
+    const JointVector weight =
         geometry.weight.links_known
             ? robot::weightTorque(geometry.arm, identification::unloadedPosture(geometry.arm, one), geometry.weight)
-            : Vector6d(Vector6d::Zero());
-    const Vector6d load = robot::jointTorque(one.axes, one.wrench);
+            : JointVector(JointVector::Zero(joints));
+    const JointVector load = robot::jointTorque(one.axes, one.wrench);
     largest = largest.cwiseMax(weight.cwiseAbs()).cwiseMax((weight + load).cwiseAbs());
   }
   return largest;
@@ -111,9 +113,9 @@ Vector6d largestTorque(const frames::LoadingGeometry& geometry, const std::vecto
 
 SystemState startState(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,
                        const std::vector<identification::LoadCase>& cases) {
-  SystemState state;
+  SystemState state(geometry.arm.joints());
   state.geometry = geometry;
-  state.at.compliance = geometry.compliance.cwiseMax(0.0);
+  if (geometry.compliance.size() > 0) state.at.compliance = geometry.compliance.cwiseMax(0.0);
   state.at.targets = static_cast<int>(campaign.targets.size());
   state.at.r0_from_base_link = geometry.r0_from_base_link;
   state.at.load_offset = loadOffset(geometry.arm, cases, campaign.load_cell->moment_sigma);

@@ -46,7 +46,7 @@ SelectionRules rulesFor(const LinearSystem& data, const FitRules& rules) {
 
 }  // namespace
 
-Vector6d complianceVariance(const GapFit& fit, const SystemInput& input) {
+JointVector complianceVariance(const GapFit& fit, const SystemInput& input) {
   const GapLayout& layout = fit.data.layout;
   const Eigen::MatrixXd normal = sumOf(fit.data, ones(fit.data));
   std::vector<Eigen::Index> kept;
@@ -63,9 +63,9 @@ Vector6d complianceVariance(const GapFit& fit, const SystemInput& input) {
       matrix.diagonal().unaryExpr([](double d) { return d > 0.0 ? 1.0 / std::sqrt(d) : 0.0; });
   matrix = scale.asDiagonal() * matrix * scale.asDiagonal();
   matrix.diagonal().setConstant(1.0 + 1e-10);
-  const Eigen::MatrixXd inverse = solveSymmetric(matrix, Eigen::MatrixXd::Identity(matrix.rows(), 6));
-  Vector6d variance;
-  for (Eigen::Index j = 0; j < 6; ++j) variance[j] = scale[j] * scale[j] * inverse(j, j);
+  const Eigen::MatrixXd inverse = solveSymmetric(matrix, Eigen::MatrixXd::Identity(matrix.rows(), layout.joints()));
+  JointVector variance(layout.joints());
+  for (Eigen::Index j = 0; j < layout.joints(); ++j) variance[j] = scale[j] * scale[j] * inverse(j, j);
   return variance;
 }
 
@@ -92,7 +92,7 @@ void fitOnce(const SystemInput& input, const std::vector<bool>& allowed, const F
   fit.rules.given = rules.given;
   // A large effect bends what the others are judged by: it is settled before a second one is looked for.
   if (fit.rounds <= kAlone) fit.rules.most_effects = 1;
-  fit.projection = project(sumOf(fit.data, ones(fit.data)), fit.data.layout.effects);
+  fit.projection = project(sumOf(fit.data, ones(fit.data)), fit.data.layout);
   const double postures = static_cast<double>(fit.data.postures.size());
   const Selector selector = selectorOf(input, fit, fit.projection, postures, allowed);
   fit.set = rules.fixed ? selector.fit(*rules.fixed) : selector.select();
@@ -175,7 +175,7 @@ GapFit withoutEffects(const SystemInput& input, const SystemState& start, const 
   alone.state.sweep_inflation = fit.state.sweep_inflation;
   alone.state.model_error = fit.state.model_error;
   alone.data = linearSystem(bare, alone.state, {});
-  alone.projection = project(sumOf(alone.data, ones(alone.data)), alone.data.layout.effects);
+  alone.projection = project(sumOf(alone.data, ones(alone.data)), alone.data.layout);
   alone.nuisances = alone.nuisances_before = alone.projection.by_nothing;
   return alone;
 }

@@ -53,8 +53,8 @@ GapFit withoutEffects(const SystemInput& input, const SystemState& start, const 
 /// chi2 of the loading per equation that the set leaves.
 double leftPerEquation(const GapFit& fit);
 
-/// Variances of the six compliances with the set in the model, by the noise alone.
-Vector6d complianceVariance(const GapFit& fit, const SystemInput& input);
+/// Variances of the compliances with the set in the model, by the noise alone.
+JointVector complianceVariance(const GapFit& fit, const SystemInput& input);
 
 Selector selectorOf(const SystemInput& input, const GapFit& fit, const Projection& projection, double postures,
                     const std::vector<bool>& allowed);

@@ -20,8 +20,8 @@ robot::ArmAxes nominalIn(const campaign::Campaign& campaign, const frames::Loadi
   return axes;
 }
 
-std::vector<Vector6d> posturesOf(const campaign::Campaign& campaign) {
-  std::vector<Vector6d> postures;
+std::vector<JointVector> posturesOf(const campaign::Campaign& campaign) {
+  std::vector<JointVector> postures;
   if (campaign.states) {
     for (const campaign::State& state : campaign.states->rows) {
       if (state.step == 0) postures.push_back(state.q);
@@ -35,7 +35,7 @@ std::vector<Vector6d> posturesOf(const campaign::Campaign& campaign) {
 GeometryError geometryError(const SystemInput& input, const SystemState& state) {
   GeometryError error;
   error.limit = kGeometryTolerance;
-  const std::vector<Vector6d> postures = posturesOf(input.campaign);
+  const std::vector<JointVector> postures = posturesOf(input.campaign);
   if (!input.absolute || postures.size() < 4) {
     error.reason = Remark(RemarkId::geometry_needs_positions);
     return error;
@@ -49,16 +49,17 @@ GeometryError geometryError(const SystemInput& input, const SystemState& state) 
   const auto rows = 3 * count * static_cast<Eigen::Index>(postures.size());
   Vector6d base = Vector6d::Zero();
   double zero = 0.0;
+  const frames::ArmParameters steps(input.campaign.robot.joints());
   constexpr int kRounds = 5;
   for (int round = 0; round < kRounds; ++round) {
     const bool spring = state.at.compensator.size() > 0;  // its constant torque is a zero of joint 2
-    const frames::PlacedArm arm(nominal, Eigen::Vector3d::Zero(), frames::AxesSteps::Zero(), base);
+    const frames::PlacedArm arm(nominal, Eigen::Vector3d::Zero(), frames::AxesSteps::Zero(steps.axes()), base);
     Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(rows, 6 + 3 * count + 1);
     Eigen::VectorXd left(rows);
     Eigen::Index row = 0;
-    for (const Vector6d& q : postures) {
-      const Eigen::Isometry3d truth = robot::postureAt(state.geometry.arm, q).motion[6];
-      const frames::PlacedPosture model(arm, q + zero * Vector6d::Unit(1));
+    for (const JointVector& q : postures) {
+      const Eigen::Isometry3d truth = robot::postureAt(state.geometry.arm, q).motion.back();
+      const frames::PlacedPosture model(arm, q + zero * JointVector::Unit(q.size(), 1));
       for (Eigen::Index t = 0; t < count; ++t, row += 3) {
         const auto k = static_cast<std::size_t>(t);
         const Eigen::Vector3d place = model.position(targets[k]);
@@ -74,7 +75,7 @@ GeometryError geometryError(const SystemInput& input, const SystemState& state) 
     zero += step[6 + 3 * count];
     for (Eigen::Index t = 0; t < count; ++t) targets[static_cast<std::size_t>(t)] += step.segment<3>(6 + 3 * t);
   }
-  for (std::size_t j = 0; j < 6; ++j) {
+  for (std::size_t j = 0; j < found_axes.size(); ++j) {
     const metrology::Line& axis = nominal[j].line;
     const Eigen::Vector3d off = metrology::nearestPoint(found_axes[j], axis.point) - axis.point;
     error.largest_shift = std::max(error.largest_shift, (off - axis.direction * axis.direction.dot(off)).norm());

@@ -27,13 +27,13 @@ std::vector<Trained> train(const SystemInput& input, const GapFit& alone, const 
                            const Eigen::MatrixXd& sum_alone) {
   double postures = 0.0;
   for (const double weight : weights) postures += weight;
-  const Projection projection = project(sum, fit.data.layout.effects);
+  const Projection projection = project(sum, fit.data.layout);
   SelectionRules rules = fit.rules;
   const double share = postures / static_cast<double>(fit.data.postures.size());
   rules.loading_rows *= share;
   rules.least_drop *= share;
   const Selector selector(input.models, fit.data.layout, projection, std::max(2.0, postures), rules, allowed);
-  const StiffnessesAlone before = stiffnessesAlone(alone.data, weights, project(sum_alone, alone.data.layout.effects));
+  const StiffnessesAlone before = stiffnessesAlone(alone.data, weights, project(sum_alone, alone.data.layout));
   std::vector<Trained> trained;
   for (const FitRecipe& recipe : recipes) {
     const FittedSet set = recipe.choose ? selector.select() : selector.fit(recipe.models);

@@ -26,14 +26,16 @@ bool isBilinear(const effects::EffectModel& model) { return model.correct != nul
 
 ContainedEffects correct(const SystemInput& input, const GapLayout& layout, const FittedSet& set,
                          const Eigen::VectorXd& nuisances, SystemState& state) {
-  const Vector6d before = state.at.compliance;
-  state.at.compliance = nuisances.head<6>().cwiseMax(0.0);
-  state.geometry.compliance = state.geometry.weight.links_known ? state.at.compliance : Vector6d::Zero();
+  const JointVector before = state.at.compliance;
+  state.at.compliance = nuisances.head(layout.joints()).cwiseMax(0.0);
+  state.geometry.compliance = state.at.compliance;
+  if (!state.geometry.weight.links_known) state.geometry.compliance.setZero();
   const Eigen::VectorXd steps = nuisances.segment(layout.geometry, layout.weights - layout.geometry);
   if (input.absolute) {
     const frames::LoadingGeometry there = frames::moved(state.geometry, steps, state.at.epoch_centre);
     state.r0_from_sweeps =
-        metrology::motionAbout(state.at.epoch_centre, steps.segment<6>(frames::ArmParameters::kBaseAt)) *
+        metrology::motionAbout(state.at.epoch_centre,
+                               steps.segment<6>(frames::ArmParameters(state.geometry.arm.joints()).baseAt())) *
         state.r0_from_sweeps;
     state.geometry = there;
   }

@@ -29,7 +29,7 @@ struct GapCovariance {
 GapCovariance gapCovariance(const SystemInput& input, const SystemState& state, const GapPosture& posture);
 
 /// Adds to `data.beforehand` what is known before the gap is looked at: how far geometry steps and own weights
-/// may go in one round, the six compliances as expected, a drift as the nests have it.
+/// may go in one round, the compliances as expected, a drift as the nests have it.
 void addPriors(const SystemInput& input, LinearSystem& data);
 
 /// Adds the equations of every posture of the loading to `data`: y = A c + geometry + own weights + effects +
@@ -157,12 +157,13 @@ double GapPosture::noiseSquares(Eigen::Index first, Eigen::Index rows) const {
   return sum;
 }
 
-ComplianceExpected complianceExpected(const Vector6d& identified) {
+ComplianceExpected complianceExpected(const JointVector& identified) {
   constexpr double kNothing = 0.05;  // of the neighbours': not identified
   constexpr double kHalf = 0.5, kThrice = 3.0;
-  ComplianceExpected expected;
-  for (Eigen::Index j = 0; j < 6; ++j) {
-    const double neighbour = std::max(j > 0 ? identified[j - 1] : 0.0, j < 5 ? identified[j + 1] : 0.0);
+  const Eigen::Index joints = identified.size();
+  ComplianceExpected expected{JointVector::Zero(joints), JointVector::Zero(joints)};
+  for (Eigen::Index j = 0; j < joints; ++j) {
+    const double neighbour = std::max(j > 0 ? identified[j - 1] : 0.0, j + 1 < joints ? identified[j + 1] : 0.0);
     const bool known = identified[j] > kNothing * neighbour;
     expected.value[j] = known ? identified[j] : kHalf * neighbour;
     expected.sd[j] = known ? kThrice * identified[j] : kHalf * neighbour;
@@ -170,10 +171,11 @@ ComplianceExpected complianceExpected(const Vector6d& identified) {
   return expected;
 }
 
-GapLayout gapLayout(const std::vector<effects::EffectModel>& models, std::size_t targets) {
+GapLayout gapLayout(const std::vector<effects::EffectModel>& models, int joints, std::size_t targets) {
   GapLayout layout;
-  layout.weights = layout.geometry + frames::ArmParameters::count(targets);
-  layout.effects = layout.weights + effects::kBodies;
+  layout.geometry = joints;
+  layout.weights = layout.geometry + frames::ArmParameters(joints).count(targets);
+  layout.effects = layout.weights + joints;
   layout.end = layout.effects;
   for (const effects::EffectModel& model : models) {
     layout.model_at.push_back(layout.end);
@@ -185,7 +187,7 @@ GapLayout gapLayout(const std::vector<effects::EffectModel>& models, std::size_t
 LinearSystem linearSystem(const SystemInput& input, const SystemState& state, const ContainedEffects& effects_now,
                           Weighed weighed) {
   LinearSystem data;
-  data.layout = gapLayout(input.models, input.campaign.targets.size());
+  data.layout = gapLayout(input.models, input.campaign.robot.joints(), input.campaign.targets.size());
   addPostureEquations(input, state, effects_now, data);
   whitenPostures(input, state, data);
   data.beforehand.setZero(data.layout.end + 1, data.layout.end + 1);
@@ -214,7 +216,7 @@ constexpr double kSweptGeometry =
 constexpr double kWeightPrior = 0.1;  // of a body's weight: masses of a URDF are no better
 
 void addGeometryAndWeights(const SystemInput& input, LinearSystem& data) {
-  for (Eigen::Index k = 0; k < frames::ArmParameters::count(input.campaign.targets.size()); ++k) {
+  for (Eigen::Index k = 0; k < data.layout.weights - data.layout.geometry; ++k) {
     const Eigen::Index at = data.layout.geometry + k;
     const double prior = input.absolute ? kGeometryPrior : kSweptGeometry;
     data.beforehand(at, at) += 1.0 / (prior * prior);
@@ -222,16 +224,17 @@ void addGeometryAndWeights(const SystemInput& input, LinearSystem& data) {
   // Each body's own, and beside it what is declared common to all: the inverse of s^2 I + m^2 1 1^T.
   constexpr double kOwn = 1.0 / (kWeightPrior * kWeightPrior);
   const double common = input.campaign.mass_sigma * kOwn * input.campaign.mass_sigma;
-  data.beforehand.diagonal().segment(data.layout.weights, effects::kBodies).array() += kOwn;
+  const Eigen::Index bodies = data.layout.bodies();
+  data.beforehand.diagonal().segment(data.layout.weights, bodies).array() += kOwn;
   if (common > 0.0) {
-    data.beforehand.block(data.layout.weights, data.layout.weights, effects::kBodies, effects::kBodies).array() -=
-        kOwn * common / (1.0 + effects::kBodies * common);
+    data.beforehand.block(data.layout.weights, data.layout.weights, bodies, bodies).array() -=
+        kOwn * common / (1.0 + static_cast<double>(bodies) * common);
   }
 }
 
 void addCompliances(const SystemInput& input, LinearSystem& data) {
   const Eigen::Index end = data.layout.end;
-  for (Eigen::Index j = 0; j < 6; ++j) {
+  for (Eigen::Index j = 0; j < data.layout.joints(); ++j) {
     const double value = input.expected.value[j], sd = input.expected.sd[j];
     if (sd <= 0.0) continue;
     const double weight = 1.0 / (sd * sd);
@@ -278,7 +281,7 @@ GapPosture unwhitened(const SystemInput& input, const SystemState& state, const 
   posture.position_rows = at_rest;
   posture.columns.setZero(at_rest + rows.displacement.size(), layout.end);
   posture.right.resize(posture.columns.rows());
-  posture.columns.bottomLeftCorner(rows.displacement.size(), 6) = rows.by_compliance;
+  posture.columns.bottomLeftCorner(rows.displacement.size(), layout.joints()) = rows.by_compliance;
   posture.right.tail(rows.displacement.size()) = rows.displacement;
   for (std::size_t m = 0; m < input.models.size(); ++m) {
     const Eigen::MatrixXd rest = input.models[m].columns(state.at, rows.states, 0);
@@ -289,8 +292,8 @@ GapPosture unwhitened(const SystemInput& input, const SystemState& state, const 
     }
   }
   if (at_rest > 0) {
-    posture.columns.topLeftCorner(at_rest, 6) = rows.sag_by_compliance;
-    posture.columns.block(0, layout.weights, at_rest, effects::kBodies) =
+    posture.columns.topLeftCorner(at_rest, layout.joints()) = rows.sag_by_compliance;
+    posture.columns.block(0, layout.weights, at_rest, layout.bodies()) =
         effects::gravityDeflectionByBody(state.at, rows.states.front());
     posture.right.head(at_rest) = rows.position + rows.sag_by_compliance * state.at.compliance;
   }
@@ -305,9 +308,9 @@ GapPosture unwhitened(const SystemInput& input, const SystemState& state, const 
 }
 
 /// Derivatives of measured less modelled by the geometry's steps: differences of the rows themselves.
-void addGeometry(const SystemInput& input, const SystemState& state, const LoadingRows& maker,
-                 const std::vector<SystemRows>& rows, LinearSystem& data) {
-  const Eigen::Index steps = frames::ArmParameters::count(input.campaign.targets.size());
+void addGeometry(const SystemState& state, const LoadingRows& maker, const std::vector<SystemRows>& rows,
+                 LinearSystem& data) {
+  const Eigen::Index steps = data.layout.weights - data.layout.geometry;
   numerics::onAllCores(static_cast<std::size_t>(steps), [&](std::size_t step) {
     const auto k = static_cast<Eigen::Index>(step);
     const frames::LoadingGeometry there = frames::moved(
@@ -318,7 +321,7 @@ void addGeometry(const SystemInput& input, const SystemState& state, const Loadi
       auto column = posture.columns.col(data.layout.geometry + k);
       if (posture.position_rows > 0)
         column.head(posture.position_rows) = (rows[i].position - other[i].position) / frames::ArmParameters::kSmall;
-      const Vector6d& c = state.at.compliance;
+      const JointVector& c = state.at.compliance;
       column.tail(rows[i].displacement.size()) =
           ((rows[i].displacement - rows[i].by_compliance * c) - (other[i].displacement - other[i].by_compliance * c)) /
           frames::ArmParameters::kSmall;
@@ -326,10 +329,11 @@ void addGeometry(const SystemInput& input, const SystemState& state, const Loadi
   });
 }
 
-Eigen::Matrix<double, 7, 7> stiffnessNormalOf(const GapPosture& posture, const Eigen::MatrixXd& covariance) {
+StiffnessNormal stiffnessNormalOf(const GapPosture& posture, const Eigen::MatrixXd& covariance) {
   const Eigen::Index rows = posture.right.size() - posture.position_rows;
-  Eigen::MatrixXd both(rows, 7);
-  both << posture.columns.bottomLeftCorner(rows, 6), posture.right.tail(rows);
+  const Eigen::Index joints = posture.states.front().joints();
+  Eigen::MatrixXd both(rows, joints + 1);
+  both << posture.columns.bottomLeftCorner(rows, joints), posture.right.tail(rows);
   covariance.bottomRightCorner(rows, rows).llt().matrixL().solveInPlace(both);
   return both.transpose() * both;
 }
@@ -366,7 +370,7 @@ void addPostureEquations(const SystemInput& input, const SystemState& state, con
     data.postures[i].states = std::move(rows[i].states);
     data.postures[i].by_wrench = std::move(rows[i].by_wrench);
   });
-  addGeometry(input, state, maker, rows, data);
+  addGeometry(state, maker, rows, data);
   for (const GapPosture& posture : data.postures) data.loading_rows += posture.right.size();
 }
 
@@ -389,9 +393,9 @@ namespace {
 template <class Rows>
 void fill(const SystemInput& input, const SystemState& state, const ContainedEffects& now, const GapLayout& layout,
           const PositionByGeometry& by_geometry, const SweepRows& one, Rows both) {
-  both.leftCols(6) = one.sag_by_compliance;
+  both.leftCols(layout.joints()) = one.sag_by_compliance;
   both.middleCols(layout.geometry, layout.weights - layout.geometry) = by_geometry.of(one.state);
-  both.middleCols(layout.weights, effects::kBodies) = effects::gravityDeflectionByBody(state.at, one.state);
+  both.middleCols(layout.weights, layout.bodies()) = effects::gravityDeflectionByBody(state.at, one.state);
   const effects::PostureStates alone{one.state};
   for (std::size_t m = 0; m < input.models.size(); ++m) {
     const Eigen::MatrixXd columns = input.models[m].columns(state.at, alone, 0);

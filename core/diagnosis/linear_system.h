@@ -19,19 +19,22 @@ namespace stiffscope::diagnosis {
 /// Where everything stands in the parameter vector: joint compliances, geometry steps, own-weight factors by
 /// body (nuisances), then the effects' models in their order.
 struct GapLayout {
-  Eigen::Index geometry = 6, weights = 0, effects = 0, end = 0;
+  Eigen::Index geometry = 0, weights = 0, effects = 0, end = 0;
   std::vector<Eigen::Index> model_at;  ///< first parameter of each model
+
+  Eigen::Index joints() const { return geometry; }  ///< compliances come first
+  Eigen::Index bodies() const { return effects - weights; }
 };
 
-/// What is known of the six compliances before the gap is looked at, and how well (sd), rad/Nm: as
+/// What is known of the compliances before the gap is looked at, and how well (sd), rad/Nm: as
 /// identification has them, give or take three times as much; where the load says nothing of a joint, half of
 /// its weaker neighbour's, give or take as much. Without it a joint that no load turns takes any stiffness,
 /// and what is computed with it anything.
 struct ComplianceExpected {
-  Vector6d value = Vector6d::Zero(), sd = Vector6d::Zero();  ///< sd 0: nothing is known
+  JointVector value, sd;  ///< sd 0: nothing is known
 };
 
-ComplianceExpected complianceExpected(const Vector6d& identified);
+ComplianceExpected complianceExpected(const JointVector& identified);
 
 /// What the gap stands on, fixed for one diagnosis.
 struct SystemInput {
@@ -50,6 +53,9 @@ struct SystemInput {
 
 /// Where one round of linearisation stands.
 struct SystemState {
+  SystemState() = default;  ///< of no machine yet
+  explicit SystemState(int joints) : at(joints) {}
+
   frames::LoadingGeometry geometry;
   Eigen::Isometry3d r0_from_sweeps = Eigen::Isometry3d::Identity();
   effects::LinearizationPoint at;
@@ -57,6 +63,10 @@ struct SystemState {
   double sweep_inflation = 1.0, position_inflation = 1.0;  ///< factors on the variances of absolute positions
   double model_error = 0.0;  ///< rms per coordinate of what no effect explains, at the largest load, m
 };
+
+/// [A y]^T [A y] of the compliances alone.
+using StiffnessNormal =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMostJoints + 1, kMostJoints + 1>;
 
 /// Whitened normal equations of one posture of the loading: [A y]^T [A y].
 struct GapPosture {
@@ -72,7 +82,7 @@ struct GapPosture {
   Eigen::MatrixXd noise;
   Eigen::MatrixXd position_lower;  ///< Cholesky factor of that of the position rows, inflated
   numerics::LowerTriangle normal;
-  Eigen::Matrix<double, 7, 7> stiffness_normal;  ///< normal equations of deflection rows alone, over the compliances
+  StiffnessNormal stiffness_normal;  ///< normal equations of deflection rows alone, over the compliances
 
   /// Sum of the noise's variances of `rows` rows from `first` on, m^2.
   double noiseSquares(Eigen::Index first, Eigen::Index rows) const;

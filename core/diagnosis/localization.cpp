@@ -22,7 +22,9 @@ namespace {
 Eigen::VectorXd stiffnessesIn(const LinearSystem& data) {
   const Eigen::MatrixXd normal = sumOf(data, std::vector<double>(data.postures.size(), 1.0));
   Eigen::VectorXd parameters = Eigen::VectorXd::Zero(data.layout.end);
-  parameters.head<6>() = leastSquaresSolution(normal.topLeftCorner<6, 6>(), normal.col(data.layout.end).head<6>());
+  const Eigen::Index joints = data.layout.joints();
+  parameters.head(joints) =
+      leastSquaresSolution(normal.topLeftCorner(joints, joints), normal.col(data.layout.end).head(joints));
   return parameters;
 }
 
@@ -247,13 +249,11 @@ std::vector<WhereTable> commonTables(const SystemInput& input, const GapFit& fit
   return tables;
 }
 
-constexpr std::size_t kTurnedJoints = 6, kJointSubsets = std::size_t{1} << kTurnedJoints;
-
 /// For every subset of the columns an orthonormal basis of what they span: that of the subset without its last column,
 /// and one vector more, zero where the column brings nothing new.
-std::array<Eigen::VectorXd, kJointSubsets> addedDirections(const Eigen::MatrixXd& columns) {
-  std::array<Eigen::VectorXd, kJointSubsets> added;
-  for (std::size_t subset = 1; subset < kJointSubsets; ++subset) {
+std::vector<Eigen::VectorXd> addedDirections(const Eigen::MatrixXd& columns) {
+  std::vector<Eigen::VectorXd> added(std::size_t{1} << columns.cols());
+  for (std::size_t subset = 1; subset < added.size(); ++subset) {
     const auto last = static_cast<Eigen::Index>(std::bit_width(subset)) - 1;
     const double whole = columns.col(last).norm();
     Eigen::VectorXd rest = columns.col(last);
@@ -268,49 +268,55 @@ std::array<Eigen::VectorXd, kJointSubsets> addedDirections(const Eigen::MatrixXd
   return added;
 }
 
-/// Share of all orders of six joints in which just the joints of a subset of this size stand before a given one.
-double shareOfOrders(int before) {
-  constexpr std::array<double, kTurnedJoints> kShares{1.0 / 6, 1.0 / 30, 1.0 / 60, 1.0 / 60, 1.0 / 30, 1.0 / 6};
-  return kShares[static_cast<std::size_t>(before)];
+/// Share of all orders of n joints in which just the joints of a subset of this size stand before a given one:
+/// before! (n - 1 - before)! / n!, the inverse of n times a binomial coefficient.
+double shareOfOrders(int before, int joints) {
+  double coefficient = 1.0;
+  for (int k = 1; k <= before; ++k) coefficient = coefficient * (joints - k) / k;
+  return 1.0 / (joints * coefficient);
 }
 
 /// By joint the form Q_j with y^T Q_j y = what joint j adds to the squares of y that the joints before it explain, mean
 /// over all orders of the joints.
-std::array<Eigen::MatrixXd, kTurnedJoints> partsByJoint(const Eigen::MatrixXd& columns) {
-  const std::array<Eigen::VectorXd, kJointSubsets> added = addedDirections(columns);
-  std::array<Eigen::MatrixXd, kTurnedJoints> parts;
-  parts.fill(Eigen::MatrixXd::Zero(columns.rows(), columns.rows()));
+std::vector<Eigen::MatrixXd> partsByJoint(const Eigen::MatrixXd& columns) {
+  const std::vector<Eigen::VectorXd> added = addedDirections(columns);
+  const auto joints = static_cast<std::size_t>(columns.cols());
+  std::vector<Eigen::MatrixXd> parts(joints, Eigen::MatrixXd::Zero(columns.rows(), columns.rows()));
   // Q_j is a sum of projections P_S with shares; each direction is in the P_S of all subsets that begin like its own.
-  for (std::size_t subset = 1; subset < kJointSubsets; ++subset) {
+  for (std::size_t subset = 1; subset < added.size(); ++subset) {
     Eigen::MatrixXd projection = Eigen::MatrixXd::Zero(columns.rows(), columns.rows());
     for (std::size_t inner = subset; inner != 0; inner ^= std::bit_floor(inner))
       projection += added[inner] * added[inner].transpose();
     const int size = std::popcount(subset);
-    for (std::size_t joint = 0; joint < kTurnedJoints; ++joint) {
+    for (std::size_t joint = 0; joint < joints; ++joint) {
       const bool with_it = ((subset >> joint) & 1U) != 0;
-      parts[joint] += (with_it ? shareOfOrders(size - 1) : -shareOfOrders(size)) * projection;
+      parts[joint] += (with_it ? shareOfOrders(size - 1, static_cast<int>(joints))
+                               : -shareOfOrders(size, static_cast<int>(joints))) *
+                      projection;
     }
   }
   return parts;
 }
 
 /// What angles of the joints in each state would explain of that state. What two joints could both explain is shared
-/// out, so that the parts add up to what all six explain together (Shapley; Lindeman, Merenda and Gold).
+/// out, so that the parts add up to what all explain together (Shapley; Lindeman, Merenda and Gold).
 WhereTable byJoint(const GapFit& fit, const Eigen::VectorXd& parameters, const std::vector<LeftOver>& all) {
-  std::array<Sum, kTurnedJoints> sums;
+  const auto joints = static_cast<std::size_t>(fit.data.layout.joints());
+  std::vector<Sum> sums(joints);
   for (const GapPosture& posture : fit.data.postures) {
     const Eigen::VectorXd left = posture.right - posture.columns * parameters;
     const Eigen::Index per_state = posture.states.front().rows();
     for (std::size_t s = 1; s < posture.states.size(); ++s) {
       const Eigen::Index at = posture.position_rows + static_cast<Eigen::Index>(s - 1) * per_state;
-      const auto parts = partsByJoint(effects::byEachJoint(posture.states[s], Vector6d::Ones()));
-      for (std::size_t joint = 0; joint < kTurnedJoints; ++joint)
+      const auto parts =
+          partsByJoint(effects::byEachJoint(posture.states[s], JointVector::Ones(fit.data.layout.joints())));
+      for (std::size_t joint = 0; joint < joints; ++joint)
         sums[joint].addPart(left.segment(at, per_state), parts[joint], posture.noise.middleRows(at, per_state));
     }
   }
   WhereTable table{"joint", {}};
   table.overlaps = true;
-  for (std::size_t joint = 0; joint < kTurnedJoints; ++joint) {
+  for (std::size_t joint = 0; joint < joints; ++joint) {
     table.rows.push_back(rowOf(fmt::format("joint {}", joint + 1), sums[joint], wholeOf(all)));
     table.explained += table.rows.back().share;
   }

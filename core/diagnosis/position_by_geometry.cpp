@@ -13,19 +13,18 @@ namespace {
 
 using frames::ArmParameters;
 
-constexpr std::size_t kJoints = 6;
-
 /// What each joint carries: mass, and its first moment about the origin.
 struct Carried {
-  std::array<double, kJoints> mass{};
-  std::array<Eigen::Vector3d, kJoints> moment;
+  PerJoint<double> mass;
+  PerJoint<Eigen::Vector3d> moment;
 };
 
 Carried carriedBy(const robot::GravityLoad& weight, const robot::ArmPosture& posture) {
-  Carried carried;
+  const std::size_t joints = weight.bodies.size() - 1;
+  Carried carried{PerJoint<double>(joints), PerJoint<Eigen::Vector3d>(joints)};
   double mass = 0.0;
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
-  for (std::size_t joint = kJoints; joint-- > 0;) {
+  for (std::size_t joint = joints; joint-- > 0;) {
     const robot::BodyMass& body = weight.bodies[joint + 1];
     mass += body.mass_kg;
     moment += body.mass_kg * (posture.motion[joint + 1] * body.com_in_base_at_zero);
@@ -36,12 +35,12 @@ Carried carriedBy(const robot::GravityLoad& weight, const robot::ArmPosture& pos
 }
 
 /// How tau_j = z_j . ((S_j - m_j p_j) x g) changes with parameter k of the axes.
-Vector6d torqueChange(const effects::ArmState& state, const Carried& carried, const Eigen::Vector3d& gravity,
-                      const frames::PlacedPosture& posture, std::size_t k) {
+JointVector torqueChange(const effects::ArmState& state, const Carried& carried, const Eigen::Vector3d& gravity,
+                         const frames::PlacedPosture& posture, std::size_t k) {
   const std::size_t moved = k / 4;
   const frames::SmallMotion& beyond = posture.beyondAxis(k);
-  Vector6d change;
-  for (std::size_t j = 0; j < kJoints; ++j) {
+  JointVector change(state.joints());
+  for (std::size_t j = 0; j < state.axes.size(); ++j) {
     const metrology::Line& axis = state.axes[j];
     const std::size_t first = std::max(j, moved);
     const frames::SmallMotion of_axis = j < moved ? frames::SmallMotion{} : (j == moved ? posture.ofAxis(k) : beyond);
@@ -56,19 +55,21 @@ Vector6d torqueChange(const effects::ArmState& state, const Carried& carried, co
 
 /// What the effects in the model turn the joints by: by the own weight's torques and by the angles.
 struct TurnSlopes {
-  Matrix6d by_torque = Matrix6d::Zero(), by_angle = Matrix6d::Zero();
+  JointMatrix by_torque, by_angle;
 };
 
 /// By differences: play turns by all of it within a small part of the largest torque, however smooth the
 /// rest.
 TurnSlopes turnSlopes(const effects::LinearizationPoint& at, const effects::ArmState& state) {
-  TurnSlopes slopes;
+  const int joints = state.joints();
+  const JointMatrix none = JointMatrix::Zero(joints, joints);
+  TurnSlopes slopes{none, none};
   if (!at.jointsTurn()) return slopes;
   constexpr double kTorqueStep = 1e-6, kLeast = 1e-9;  // of the joint's largest torque; Nm
   constexpr double kAngleStep = 1e-7;                  // rad
-  const Vector6d here = effects::presentTurn(at, state);
+  const JointVector here = effects::presentTurn(at, state);
   effects::ArmState there = state;
-  for (Eigen::Index j = 0; j < 6; ++j) {
+  for (Eigen::Index j = 0; j < joints; ++j) {
     const double step = std::max(kTorqueStep * at.largest_torque[j], kLeast);
     there.weight_torque[j] += step;
     slopes.by_torque.col(j) = (effects::presentTurn(at, there) - here) / step;
@@ -81,12 +82,14 @@ TurnSlopes turnSlopes(const effects::LinearizationPoint& at, const effects::ArmS
 }
 
 /// Joint angles by joint torques: d theta = (C + T) (d tau + K_c d theta) + U d theta.
-Matrix6d anglesByTorque(const frames::LoadingGeometry& geometry, const effects::LinearizationPoint& at,
-                        const effects::ArmState& state) {
+JointMatrix anglesByTorque(const frames::LoadingGeometry& geometry, const effects::LinearizationPoint& at,
+                           const effects::ArmState& state) {
   const TurnSlopes slopes = turnSlopes(at, state);
-  const Matrix6d yielding = Matrix6d(geometry.compliance.asDiagonal()) + slopes.by_torque;
-  const Matrix6d stiffening = robot::geometricStiffness(state.axes, state.posture, geometry.weight);
-  return solveLu(Matrix6d::Identity() - yielding * stiffening - slopes.by_angle, yielding);
+  const Eigen::Index joints = state.joints();
+  const JointMatrix yielding = JointMatrix(geometry.compliance.asDiagonal()) + slopes.by_torque;
+  const JointMatrix stiffening = robot::geometricStiffness(state.axes, state.posture, geometry.weight);
+  return solveLu(JointMatrix(JointMatrix::Identity(joints, joints) - yielding * stiffening - slopes.by_angle),
+                 yielding);
 }
 
 /// Its reflectors where the arm has them, which may be centimetres from where they were read.
@@ -94,7 +97,7 @@ effects::ArmState asModelled(const frames::LoadingGeometry& geometry, const effe
   effects::ArmState modelled = state;
   for (std::size_t i = 0; i < state.targets.size(); ++i) {
     modelled.points[i] =
-        state.posture.motion[6] * *geometry.targets_at_zero[static_cast<std::size_t>(state.targets[i])];
+        state.posture.motion.back() * *geometry.targets_at_zero[static_cast<std::size_t>(state.targets[i])];
   }
   return modelled;
 }
@@ -103,10 +106,13 @@ effects::ArmState asModelled(const frames::LoadingGeometry& geometry, const effe
 
 PositionByGeometry::PositionByGeometry(const frames::LoadingGeometry& geometry, const effects::LinearizationPoint& at,
                                        const Eigen::Vector3d& centre)
-    : geometry_(geometry), at_(at), arm_(frames::axesAtStart(geometry.arm.axes_in_base_at_zero), centre) {
+    : geometry_(geometry),
+      at_(at),
+      layout_(geometry.arm.joints()),
+      arm_(frames::axesAtStart(geometry.arm.axes_in_base_at_zero), centre) {
   if (!at.bodiesMove()) return;
-  const Eigen::Index steps = ArmParameters::count(geometry.targets_at_zero.size());
-  for (Eigen::Index k = 0; k < ArmParameters::kAxes; ++k)
+  const Eigen::Index steps = layout_.count(geometry.targets_at_zero.size());
+  for (Eigen::Index k = 0; k < layout_.axes(); ++k)
     stepped_.push_back(frames::moved(geometry, ArmParameters::kSmall * Eigen::VectorXd::Unit(steps, k), centre));
 }
 
@@ -114,12 +120,11 @@ void PositionByGeometry::addSag(const effects::ArmState& modelled, const frames:
                                 Eigen::MatrixXd& columns) const {
   if (!geometry_.weight.links_known || (geometry_.compliance.isZero() && !at_.jointsTurn())) return;
   const Carried carried = carriedBy(geometry_.weight, modelled.posture);
-  Eigen::Matrix<double, 6, ArmParameters::kAxes> torques;
-  for (std::size_t k = 0; k < ArmParameters::kAxes; ++k)
-    torques.col(static_cast<Eigen::Index>(k)) =
-        torqueChange(modelled, carried, geometry_.weight.gravity_in_base, posture, k);
-  columns.leftCols<ArmParameters::kAxes>() +=
-      effects::byJoints(modelled, anglesByTorque(geometry_, at_, modelled) * torques);
+  effects::JointAngles torques(modelled.joints(), layout_.axes());
+  for (Eigen::Index k = 0; k < layout_.axes(); ++k)
+    torques.col(k) =
+        torqueChange(modelled, carried, geometry_.weight.gravity_in_base, posture, static_cast<std::size_t>(k));
+  columns.leftCols(layout_.axes()) += effects::byJoints(modelled, anglesByTorque(geometry_, at_, modelled) * torques);
 }
 
 void PositionByGeometry::addAxesByDifferences(const effects::ArmState& modelled, Eigen::MatrixXd& columns) const {
@@ -135,16 +140,16 @@ void PositionByGeometry::addAxesByDifferences(const effects::ArmState& modelled,
 }
 
 Eigen::MatrixXd PositionByGeometry::of(const effects::ArmState& state) const {
-  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(state.rows(), ArmParameters::count(geometry_.targets_at_zero.size()));
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(state.rows(), layout_.count(geometry_.targets_at_zero.size()));
   const effects::ArmState modelled = asModelled(geometry_, state);
   const frames::PlacedPosture posture(arm_, state.posture);
   for (std::size_t i = 0; i < state.targets.size(); ++i) {
     auto rows = columns.middleRows<3>(3 * static_cast<Eigen::Index>(i));
-    if (stepped_.empty()) rows.leftCols<ArmParameters::kAxes>() = posture.byAxes(modelled.points[i]);
+    if (stepped_.empty()) rows.leftCols(layout_.axes()) = posture.byAxes(modelled.points[i]);
     // The readings' motion moves what was read.
     if (geometry_.r0_from_loading)
-      rows.middleCols<ArmParameters::kBase>(ArmParameters::kBaseAt) = posture.byBase(state.points[i]);
-    rows.middleCols<3>(ArmParameters::targetAt(static_cast<std::size_t>(state.targets[i]))) = posture.byTarget();
+      rows.middleCols<ArmParameters::kBase>(layout_.baseAt()) = posture.byBase(state.points[i]);
+    rows.middleCols<3>(layout_.targetAt(static_cast<std::size_t>(state.targets[i]))) = posture.byTarget();
   }
   if (stepped_.empty()) {
     addSag(modelled, posture, columns);

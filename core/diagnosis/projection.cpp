@@ -51,7 +51,8 @@ Eigen::VectorXd allParameters(const Eigen::VectorXd& nuisances, const Eigen::Vec
   return all;
 }
 
-Projection project(const Eigen::MatrixXd& normal, Eigen::Index effects_at) {
+Projection project(const Eigen::MatrixXd& normal, const GapLayout& layout) {
+  const Eigen::Index effects_at = layout.effects, joints = layout.joints();
   const Eigen::Index end = normal.rows() - 1, effects = end - effects_at;
   const Eigen::MatrixXd nuisance = normal.topLeftCorner(effects_at, effects_at);
   const Eigen::VectorXd scale = scaleOf(nuisance.diagonal());
@@ -66,22 +67,24 @@ Projection project(const Eigen::MatrixXd& normal, Eigen::Index effects_at) {
   result.matrix = normal.block(effects_at, effects_at, effects, effects) - transposed * result.by_effects;
   result.right = normal.col(end).segment(effects_at, effects) - transposed * result.by_nothing;
   result.before = normal.diagonal().segment(effects_at, effects);
-  const Eigen::MatrixXd inverse = factor.solve(Eigen::MatrixXd::Identity(effects_at, 6));
-  for (Eigen::Index j = 0; j < 6; ++j) result.compliance_variance[j] = scale[j] * scale[j] * inverse(j, j);
+  const Eigen::MatrixXd inverse = factor.solve(Eigen::MatrixXd::Identity(effects_at, joints));
+  result.compliance_variance.resize(joints);
+  for (Eigen::Index j = 0; j < joints; ++j) result.compliance_variance[j] = scale[j] * scale[j] * inverse(j, j);
   result.chi2_none = normal(end, end) - across.col(effects).dot(result.by_nothing);
   return result;
 }
 
 StiffnessesAlone stiffnessesAlone(const LinearSystem& data, const std::vector<double>& weights,
                                   const Projection& projection) {
-  Eigen::Matrix<double, 7, 7> sum = Eigen::Matrix<double, 7, 7>::Zero();
+  const Eigen::Index joints = data.layout.joints();
+  StiffnessNormal sum = StiffnessNormal::Zero(joints + 1, joints + 1);
   for (std::size_t p = 0; p < data.postures.size(); ++p) sum += weights[p] * data.postures[p].stiffness_normal;
-  const Eigen::VectorXd scale = scaleOf(sum.diagonal().head<6>());
+  const Eigen::VectorXd scale = scaleOf(sum.diagonal().head(joints));
   StiffnessesAlone alone;
   alone.for_deflection = Eigen::VectorXd::Zero(data.layout.end);
-  alone.for_deflection.head<6>() =
-      scale.asDiagonal() *
-      factorised(sum.topLeftCorner<6, 6>(), scale).solve(Eigen::VectorXd(scale.asDiagonal() * sum.col(6).head<6>()));
+  alone.for_deflection.head(joints) =
+      scale.asDiagonal() * factorised(sum.topLeftCorner(joints, joints), scale)
+                               .solve(Eigen::VectorXd(scale.asDiagonal() * sum.col(joints).head(joints)));
   alone.for_position = Eigen::VectorXd::Zero(data.layout.end);
   alone.for_position.head(projection.by_nothing.size()) = projection.by_nothing;
   return alone;

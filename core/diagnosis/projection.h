@@ -18,7 +18,7 @@ struct Projection {
   double chi2_none = 0.0;
   Eigen::MatrixXd by_effects;  ///< nuisances = by_nothing - by_effects * effects; empty: not asked for
   Eigen::VectorXd by_nothing;
-  Vector6d compliance_variance = Vector6d::Zero();  ///< of the first six nuisances, no effect in the model
+  JointVector compliance_variance;  ///< of the first nuisances, no effect in the model
 };
 
 /// Sum of the postures' normal equations, each times its weight, plus the sweeps'.
@@ -40,7 +40,7 @@ StiffnessesAlone stiffnessesAlone(const LinearSystem& data, const std::vector<do
 /// Nuisances, then all effects' parameters, as the columns of the equations stand.
 Eigen::VectorXd allParameters(const Eigen::VectorXd& nuisances, const Eigen::VectorXd& effects);
 
-Projection project(const Eigen::MatrixXd& normal, Eigen::Index effects_at);
+Projection project(const Eigen::MatrixXd& normal, const GapLayout& layout);
 
 /// Standard deviation of a joint's compliance by the noise, with these effect parameters in the model.
 double complianceSd(const Projection& projection, const std::vector<Eigen::Index>& indices,

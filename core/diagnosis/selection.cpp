@@ -86,7 +86,7 @@ bool Selector::negativeCompliance(const FittedSet& set, const std::vector<Eigen:
   for (const Eigen::Index i : indices) {
     if (set.effects[i] != 0.0) present.push_back(i);
   }
-  for (Eigen::Index j = 0; j < 6; ++j) {
+  for (Eigen::Index j = 0; j < layout_.joints(); ++j) {
     const double compliance = projection_.by_nothing[j] - projection_.by_effects.row(j).dot(set.effects);
     if (compliance >= 0.0) continue;
     const double sd = std::sqrt(misfit(set)) * complianceSd(projection_, present, prior_, j);

@@ -13,7 +13,10 @@ namespace stiffscope::diagnosis {
 
 namespace {
 
-constexpr int kFirstLink = 1, kLinks = 4;  // joints 2 to 5: those whose zeros and lengths positions can see
+constexpr int kFirstLink = 1;
+
+/// Joints 2 to n - 1: those whose zeros and lengths positions can see.
+int linksOf(int joints) { return joints - 2; }
 
 SystemInput spikeInput(const preparation::PreparedCampaign& prepared, DiagnosisInput& start) {
   SystemInput input{start.campaign,
@@ -40,7 +43,7 @@ SpikedDay::SpikedDay(campaign::Campaign campaign)
   const Eigen::MatrixXd normal = sumOf(data_, std::vector<double>(data_.postures.size(), 1.0));
   const Eigen::Index first = data_.layout.effects, count = data_.layout.end - first;
   normal_ = normal.block(first, first, count, count);
-  projection_ = project(normal, first);
+  projection_ = project(normal, data_.layout);
 }
 
 std::vector<SpikedDay::Part> SpikedDay::seenParts(effects::Effect effect) const {
@@ -53,7 +56,7 @@ std::vector<SpikedDay::Part> SpikedDay::seenParts(effects::Effect effect) const 
     for (std::size_t p = 0; p < model.parts.size(); ++p) {
       const auto size = static_cast<Eigen::Index>(model.parts[p].most.size());
       // Of an equation that bends, parameters of either sign that every joint shares are its shape.
-      const bool shape = model.settle != nullptr && p >= 6;
+      const bool shape = model.settle != nullptr && p >= static_cast<std::size_t>(data_.layout.joints());
       const Eigen::ArrayXd before = projection_.before.segment(at, size).array();
       const Eigen::ArrayXd kept = projection_.matrix.diagonal().segment(at, size).array();
       if (!shape && ((before > 0.0) && (kept > kKept * before)).any()) parts.push_back({m, p, at});
@@ -114,14 +117,15 @@ std::optional<Spike> SpikedDay::draw(effects::Effect effect, double largest, num
 /// One zero or one length, or two of them.
 std::optional<Spike> SpikedDay::drawGeometry(numerics::RandomStream& random) const {
   if (!input_.absolute) return std::nullopt;
+  const int links = linksOf(campaign_.robot.joints());
   Spike spike{effects::Effect::kinematic_error,
               0,
               {},
-              Eigen::VectorXd::Zero(2 * kLinks),
+              Eigen::VectorXd::Zero(2 * links),
               std::numeric_limits<double>::infinity()};
-  const Eigen::Index kind = random.uniform() < 0.5 ? 0 : kLinks;
+  const Eigen::Index kind = random.uniform() < 0.5 ? 0 : links;
   for (int drawn = 0; drawn < 2; ++drawn) {
-    const auto which = std::min<Eigen::Index>(kLinks - 1, static_cast<Eigen::Index>(random.uniform() * kLinks));
+    const auto which = std::min<Eigen::Index>(links - 1, static_cast<Eigen::Index>(random.uniform() * links));
     spike.parameters[kind + which] += random.normal();
   }
   const double left = geometryLeft(spike.parameters);
@@ -131,15 +135,16 @@ std::optional<Spike> SpikedDay::drawGeometry(numerics::RandomStream& random) con
 }
 
 Eigen::VectorXd SpikedDay::byGeometry(const Eigen::VectorXd& errors, const effects::ArmState& state) const {
-  Vector6d zeros = Vector6d::Zero();
-  zeros.segment<kLinks>(kFirstLink) = errors.head<kLinks>();
+  JointVector zeros = JointVector::Zero(state.joints());
+  const int links = linksOf(state.joints());
+  zeros.segment(kFirstLink, links) = errors.head(links);
   Eigen::VectorXd moved = effects::byJoints(state, zeros);
-  for (int i = 0; i < kLinks; ++i) {
+  for (int i = 0; i < links; ++i) {
     const std::size_t joint = static_cast<std::size_t>(kFirstLink + i);
     Eigen::Vector3d link = state.axes[joint].point - state.axes[joint - 1].point;
     constexpr double kNoLink = 1e-3;  // m: axes that meet are moved along the flange's x instead
     link = link.norm() > kNoLink ? Eigen::Vector3d(link.normalized()) : Eigen::Vector3d(state.flange.linear().col(0));
-    moved += effects::byMotion(state, state.axes[joint].point, Eigen::Vector3d::Zero(), errors[kLinks + i] * link);
+    moved += effects::byMotion(state, state.axes[joint].point, Eigen::Vector3d::Zero(), errors[links + i] * link);
   }
   return moved;
 }
@@ -184,7 +189,8 @@ SpikedDay::Field SpikedDay::fieldOf(const Spike& spike, double size) const {
   };
 }
 
-effects::ArmState SpikedDay::atRest(int target, const Vector6d& q, const Eigen::Vector3d& point, double time_s) const {
+effects::ArmState SpikedDay::atRest(int target, const JointVector& q, const Eigen::Vector3d& point,
+                                    double time_s) const {
   effects::ArmState state = effects::gravityEquilibrium(start_.state.geometry, start_.state.at, q);
   state.time_s = time_s;
   state.targets = {target};

@@ -105,7 +105,7 @@ class LoadingRowMaker {
     SystemRows rows;
     rows.pose = pose;
     rows.displacement.resize(per_state * states);
-    rows.by_compliance.resize(per_state * states, 6);
+    rows.by_compliance.resize(per_state * states, geometry_.arm.joints());
     effects::ArmState rest = effects::gravityEquilibrium(geometry_, at_, cases.front().q);
     rest.pose = pose;
     rest.targets = targets;
@@ -136,24 +136,25 @@ class LoadingRowMaker {
     state.load_torque = robot::jointTorque(axes, state.load);
     // Springs' torque s = tau + K_c c s, and the Jacobian at the middle of the displacement (see
     // equations.h).
-    Matrix6d change =
+    JointMatrix change =
         robot::geometricStiffness(axes, state.load) + robot::geometricStiffness(axes, rest.posture, geometry_.weight);
     change(1, 1) += compensatorSlope(at_, rest.turned);
-    const Matrix6d system = Matrix6d::Identity() - change * at_.compliance.asDiagonal();
-    const Vector6d torque = solveLu(system, state.load_torque);
+    const Eigen::Index joints = change.rows();
+    const JointMatrix system = JointMatrix::Identity(joints, joints) - change * at_.compliance.asDiagonal();
+    const JointVector torque = solveLu(system, state.load_torque);
     const robot::ArmPosture middle =
         effects::movedPosture(geometry_.arm, rest.turned + 0.5 * at_.compliance.cwiseProduct(torque), rest.moved);
     const robot::ArmAxes middle_axes = robot::axesAt(geometry_.arm, middle);
     Eigen::Matrix<double, Eigen::Dynamic, 6> by_wrench(rest.rows(), 6);
-    Matrix6d wrench_to_torque = robot::jacobianAt(geometry_.arm, rest.posture, state.load.point).transpose();
+    const Jacobian torque_to_wrench = robot::jacobianAt(geometry_.arm, rest.posture, state.load.point);
     for (std::size_t t = 0; t < rest.targets.size(); ++t) {
       const identification::TargetMove& move = moveOf(one, rest.targets[t]);
-      const Matrix36d jacobian = robot::pointJacobianAt(middle_axes, 0.5 * (move.unloaded + move.loaded));
+      const PointJacobian jacobian = robot::pointJacobianAt(middle_axes, 0.5 * (move.unloaded + move.loaded));
       const Eigen::Index row = at_row + 3 * static_cast<Eigen::Index>(t);
       rows.displacement.segment<3>(row) = move.displacement();
       rows.by_compliance.middleRows<3>(row) = jacobian * torque.asDiagonal();
       by_wrench.middleRows<3>(3 * static_cast<Eigen::Index>(t)) =
-          jacobian * at_.compliance.asDiagonal() * wrench_to_torque;
+          jacobian * at_.compliance.asDiagonal() * torque_to_wrench.transpose();
     }
     rows.by_wrench.push_back(std::move(by_wrench));
   }
@@ -166,7 +167,8 @@ class LoadingRowMaker {
         rows.position.resize(0);
         return;
       }
-      rows.position.segment<3>(3 * static_cast<Eigen::Index>(t)) = rest.points[t] - rest.posture.motion[6] * *at_zero;
+      rows.position.segment<3>(3 * static_cast<Eigen::Index>(t)) =
+          rest.points[t] - rest.posture.motion.back() * *at_zero;
     }
     rows.sag_by_compliance = effects::byEachJoint(rest, rest.weight_torque);
   }
@@ -187,7 +189,7 @@ class LoadingRowMaker {
 
 }  // namespace
 
-double compensatorSlope(const effects::LinearizationPoint& at, const Vector6d& turned) {
+double compensatorSlope(const effects::LinearizationPoint& at, const JointVector& turned) {
   double slope = 0.0;
   for (Eigen::Index k = 0; k + 1 < at.compensator.size(); k += 2) {
     const double n = static_cast<double>(k / 2 + 1);
@@ -228,13 +230,13 @@ std::vector<SweepRows> sweepRows(const campaign::Campaign& campaign, const frame
     rows.state.targets.push_back(reading.target);
     rows.state.points.push_back(r0_from_points * reading.point);
     rows.position.conservativeResize(rows.state.rows());
-    rows.position.tail<3>() = rows.state.points.back() - rows.state.posture.motion[6] * *at_zero;
+    rows.position.tail<3>() = rows.state.points.back() - rows.state.posture.motion.back() * *at_zero;
   };
   if (campaign.circle_sweeps) {
     for (const campaign::CircleReading& reading : campaign.circle_sweeps->rows) add(reading.axis, reading);
   }
   if (campaign.wrist_sweep) {
-    for (const campaign::WristReading& reading : campaign.wrist_sweep->rows) add(6, reading);
+    for (const campaign::WristReading& reading : campaign.wrist_sweep->rows) add(campaign.robot.joints(), reading);
   }
   std::vector<SweepRows> all;
   for (auto& [key, rows] : by_index) {

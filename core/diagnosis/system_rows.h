@@ -33,6 +33,7 @@ class PositionByGeometry {
 
   const frames::LoadingGeometry& geometry_;
   const effects::LinearizationPoint& at_;
+  frames::ArmParameters layout_;
   frames::PlacedArm arm_;
   std::vector<frames::LoadingGeometry> stepped_;  ///< by each step of an axis; empty where no effect moves bodies
 };
@@ -42,10 +43,10 @@ class PositionByGeometry {
 struct SystemRows {
   int pose = 0;
   effects::PostureStates states;
-  Eigen::VectorXd displacement;                            ///< loaded less unloaded, as measured
-  Eigen::Matrix<double, Eigen::Dynamic, 6> by_compliance;  ///< of the displacement: K_c and the middle posture in
-  Eigen::VectorXd position;  ///< measured less the rigid model's; empty without absolute points
-  Eigen::Matrix<double, Eigen::Dynamic, 6> sag_by_compliance;
+  Eigen::VectorXd displacement;  ///< loaded less unloaded, as measured
+  JointRows by_compliance;       ///< of the displacement: K_c and the middle posture in
+  Eigen::VectorXd position;      ///< measured less the rigid model's; empty without absolute points
+  JointRows sag_by_compliance;
   int unloaded_readings = 0, loaded_readings = 0;  ///< means over these, per reflector and state
   std::vector<Eigen::Matrix<double, Eigen::Dynamic, 6>>
       by_wrench;  ///< of each loaded state: displacement by its wrench
@@ -55,7 +56,7 @@ struct SystemRows {
 struct SweepRows {
   effects::ArmState state;
   Eigen::VectorXd position;
-  Eigen::Matrix<double, Eigen::Dynamic, 6> sag_by_compliance;
+  JointRows sag_by_compliance;
 };
 
 /// Rows of the loading (or of `displacements`), in the order of poses. Reflectors that some step of a posture
@@ -89,6 +90,6 @@ std::vector<SweepRows> sweepRows(const campaign::Campaign& campaign, const frame
                                  const Eigen::Isometry3d& r0_from_points, const effects::LinearizationPoint& at);
 
 /// How the compensator's torque on joint 2 changes as the joint turns, Nm/rad.
-double compensatorSlope(const effects::LinearizationPoint& at, const Vector6d& turned);
+double compensatorSlope(const effects::LinearizationPoint& at, const JointVector& turned);
 
 }  // namespace stiffscope::diagnosis

@@ -85,7 +85,7 @@ class Decider {
     besides_.emplace_back(RemarkId::geometry_off_nominal, from_.geometry.rms, kGeometryTolerance);
   }
 
-  /// A geometry that is wrong puts the flange, and with it the load cell, elsewhere along axis 6, which
+  /// A geometry that is wrong puts the flange, and with it the load cell, elsewhere along the last axis, which
   /// sweeps do not see.
   bool followsFromGeometry(effects::Effect effect, const Eigen::VectorXd& parameters) const {
     if (!geometry_named_) return false;

@@ -12,25 +12,25 @@ const EffectRecord& recordOf(Effect effect) {
   return kRecords[static_cast<std::size_t>(effect)]();
 }
 
-std::vector<EffectModel> modelsOf(const EffectRecord& record, const std::vector<std::string>& targets) {
+std::vector<EffectModel> modelsOf(const EffectRecord& record, const ModelScope& scope) {
   if (record.models == nullptr) return {};
-  std::vector<EffectModel> models = record.models(targets);
+  std::vector<EffectModel> models = record.models(scope);
   for (EffectModel& model : models) model.effect = record.effect;
   return models;
 }
 
-std::vector<EffectModel> effectModels(const std::vector<std::string>& targets) {
+std::vector<EffectModel> effectModels(const ModelScope& scope) {
   std::vector<EffectModel> all;
   for (std::size_t e = 0; e < kEffectCount; ++e) {
-    for (EffectModel& model : modelsOf(recordOf(static_cast<Effect>(e)), targets)) all.push_back(std::move(model));
+    for (EffectModel& model : modelsOf(recordOf(static_cast<Effect>(e)), scope)) all.push_back(std::move(model));
   }
   return all;
 }
 
 std::vector<EffectModel> effectModelsOf(const campaign::Campaign& campaign) {
-  std::vector<std::string> targets;
-  for (const campaign::Target& target : campaign.targets) targets.push_back(target.id);
-  return effectModels(targets);
+  ModelScope scope{campaign.robot.joints(), {}};
+  for (const campaign::Target& target : campaign.targets) scope.targets.push_back(target.id);
+  return effectModels(scope);
 }
 
 EffectNature natureOf(Effect effect) { return recordOf(effect).nature; }

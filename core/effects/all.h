@@ -17,12 +17,12 @@ STIFFSCOPE_EFFECTS(STIFFSCOPE_EFFECT_RECORD)
 const EffectRecord& recordOf(Effect effect);
 
 /// The models of one effect, which carry its id.
-std::vector<EffectModel> modelsOf(const EffectRecord& record, const std::vector<std::string>& targets = {});
+std::vector<EffectModel> modelsOf(const EffectRecord& record, const ModelScope& scope = {});
 
 /// The models that a diagnosis tries, one or more an effect, in the order of the table.
-std::vector<EffectModel> effectModels(const std::vector<std::string>& targets);
+std::vector<EffectModel> effectModels(const ModelScope& scope);
 
-/// The same with the campaign's reflectors.
+/// The same for the campaign's machine and reflectors.
 std::vector<EffectModel> effectModelsOf(const campaign::Campaign& campaign);
 
 EffectNature natureOf(Effect effect);

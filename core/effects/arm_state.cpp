@@ -6,13 +6,11 @@
 
 namespace stiffscope::effects {
 
-BodyMotions noBodyMotions() {
-  BodyMotions none;
-  none.fill(Eigen::Isometry3d::Identity());
-  return none;
+BodyMotions noBodyMotions(int joints) {
+  return BodyMotions(static_cast<std::size_t>(joints) + 1, Eigen::Isometry3d::Identity());
 }
 
-robot::ArmPosture movedPosture(const robot::Robot& arm, const Vector6d& turned, const BodyMotions& moved) {
+robot::ArmPosture movedPosture(const robot::Robot& arm, const JointVector& turned, const BodyMotions& moved) {
   robot::ArmPosture posture = robot::postureAt(arm, turned);
   for (std::size_t b = 0; b < moved.size(); ++b) posture.motion[b] = moved[b] * posture.motion[b];
   return posture;
@@ -34,7 +32,7 @@ CompactPosture::CompactPosture(const PostureStates& posture) {
 }
 
 PostureStates CompactPosture::states(const frames::LoadingGeometry& geometry) const {
-  BodyMotions moved = noBodyMotions();
+  BodyMotions moved = noBodyMotions(geometry.arm.joints());
   std::copy(moved_.begin(), moved_.end(), moved.begin());
   ArmState rest = stateMoved(geometry, q_, turned_, moved);
   rest.pose = pose_;
@@ -54,19 +52,20 @@ PostureStates CompactPosture::states(const frames::LoadingGeometry& geometry) co
   return states;
 }
 
-ArmState stateAt(const frames::LoadingGeometry& geometry, const Vector6d& q, const Vector6d& joint_offset) {
-  return stateMoved(geometry, q, geometry.sagged(q) + joint_offset, noBodyMotions());
+ArmState stateAt(const frames::LoadingGeometry& geometry, const JointVector& q, const JointVector& joint_offset) {
+  return stateMoved(geometry, q, geometry.sagged(q) + joint_offset, noBodyMotions(geometry.arm.joints()));
 }
 
-ArmState stateMoved(const frames::LoadingGeometry& geometry, const Vector6d& q, const Vector6d& turned,
+ArmState stateMoved(const frames::LoadingGeometry& geometry, const JointVector& q, const JointVector& turned,
                     const BodyMotions& moved) {
   ArmState state;
   state.q = q;
+  state.load_torque = JointVector::Zero(q.size());
   moveTo(geometry, turned, moved, state);
   return state;
 }
 
-void moveTo(const frames::LoadingGeometry& geometry, const Vector6d& turned, const BodyMotions& moved,
+void moveTo(const frames::LoadingGeometry& geometry, const JointVector& turned, const BodyMotions& moved,
             ArmState& state) {
   state.turned = turned;
   state.moved = moved;
@@ -75,11 +74,13 @@ void moveTo(const frames::LoadingGeometry& geometry, const Vector6d& turned, con
 }
 
 void placeByPosture(const frames::LoadingGeometry& geometry, ArmState& state) {
-  for (int j = 0; j < 6; ++j) state.axes[static_cast<std::size_t>(j)] = robot::axisAt(geometry.arm, state.posture, j);
+  state.axes = robot::axesAt(geometry.arm, state.posture);
+  state.weight_torque = JointVector::Zero(geometry.arm.joints());
+  state.weight_from_body.assign(state.posture.motion.size(), robot::Wrench());
   state.flange = robot::flangeAt(geometry.arm, state.posture);
   if (!geometry.weight.links_known) return;
   robot::Wrench sum;
-  for (std::size_t b = 6; b >= 1; --b) {
+  for (std::size_t b = state.axes.size(); b >= 1; --b) {
     const robot::BodyMass& body = geometry.weight.bodies[b];
     const Eigen::Vector3d pull = body.mass_kg * geometry.weight.gravity_in_base;
     sum.force += pull;
@@ -100,21 +101,17 @@ robot::Wrench carried(const ArmState& state, int body, const Eigen::Vector3d& ab
   return sum;
 }
 
-Eigen::MatrixXd byJoints(const ArmState& state, const Eigen::Matrix<double, 6, Eigen::Dynamic>& angles) {
+Eigen::MatrixXd byJoints(const ArmState& state, const JointAngles& angles) {
   Eigen::MatrixXd rows(state.rows(), angles.cols());
   for (std::size_t t = 0; t < state.points.size(); ++t) {
-    Matrix36d jacobian;
-    for (int j = 0; j < 6; ++j) {
-      const metrology::Line& axis = state.axes[static_cast<std::size_t>(j)];
-      jacobian.col(j) = axis.direction.cross(state.points[t] - axis.point);
-    }
+    const PointJacobian jacobian = robot::pointJacobianAt(state.axes, state.points[t]);
     rows.middleRows<3>(3 * static_cast<Eigen::Index>(t)) = jacobian * angles;
   }
   return rows;
 }
 
-Eigen::MatrixXd byEachJoint(const ArmState& state, const Vector6d& angles) {
-  return byJoints(state, Matrix6d(angles.asDiagonal()));
+Eigen::MatrixXd byEachJoint(const ArmState& state, const JointVector& angles) {
+  return byJoints(state, JointAngles(JointMatrix(angles.asDiagonal())));
 }
 
 Eigen::VectorXd byMotion(const ArmState& state, const Eigen::Vector3d& pivot, const Eigen::Vector3d& rotation,

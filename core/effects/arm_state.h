@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "core/frames/arm_geometry.h"
@@ -10,8 +9,8 @@ namespace stiffscope::effects {
 
 /// Rigid motions of the arm's bodies beyond what its joints do, in R0: where effects in the model have moved
 /// them.
-using BodyMotions = std::array<Eigen::Isometry3d, 7>;
-BodyMotions noBodyMotions();
+using BodyMotions = PerBody<Eigen::Isometry3d>;
+BodyMotions noBodyMotions(int joints);
 
 /// The arm at rest in one state, in R0: everything that drives an effect. Own weight and load are kept apart,
 /// because a deflection is the state less the unloaded one, and an absolute position has the own weight
@@ -21,21 +20,22 @@ struct ArmState {
   int step = 0;
   double time_s = campaign::kNoTime;
   bool loaded = false;  ///< its force is above the share of the posture's largest that makes it a return to zero
-  Vector6d q = Vector6d::Zero();
-  Vector6d turned = Vector6d::Zero();  ///< joint angles with the sag in
-  BodyMotions moved = noBodyMotions();
-  robot::ArmPosture posture;            ///< at `turned`, its bodies moved
-  std::array<metrology::Line, 6> axes;  ///< joint axes there; the point of each is the joint's origin
+  JointVector q;
+  JointVector turned;  ///< joint angles with the sag in
+  BodyMotions moved;
+  robot::ArmPosture posture;  ///< at `turned`, its bodies moved
+  robot::ArmAxes axes;        ///< joint axes there; the point of each is the joint's origin
   Eigen::Isometry3d flange = Eigen::Isometry3d::Identity();
   Eigen::Matrix3d cell_axes = Eigen::Matrix3d::Identity();  ///< base_from_cell: the axes the wrench was read in
   robot::Wrench load;                                       ///< on the tool; zero force where nothing pulls
-  Vector6d load_torque = Vector6d::Zero();
-  Vector6d weight_torque = Vector6d::Zero();  ///< zero where masses are not known
+  JointVector load_torque;
+  JointVector weight_torque;  ///< zero where masses are not known
   /// By body b: the own weight of all bodies from b outwards, about the R0 origin.
-  std::array<robot::Wrench, 7> weight_from_body;
+  PerBody<robot::Wrench> weight_from_body;
   std::vector<int> targets;
   std::vector<Eigen::Vector3d> points;  ///< where the reflectors stand, one a target
 
+  int joints() const { return static_cast<int>(axes.size()); }
   Eigen::Index rows() const { return 3 * static_cast<Eigen::Index>(points.size()); }
 };
 
@@ -52,7 +52,7 @@ class CompactPosture {
     bool loaded = false;
     Eigen::Matrix3d cell_axes = Eigen::Matrix3d::Identity();
     robot::Wrench load;
-    Vector6d load_torque = Vector6d::Zero();
+    JointVector load_torque;
   };
 
   CompactPosture() = default;
@@ -69,7 +69,7 @@ class CompactPosture {
 
  private:
   int pose_ = -1;
-  Vector6d q_ = Vector6d::Zero(), turned_ = Vector6d::Zero();
+  JointVector q_, turned_;
   std::vector<Eigen::Isometry3d> moved_;  // empty where no body is
   Eigen::Isometry3d flange_ = Eigen::Isometry3d::Identity();
   std::vector<int> targets_;
@@ -79,17 +79,18 @@ class CompactPosture {
 
 /// The geometry's part of a state: posture, axes, flange and gravity load at q with the gravity sag, its
 /// joints turned by `joint_offset` (rad) besides.
-ArmState stateAt(const frames::LoadingGeometry& geometry, const Vector6d& q, const Vector6d& joint_offset);
+ArmState stateAt(const frames::LoadingGeometry& geometry, const JointVector& q, const JointVector& joint_offset);
 
 /// The geometry's part of a state at joint angles `turned`, its bodies moved.
-ArmState stateMoved(const frames::LoadingGeometry& geometry, const Vector6d& q, const Vector6d& turned,
+ArmState stateMoved(const frames::LoadingGeometry& geometry, const JointVector& q, const JointVector& turned,
                     const BodyMotions& moved);
 
 /// Brings an existing state there: what does not depend on angles and bodies stays.
-void moveTo(const frames::LoadingGeometry& geometry, const Vector6d& turned, const BodyMotions& moved, ArmState& state);
+void moveTo(const frames::LoadingGeometry& geometry, const JointVector& turned, const BodyMotions& moved,
+            ArmState& state);
 
 /// The posture at these angles with its bodies moved.
-robot::ArmPosture movedPosture(const robot::Robot& arm, const Vector6d& turned, const BodyMotions& moved);
+robot::ArmPosture movedPosture(const robot::Robot& arm, const JointVector& turned, const BodyMotions& moved);
 
 /// The same from `state.posture`, wherever that came from: fills axes, flange and own weight.
 void placeByPosture(const frames::LoadingGeometry& geometry, ArmState& state);
@@ -99,13 +100,16 @@ void placeByPosture(const frames::LoadingGeometry& geometry, ArmState& state);
 robot::Wrench carried(const ArmState& state, int body, const Eigen::Vector3d& about);
 
 /// Own weight and load on the joints, Nm.
-inline Vector6d totalTorque(const ArmState& state) { return state.load_torque + state.weight_torque; }
+inline JointVector totalTorque(const ArmState& state) { return state.load_torque + state.weight_torque; }
+
+/// Joint angles, one column a parameter, rad per unit.
+using JointAngles = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMostJoints, Eigen::Dynamic>;
 
 /// Displacements of the reflectors by small joint angles, stacked: one column a column of `angles`.
-Eigen::MatrixXd byJoints(const ArmState& state, const Eigen::Matrix<double, 6, Eigen::Dynamic>& angles);
+Eigen::MatrixXd byJoints(const ArmState& state, const JointAngles& angles);
 
 /// One column a joint: its angle alone.
-Eigen::MatrixXd byEachJoint(const ArmState& state, const Vector6d& angles);
+Eigen::MatrixXd byEachJoint(const ArmState& state, const JointVector& angles);
 
 /// Displacement of the reflectors by a small motion: rotation about `pivot`, then shift.
 Eigen::VectorXd byMotion(const ArmState& state, const Eigen::Vector3d& pivot, const Eigen::Vector3d& rotation,

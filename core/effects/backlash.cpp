@@ -13,23 +13,25 @@ namespace stiffscope::effects {
 namespace {
 
 JointAngles backlashAngles(const LinearizationPoint& at, const PostureStates& posture, std::size_t i) {
-  const Vector6d torque = totalTorque(posture[i]);
-  JointAngles result = JointAngles::Zero(6, 7);
-  for (Eigen::Index j = 0; j < 6; ++j) {
+  const JointVector torque = totalTorque(posture[i]);
+  const Eigen::Index joints = torque.size();
+  JointAngles result = JointAngles::Zero(joints, joints + 1);
+  for (Eigen::Index j = 0; j < joints; ++j) {
     const double largest = at.largest_torque[j] > 0.0 ? at.largest_torque[j] : 1.0;
     const double part = torque[j] / largest, side = std::tanh(part / at.passage);
     result(j, j) = 0.5 * side;
-    result(j, 6) = -0.5 * at.play[j] * (1.0 - side * side) * part / (at.passage * at.passage);
+    result(j, joints) = -0.5 * at.play[j] * (1.0 - side * side) * part / (at.passage * at.passage);
   }
   return result;
 }
 
 void settle(LinearizationPoint& at, Eigen::VectorXd& own) {
-  at.play = own.head<6>();
-  at.passage = std::clamp(at.passage + own[6], 0.5 * at.passage, 2.0 * at.passage);
+  const Eigen::Index joints = at.compliance.size();  // then the step of the width
+  at.play = own.head(joints);
+  at.passage = std::clamp(at.passage + own[joints], 0.5 * at.passage, 2.0 * at.passage);
   constexpr double kSharpest = 1e-3, kWidest = 1.0;
   at.passage = std::clamp(at.passage, kSharpest, kWidest);
-  own[6] = 0.0;
+  own[joints] = 0.0;
 }
 
 Remark backlashMissing(const CampaignContents& has) {
@@ -37,9 +39,11 @@ Remark backlashMissing(const CampaignContents& has) {
   return {};
 }
 
-std::vector<EffectModel> backlashModels(const std::vector<std::string>&) {
-  EffectModel model{
-      .parts = jointParts(20e-3, true, "rad"), .most_parts = 7, .angles = &backlashAngles, .settle = &settle};
+std::vector<EffectModel> backlashModels(const ModelScope& scope) {
+  EffectModel model{.parts = jointParts(scope, 20e-3, true, "rad"),
+                    .most_parts = static_cast<std::size_t>(scope.joints) + 1,
+                    .angles = &backlashAngles,
+                    .settle = &settle};
   model.parts.push_back({"width of the passage", {1.0}, false, "of the largest torque"});
   return {model};
 }

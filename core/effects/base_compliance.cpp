@@ -19,7 +19,7 @@ std::vector<BodyTwist> baseComplianceTwists(const LinearizationPoint& at, const 
   return twists;
 }
 
-std::vector<EffectModel> baseComplianceModels(const std::vector<std::string>&) {
+std::vector<EffectModel> baseComplianceModels(const ModelScope&) {
   EffectModel model{.most_parts = 5, .twists = &baseComplianceTwists};
   for (const char* name : {"rocking about x", "rocking about y"}) model.parts.push_back({name, {1e-5}, true, "rad/Nm"});
   for (const char* name : {"shift along x", "shift along y", "shift along z"})

@@ -11,7 +11,7 @@ namespace {
 
 std::vector<BodyTwist> bearingTiltTwists(const LinearizationPoint&, const PostureStates& posture, std::size_t i) {
   std::vector<BodyTwist> twists;
-  for (int j = 0; j < 6; ++j) {
+  for (int j = 0; j < posture[i].joints(); ++j) {
     const metrology::Line& axis = posture[i].axes[static_cast<std::size_t>(j)];
     const Eigen::Vector3d moment = carried(posture[i], j + 1, axis.point).moment;
     const Eigen::Vector3d across = moment - axis.direction * axis.direction.dot(moment);
@@ -20,8 +20,10 @@ std::vector<BodyTwist> bearingTiltTwists(const LinearizationPoint&, const Postur
   return twists;
 }
 
-std::vector<EffectModel> bearingTiltModels(const std::vector<std::string>&) {
-  return {{.parts = jointParts(1e-5, true, "rad/Nm"), .most_parts = 6, .twists = &bearingTiltTwists}};
+std::vector<EffectModel> bearingTiltModels(const ModelScope& scope) {
+  return {{.parts = jointParts(scope, 1e-5, true, "rad/Nm"),
+           .most_parts = static_cast<std::size_t>(scope.joints),
+           .twists = &bearingTiltTwists}};
 }
 
 }  // namespace

@@ -32,9 +32,9 @@ std::size_t EffectModel::parameters() const {
   return count;
 }
 
-std::vector<EffectPart> jointParts(double most, bool positive, const std::string& unit) {
+std::vector<EffectPart> jointParts(const ModelScope& scope, double most, bool positive, const std::string& unit) {
   std::vector<EffectPart> parts;
-  for (int j = 1; j <= 6; ++j) parts.push_back({fmt::format("joint {}", j), {most}, positive, unit});
+  for (int j = 1; j <= scope.joints; ++j) parts.push_back({fmt::format("joint {}", j), {most}, positive, unit});
   return parts;
 }
 
@@ -47,12 +47,8 @@ EffectPart rigidMotionPart(double most) {
 }
 
 Eigen::VectorXd bySprings(const LinearizationPoint& at, const ArmState& state, const robot::Wrench& change) {
-  Vector6d torque;
-  for (int j = 0; j < 6; ++j) {
-    const metrology::Line& axis = state.axes[static_cast<std::size_t>(j)];
-    torque[j] = axis.direction.dot(change.about(axis.point).moment);
-  }
-  return byJoints(state, at.compliance.cwiseProduct(torque));
+  const JointVector turn = at.compliance.cwiseProduct(robot::jointTorque(state.axes, change));
+  return byJoints(state, turn);
 }
 
 std::string parameterName(const EffectPart& part, std::size_t k) {

@@ -23,15 +23,15 @@ struct PresentEffect {
 /// point times a compliance) or bend with their own size (friction) take that other one from here and are
 /// fitted again and again.
 struct LinearizationPoint {
-  Vector6d compliance = Vector6d::Zero();  ///< of the joints, rad/Nm, none negative
-  Vector6d friction = Vector6d::Zero();    ///< Nm; 0: not known yet, the joint lags from the first newton metre
-  double sticking = 1.0;             ///< stiffness with which friction holds before it slips, over the joint's own
-  int targets = 0;                   ///< of the campaign
-  Eigen::VectorXd compensator;       ///< torque on joint 2: sin, cos of q_2, of 2 q_2 and so on, Nm; empty: none
-  Vector6d play = Vector6d::Zero();  ///< backlash of the joints, rad; zero: not known yet
-  Vector6d harder_by_square = Vector6d::Zero();  ///< stiffness k (1 + a tau^2) of the joints: a, 1/Nm^2
-  Vector6d harder_by_size = Vector6d::Zero();    ///< stiffness k (1 + a |tau|): a, 1/Nm
-  Vector6d largest_torque = Vector6d::Zero();    ///< own weight and load, largest of all states, Nm
+  JointVector compliance;              ///< of the joints, rad/Nm, none negative
+  JointVector friction;                ///< Nm; 0: not known yet, the joint lags from the first newton metre
+  double sticking = 1.0;               ///< stiffness with which friction holds before it slips, over the joint's own
+  int targets = 0;                     ///< of the campaign
+  Eigen::VectorXd compensator;         ///< torque on joint 2: sin, cos of q_2, of 2 q_2 and so on, Nm; empty: none
+  JointVector play;                    ///< backlash of the joints, rad; zero: not known yet
+  JointVector harder_by_square;        ///< stiffness k (1 + a tau^2) of the joints: a, 1/Nm^2
+  JointVector harder_by_size;          ///< stiffness k (1 + a |tau|): a, 1/Nm
+  JointVector largest_torque;          ///< own weight and load, largest of all states, Nm
   double passage = 0.05;               ///< part of the largest torque over which the backlash passes from side to side
   std::vector<PresentEffect> present;  ///< effects in the model that move the unloaded arm
   double largest_force = 1.0;          ///< N, of the campaign: scales what is proportional to the load
@@ -41,6 +41,16 @@ struct LinearizationPoint {
   double first_time = 0.0, time_span = 1.0;                ///< s, of the loading
   double sweep_time = 0.0;                                 ///< s; the sweeps' epoch as far as it is known
   Eigen::Isometry3d r0_from_base_link = Eigen::Isometry3d::Identity();
+
+  LinearizationPoint() = default;  ///< of no machine yet
+  /// Of a machine of so many joints, rigid and without effects.
+  explicit LinearizationPoint(int joints)
+      : compliance(JointVector::Zero(joints)),
+        friction(compliance),
+        play(compliance),
+        harder_by_square(compliance),
+        harder_by_size(compliance),
+        largest_torque(compliance) {}
 
   bool jointsTurn() const;  ///< by an effect in the model
   bool bodiesMove() const;
@@ -66,11 +76,8 @@ struct EffectPart {
   std::vector<std::string> units = {};  ///< of each parameter; empty: `unit` is that of all
 };
 
-/// Joint angles of an effect that only turns joints, one column a parameter, rad per unit.
-using JointAngles = Eigen::Matrix<double, 6, Eigen::Dynamic>;
-
-/// Beyond the arm's six bodies: what the plate between flange and reflectors carries.
-constexpr int kToolBody = 7;
+/// Beyond the arm's bodies, one a joint: what the plate between flange and reflectors carries.
+constexpr int toolBody(int joints) { return joints + 1; }
 
 /// A small rigid motion of the arm from one body outwards, in R0, per unit of a parameter.
 struct BodyTwist {
@@ -104,7 +111,7 @@ struct EffectModel {
   void (*settle)(LinearizationPoint& at, Eigen::VectorXd& own) = nullptr;
   /// Where its parameters multiply other unknowns: once estimated, it is put into what the equations are made
   /// with, and `own` becomes what they then contain. `compliance` is that of the equations it was found in.
-  void (*correct)(const Vector6d& compliance, LinearizationPoint& at, Corrections& corrections,
+  void (*correct)(const JointVector& compliance, LinearizationPoint& at, Corrections& corrections,
                   Eigen::VectorXd& own) = nullptr;
 
   Eigen::MatrixXd columns(const LinearizationPoint& at, const PostureStates& posture, std::size_t state) const;
@@ -115,8 +122,14 @@ struct EffectModel {
   bool movesArm() const { return angles != nullptr || (twists != nullptr && !beyond_flange); }
 };
 
-/// Parts of one parameter each for the six joints.
-std::vector<EffectPart> jointParts(double most, bool positive, const std::string& unit);
+/// What an effect's models are made for: they have a part a joint, a pair of joints, a reflector.
+struct ModelScope {
+  int joints = 6;
+  std::vector<std::string> targets = {};  ///< names of the reflectors
+};
+
+/// Parts of one parameter each for the joints.
+std::vector<EffectPart> jointParts(const ModelScope& scope, double most, bool positive, const std::string& unit);
 
 /// One part of a rotation about x, y, z (rad) and a shift along them (m).
 EffectPart rigidMotionPart(double most);
@@ -155,8 +168,8 @@ struct EffectRecord {
   EffectNature nature = EffectNature::machine;
   /// What is missing to test it with this; empty where nothing is. Null: nothing ever is.
   Remark (*missing)(const CampaignContents& contents) = nullptr;
-  /// Its equations, one or more, for reflectors of these names. Null: it has no columns.
-  std::vector<EffectModel> (*models)(const std::vector<std::string>& targets) = nullptr;
+  /// Its equations, one or more. Null: it has no columns.
+  std::vector<EffectModel> (*models)(const ModelScope& scope) = nullptr;
 };
 
 }  // namespace stiffscope::effects

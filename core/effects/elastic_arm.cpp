@@ -1,41 +1,41 @@
 #include "core/effects/elastic_arm.h"
 
-#include <array>
-
 #include "core/robot/spring_equilibrium.h"
 #include "core/robot/wrench.h"
 #include "metrology/rigid_motion.h"
 
 namespace stiffscope::effects {
 
-std::optional<Vector6d> loadedAngles(const frames::LoadingGeometry& geometry, const Vector6d& compliance,
-                                     const Vector6d& q, const FlangeLoad& load) {
+std::optional<JointVector> loadedAngles(const frames::LoadingGeometry& geometry, const JointVector& compliance,
+                                        const JointVector& q, const FlangeLoad& load) {
   constexpr int kMostSteps = 100;
   constexpr double kSettled = 1e-12;  // rad
-  const auto torqueAt = [&](const Vector6d& angles) -> Vector6d {
+  const auto torqueAt = [&](const JointVector& angles) -> JointVector {
     const robot::ArmPosture posture = robot::postureAt(geometry.arm, angles);
     const robot::Wrench wrench{robot::flangeAt(geometry.arm, posture) * load.point_in_flange, load.force, load.moment};
     return robot::weightTorque(geometry.arm, posture, geometry.weight) +
            robot::jointTorque(geometry.arm, posture, wrench);
   };
   const auto found = robot::springEquilibrium(q, compliance, kMostSteps, kSettled, torqueAt);
-  return found.settled ? std::optional<Vector6d>(found.angles) : std::nullopt;
+  return found.settled ? std::optional<JointVector>(found.angles) : std::nullopt;
 }
 
 /// What the effects do at one place of the arm: motions of the base (0), the bodies and the tool.
 struct ElasticArm::Deflection {
-  Vector6d angles = Vector6d::Zero();
-  std::array<Eigen::Isometry3d, kToolBody + 1> motions;
+  JointVector angles;
+  boost::container::static_vector<Eigen::Isometry3d, toolBody(kMostJoints) + 1> motions;
 
-  Deflection() { motions.fill(Eigen::Isometry3d::Identity()); }
+  explicit Deflection(int joints)
+      : angles(JointVector::Zero(joints)),
+        motions(static_cast<std::size_t>(toolBody(joints)) + 1, Eigen::Isometry3d::Identity()) {}
 };
 
-ElasticArm::ElasticArm(const frames::LoadingGeometry& geometry, const Vector6d& compliance,
+ElasticArm::ElasticArm(const frames::LoadingGeometry& geometry, const JointVector& compliance,
                        const LinearizationPoint& at, std::vector<PresentEffect> effects)
     : geometry_(geometry), compliance_(compliance), at_(at), effects_(std::move(effects)) {}
 
 ElasticArm::Deflection ElasticArm::deflectionBy(const PostureStates& posture, std::size_t s) const {
-  Deflection deflection;
+  Deflection deflection(geometry_.arm.joints());
   for (const auto& [model, own] : effects_) {
     if (model->angles) {
       deflection.angles += model->angles(at_, posture, s) * own;
@@ -79,25 +79,27 @@ std::optional<Eigen::Isometry3d> ElasticArm::settledTool(PostureStates& states, 
   constexpr int kMostSteps = 60;
   constexpr double kSettled = 1e-10;  // rad
   ArmState& state = states[s];
-  Vector6d angles = state.q;
-  Deflection deflection;
+  const int joints = geometry_.arm.joints();
+  JointVector angles = state.q;
+  Deflection deflection(joints);
   Eigen::Isometry3d last = Eigen::Isometry3d::Identity();
   for (int step = 0; step < kMostSteps; ++step) {
     robot::ArmPosture place;
-    place.motion[0] = deflection.motions[0];
+    place.motion.push_back(deflection.motions[0]);
     const robot::ArmPosture turned = robot::postureAt(geometry_.arm, angles);
-    for (std::size_t b = 1; b <= 6; ++b) {
+    for (std::size_t b = 1; b < turned.motion.size(); ++b) {
       const Eigen::Isometry3d own = turned.motion[b - 1].inverse() * turned.motion[b];
-      place.motion[b] = deflection.motions[b] * place.motion[b - 1] * own;
+      place.motion.push_back(deflection.motions[b] * place.motion[b - 1] * own);
     }
-    const Eigen::Isometry3d tool = deflection.motions[kToolBody] * place.motion[6];
+    const Eigen::Isometry3d tool = deflection.motions[static_cast<std::size_t>(toolBody(joints))] * place.motion.back();
     if (step > 0 && (tool.matrix() - last.matrix()).cwiseAbs().maxCoeff() < kSettled) return tool;
     last = tool;
     state.posture = place;
     placeByPosture(geometry_, state);
     if (s == 0) state.turned = angles;
     state.load = load ? robot::Wrench{tool * load->point_at_zero, load->force, load->moment} : robot::Wrench{};
-    state.load_torque = load ? robot::jointTorque(geometry_.arm, place, state.load) : Vector6d::Zero();
+    state.load_torque =
+        load ? robot::jointTorque(geometry_.arm, place, state.load) : JointVector(JointVector::Zero(joints));
     deflection = deflectionBy(states, s);
     angles = state.q + compliance_.cwiseProduct(totalTorque(state)) + deflection.angles;
   }

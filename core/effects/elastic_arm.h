@@ -20,8 +20,8 @@ struct FlangeLoad {
 /// Joint angles of the arm on its springs: q + c (own weight's torque + load's torque), both on the moved
 /// arm; fixed-point iteration to 1e-12 rad. `compliance` acts for both the weight and the load. Empty where
 /// it does not settle (a load beyond buckling).
-std::optional<Vector6d> loadedAngles(const frames::LoadingGeometry& geometry, const Vector6d& compliance,
-                                     const Vector6d& q, const FlangeLoad& load);
+std::optional<JointVector> loadedAngles(const frames::LoadingGeometry& geometry, const JointVector& compliance,
+                                        const JointVector& q, const FlangeLoad& load);
 
 /// A load that keeps its force and moment in R0 and acts at a point fixed to the tool.
 struct ToolLoad {
@@ -39,7 +39,7 @@ class ElasticArm {
  public:
   /// Without effects: joint springs alone. Geometry, linearisation point and the effects' models must outlive
   /// the arm.
-  ElasticArm(const frames::LoadingGeometry& geometry, const Vector6d& compliance, const LinearizationPoint& at,
+  ElasticArm(const frames::LoadingGeometry& geometry, const JointVector& compliance, const LinearizationPoint& at,
              std::vector<PresentEffect> effects);
 
   /// Motion of the tool (what lies beyond the plate; without one, the flange) from its place at all joints
@@ -55,19 +55,20 @@ class ElasticArm {
   Deflection deflectionBy(const PostureStates& posture, std::size_t s) const;
 
   const frames::LoadingGeometry& geometry_;
-  Vector6d compliance_;
+  JointVector compliance_;
   const LinearizationPoint& at_;
   std::vector<PresentEffect> effects_;
 };
 
 /// base_from_flange at rest with these joint commands under the load (one without force: the own weight
 /// alone). Empty where the arm does not come to rest.
-using RestingFlange = std::function<std::optional<Eigen::Isometry3d>(const Vector6d& commands, const FlangeLoad& load)>;
+using RestingFlange =
+    std::function<std::optional<Eigen::Isometry3d>(const JointVector& commands, const FlangeLoad& load)>;
 
 /// An arm with effects that deflect besides its joint springs.
 struct EffectDeflection {
   RestingFlange flange;
-  Matrix6d spring_covariance = Matrix6d::Zero();  ///< of the joint compliances, the effects taken as known
+  JointMatrix spring_covariance;  ///< of the joint compliances, the effects taken as known
   /// The arm moved by one standard deviation along each independent direction of what else is uncertain,
   /// joint springs following: what such a move changes in a result is a standard uncertainty of it.
   std::vector<RestingFlange> varied;

@@ -19,7 +19,7 @@ Eigen::MatrixXd frameErrorOffset(const LinearizationPoint& at, const PostureStat
   return columns;
 }
 
-void frameErrorCorrect(const Vector6d&, LinearizationPoint&, Corrections& corrections, Eigen::VectorXd& own) {
+void frameErrorCorrect(const JointVector&, LinearizationPoint&, Corrections& corrections, Eigen::VectorXd& own) {
   corrections.frame = own;
 }
 
@@ -29,7 +29,7 @@ Remark frameErrorMissing(const CampaignContents& has) {
   return {};
 }
 
-std::vector<EffectModel> frameErrorModels(const std::vector<std::string>&) {
+std::vector<EffectModel> frameErrorModels(const ModelScope&) {
   return {{.parts = {rigidMotionPart(0.1)}, .offset = &frameErrorOffset, .correct = &frameErrorCorrect}};
 }
 

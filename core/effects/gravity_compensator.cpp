@@ -19,7 +19,7 @@ JointAngles gravityCompensatorAngles(const LinearizationPoint& at, const Posture
   const ArmState& state = posture[i];
   const double angle = state.turned[1], compliance = at.compliance[1];
   const double give = compliance * state.load_torque[1];
-  JointAngles result = JointAngles::Zero(6, 2 * kHarmonics);
+  JointAngles result = JointAngles::Zero(state.joints(), 2 * kHarmonics);
   for (int harmonic = 1; harmonic <= kHarmonics; ++harmonic) {
     const double n = harmonic;
     result(1, 2 * harmonic - 2) = compliance * (std::sin(n * angle) + n * std::cos(n * angle) * give);
@@ -29,7 +29,8 @@ JointAngles gravityCompensatorAngles(const LinearizationPoint& at, const Posture
 }
 
 /// The torque turns the joint by the compliance of the equations it was found in.
-void gravityCompensatorCorrect(const Vector6d& compliance, LinearizationPoint& at, Corrections&, Eigen::VectorXd& own) {
+void gravityCompensatorCorrect(const JointVector& compliance, LinearizationPoint& at, Corrections&,
+                               Eigen::VectorXd& own) {
   if (compliance[1] <= 0.0 || at.compliance[1] <= 0.0) {
     own.setZero();
     return;
@@ -44,7 +45,7 @@ Remark gravityCompensatorMissing(const CampaignContents& has) {
   return {};
 }
 
-std::vector<EffectModel> gravityCompensatorModels(const std::vector<std::string>&) {
+std::vector<EffectModel> gravityCompensatorModels(const ModelScope&) {
   EffectPart part{"", std::vector<double>(2 * kHarmonics, 1e6), false, "Nm"};
   for (int n = 1; n <= kHarmonics; ++n) {
     part.names.push_back(fmt::format("sin {} q2", n));

@@ -1,7 +1,6 @@
 #include "core/effects/gravity_equilibrium.h"
 
 #include <Eigen/Geometry>
-#include <array>
 #include <utility>
 
 #include "metrology/rigid_motion.h"
@@ -12,8 +11,9 @@ namespace {
 
 /// Inner bodies first, so that an outer motion turns about where the inner ones have brought its pivot.
 BodyMotions motionsOf(const LinearizationPoint& at, const PostureStates& rest) {
-  std::array<Vector6d, 7> by_body;  // rotation vector, and displacement of the R0 origin
-  by_body.fill(Vector6d::Zero());
+  const int joints = rest.front().joints();
+  // Rotation vector, and displacement of the R0 origin.
+  PerBody<Vector6d> by_body(static_cast<std::size_t>(joints) + 1, Vector6d(Vector6d::Zero()));
   for (const PresentEffect& one : at.present) {
     if (!one.model->twists) continue;
     const std::vector<BodyTwist> twists = one.model->twists(at, rest, 0);
@@ -24,7 +24,7 @@ BodyMotions motionsOf(const LinearizationPoint& at, const PostureStates& rest) {
       by_body[static_cast<std::size_t>(twist.first_body)] += at_origin * one.parameters[static_cast<Eigen::Index>(k)];
     }
   }
-  BodyMotions all = noBodyMotions();
+  BodyMotions all = noBodyMotions(joints);
   for (std::size_t first = 1; first < by_body.size(); ++first) {
     const Vector6d& twist = by_body[first];
     if (twist.isZero(0.0)) continue;
@@ -41,8 +41,8 @@ BodyMotions motionsOf(const LinearizationPoint& at, const PostureStates& rest) {
   return all;
 }
 
-Vector6d turnOf(const LinearizationPoint& at, const PostureStates& rest) {
-  Vector6d turn = Vector6d::Zero();
+JointVector turnOf(const LinearizationPoint& at, const PostureStates& rest) {
+  JointVector turn = JointVector::Zero(rest.front().joints());
   for (const PresentEffect& one : at.present) {
     if (one.model->angles) turn += one.model->angles(at, rest, 0) * one.parameters;
   }
@@ -51,22 +51,23 @@ Vector6d turnOf(const LinearizationPoint& at, const PostureStates& rest) {
 
 }  // namespace
 
-Vector6d presentTurn(const LinearizationPoint& at, const ArmState& state) { return turnOf(at, {state}); }
+JointVector presentTurn(const LinearizationPoint& at, const ArmState& state) { return turnOf(at, {state}); }
 
-ArmState gravityEquilibrium(const frames::LoadingGeometry& geometry, const LinearizationPoint& at, const Vector6d& q) {
-  const Vector6d sagged = geometry.sagged(q);
-  PostureStates rest{stateMoved(geometry, q, sagged, noBodyMotions())};
+ArmState gravityEquilibrium(const frames::LoadingGeometry& geometry, const LinearizationPoint& at,
+                            const JointVector& q) {
+  const JointVector sagged = geometry.sagged(q);
+  PostureStates rest{stateMoved(geometry, q, sagged, noBodyMotions(geometry.arm.joints()))};
   ArmState& state = rest.front();
   if (at.present.empty()) return std::move(state);
   const bool turns = at.jointsTurn(), bodies = at.bodiesMove();
   constexpr int kRounds = 5;  // torques change with turns and motions by a hundredth with a strong effect
   for (int round = 0; round < kRounds; ++round) {
-    const Vector6d turn = turns ? turnOf(at, rest) : Vector6d(Vector6d::Zero());
+    const JointVector turn = turns ? turnOf(at, rest) : JointVector(JointVector::Zero(q.size()));
     if (!bodies) {
-      moveTo(geometry, sagged + turn, noBodyMotions(), state);
+      moveTo(geometry, sagged + turn, noBodyMotions(geometry.arm.joints()), state);
       continue;
     }
-    const Vector6d sag = geometry.compliance.cwiseProduct(state.weight_torque);
+    const JointVector sag = geometry.compliance.cwiseProduct(state.weight_torque);
     const Eigen::Matrix4d before = state.flange.matrix();
     moveTo(geometry, q + sag + turn, motionsOf(at, rest), state);
     constexpr double kSettled = 1e-10;  // m and rad
@@ -78,20 +79,21 @@ ArmState gravityEquilibrium(const frames::LoadingGeometry& geometry, const Linea
 Eigen::Isometry3d lastBodyNear(const frames::LoadingGeometry& geometry, const LinearizationPoint& at,
                                const ArmState& near) {
   const PostureStates rest{stateMoved(geometry, near.q, near.turned, near.moved)};
-  Vector6d turned = near.q + geometry.compliance.cwiseProduct(rest.front().weight_torque);
+  JointVector turned = near.q + geometry.compliance.cwiseProduct(rest.front().weight_torque);
   if (at.jointsTurn()) turned += turnOf(at, rest);
-  return movedPosture(geometry.arm, turned, motionsOf(at, rest)).motion[6];
+  return movedPosture(geometry.arm, turned, motionsOf(at, rest)).motion.back();
 }
 
 namespace {
 
 /// Joint angles in place of displacements.
-Matrix6d anglesByBody(const LinearizationPoint& at, const ArmState& state) {
-  Matrix6d angles = Matrix6d::Zero();
-  for (int body = 1; body <= 6; ++body) {
+JointAngles anglesByBody(const LinearizationPoint& at, const ArmState& state) {
+  const int joints = state.joints();
+  JointAngles angles = JointAngles::Zero(joints, joints);
+  for (int body = 1; body <= joints; ++body) {
     const auto b = static_cast<std::size_t>(body);
     robot::Wrench own = state.weight_from_body[b];
-    if (body < 6) {
+    if (body < joints) {
       own.force -= state.weight_from_body[b + 1].force;
       own.moment -= state.weight_from_body[b + 1].moment;
     }

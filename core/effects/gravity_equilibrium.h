@@ -9,7 +9,8 @@ namespace stiffscope::effects {
 
 /// The unloaded arm at joint angles q (as reported, rad): sag of the joints' springs, and what the effects in
 /// the model do under the own weight alone, each computed where the others have left the arm.
-ArmState gravityEquilibrium(const frames::LoadingGeometry& geometry, const LinearizationPoint& at, const Vector6d& q);
+ArmState gravityEquilibrium(const frames::LoadingGeometry& geometry, const LinearizationPoint& at,
+                            const JointVector& q);
 
 /// Where the last body of an arm of almost this geometry comes to, by one round of the above from where `near` rests:
 /// what its torques' change does to these torques again, a hundredth of that change, is left out. For derivatives by
@@ -18,13 +19,11 @@ Eigen::Isometry3d lastBodyNear(const frames::LoadingGeometry& geometry, const Li
                                const ArmState& near);
 
 /// Joint angles by which the effects in the model turn the arm where it rests, rad.
-Vector6d presentTurn(const LinearizationPoint& at, const ArmState& rest);
-
-constexpr Eigen::Index kBodies = 6;
+JointVector presentTurn(const LinearizationPoint& at, const ArmState& rest);
 
 /// How the own weight of each body moves the reflectors of an unloaded state by turning the joints' springs,
-/// m: one row a coordinate of a reflector, one column a body, for the weight as the URDF and the tool state
-/// it.
+/// m: one row a coordinate of a reflector, one column a body beyond a joint, for the weight as the URDF and the tool
+/// state it.
 Eigen::MatrixXd gravityDeflectionByBody(const LinearizationPoint& at, const ArmState& state);
 
 }  // namespace stiffscope::effects

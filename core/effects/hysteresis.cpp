@@ -14,7 +14,7 @@ namespace stiffscope::effects {
 //
 // Friction that grips by a spring of its own before it slips (Jenkins; many sliders: Iwan 1966), beside the
 // joint's: theta_j = c_j (tau - sum_s g_s), g_s <- clamp(g_s + r k_j / n dtheta, -f_s, f_s), with f_s evenly
-// spread from little to twice the mean and their sum f_j. The seventh parameter is a step of the logarithm
+// spread from little to twice the mean and their sum f_j. The last parameter is a step of the logarithm
 // of r, one for all joints, about the working point's.
 
 namespace {
@@ -27,8 +27,8 @@ double frictionOf(const LinearizationPoint& at, Eigen::Index joint) {
 
 /// A rigid grip: the joint's spring follows the torque only beyond the friction.
 JointAngles rigidGrip(const LinearizationPoint& at, const PostureStates& posture, std::size_t i) {
-  Vector6d lag;
-  for (Eigen::Index j = 0; j < 6; ++j) {
+  JointVector lag(at.compliance.size());
+  for (Eigen::Index j = 0; j < lag.size(); ++j) {
     const double friction = frictionOf(at, j);
     double spring = 0.0;
     for (std::size_t k = 1; k <= i; ++k) {
@@ -37,7 +37,7 @@ JointAngles rigidGrip(const LinearizationPoint& at, const PostureStates& posture
     }
     lag[j] = (spring - (i == 0 ? 0.0 : posture[i].load_torque[j])) / friction;
   }
-  return Matrix6d(lag.asDiagonal());
+  return JointMatrix(lag.asDiagonal());
 }
 
 /// Sliders beside the joint's spring, each held by a spring of its own (Jenkins elements; many of them:
@@ -89,35 +89,38 @@ double lagAfter(double friction, double sticking, const PostureStates& posture, 
 template <int kSliders>
 JointAngles softGrip(const LinearizationPoint& at, const PostureStates& posture, std::size_t i) {
   constexpr double kStep = 0.05;  // of the logarithm
-  JointAngles result = JointAngles::Zero(6, 7);
-  for (Eigen::Index j = 0; j < 6; ++j) {
+  const Eigen::Index joints = at.compliance.size();
+  JointAngles result = JointAngles::Zero(joints, joints + 1);
+  for (Eigen::Index j = 0; j < joints; ++j) {
     const double friction = frictionOf(at, j);
     result(j, j) = lagAfter<kSliders>(friction, at.sticking, posture, i, j);
     const double firmer = lagAfter<kSliders>(friction, at.sticking * std::exp(kStep), posture, i, j);
     const double softer = lagAfter<kSliders>(friction, at.sticking * std::exp(-kStep), posture, i, j);
-    result(j, 6) = at.compliance[j] * at.friction[j] * (firmer - softer) / (2.0 * kStep);
+    result(j, joints) = at.compliance[j] * at.friction[j] * (firmer - softer) / (2.0 * kStep);
   }
   return result;
 }
 
 /// Lag over compliance is friction.
 void frictionFrom(LinearizationPoint& at, const Eigen::VectorXd& own) {
-  for (Eigen::Index j = 0; j < 6; ++j) at.friction[j] = at.compliance[j] > 0.0 ? own[j] / at.compliance[j] : 0.0;
+  for (Eigen::Index j = 0; j < at.friction.size(); ++j)
+    at.friction[j] = at.compliance[j] > 0.0 ? own[j] / at.compliance[j] : 0.0;
 }
 
 void settleRigid(LinearizationPoint& at, Eigen::VectorXd& own) { frictionFrom(at, own); }
 
 void settleSoft(LinearizationPoint& at, Eigen::VectorXd& own) {
   frictionFrom(at, own);
+  const Eigen::Index last = at.compliance.size();
   constexpr double kStride = 1.0, kSoftest = 0.05, kFirmest = 20.0;
-  at.sticking = std::clamp(at.sticking * std::exp(std::clamp(own[6], -kStride, kStride)), kSoftest, kFirmest);
-  own[6] = 0.0;
+  at.sticking = std::clamp(at.sticking * std::exp(std::clamp(own[last], -kStride, kStride)), kSoftest, kFirmest);
+  own[last] = 0.0;
 }
 
-EffectModel softModel(const char* shape, decltype(EffectModel::angles) angles) {
+EffectModel softModel(const ModelScope& scope, const char* shape, decltype(EffectModel::angles) angles) {
   EffectModel model{.shape = shape,
-                    .parts = jointParts(20e-3, true, "rad"),
-                    .most_parts = 7,
+                    .parts = jointParts(scope, 20e-3, true, "rad"),
+                    .most_parts = static_cast<std::size_t>(scope.joints) + 1,
                     .angles = angles,
                     .settle = &settleSoft};
   constexpr double kMost = 5.0;
@@ -130,14 +133,14 @@ Remark hysteresisMissing(const CampaignContents& has) {
   return {};
 }
 
-std::vector<EffectModel> hysteresisModels(const std::vector<std::string>&) {
+std::vector<EffectModel> hysteresisModels(const ModelScope& scope) {
   return {{.shape = "a rigid grip",
-           .parts = jointParts(20e-3, true, "rad"),
-           .most_parts = 6,
+           .parts = jointParts(scope, 20e-3, true, "rad"),
+           .most_parts = static_cast<std::size_t>(scope.joints),
            .angles = &rigidGrip,
            .settle = &settleRigid},
-          softModel("a slider held by a spring", &softGrip<1>),
-          softModel("many sliders held by springs", &softGrip<8>)};
+          softModel(scope, "a slider held by a spring", &softGrip<1>),
+          softModel(scope, "many sliders held by springs", &softGrip<8>)};
 }
 
 }  // namespace

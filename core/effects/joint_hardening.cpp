@@ -21,7 +21,7 @@ namespace stiffscope::effects {
 
 namespace {
 
-using Array6d = Eigen::Array<double, 6, 1>;
+using JointArray = Eigen::Array<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMostJoints, 1>;
 
 /// (1 - g) / x of g + x g^3 = 1: 1 where the spring is linear. Down to where it would have no solution.
 double bySpring(double x) {
@@ -35,28 +35,28 @@ double bySpring(double x) {
 }
 
 /// Stiffness over that at no torque; one that drops is followed down to half.
-Array6d stiffer(const Array6d& by) { return 1.0 + by.max(-0.5); }
+JointArray stiffer(const JointArray& by) { return 1.0 + by.max(-0.5); }
 
 JointAngles cubicSpring(const LinearizationPoint& at, const PostureStates& posture, std::size_t i) {
-  const Array6d torque = totalTorque(posture[i]).array();
-  const Array6d by = (at.harder_by_square.array() * torque.square()).unaryExpr(&bySpring);
-  return Matrix6d((-torque.cube() * by).matrix().asDiagonal());
+  const JointArray torque = totalTorque(posture[i]).array();
+  const JointArray by = (at.harder_by_square.array() * torque.square()).unaryExpr(&bySpring);
+  return JointAngles((-torque.cube() * by).matrix().asDiagonal());
 }
 
 JointAngles cubicWhole(const LinearizationPoint& at, const PostureStates& posture, std::size_t i) {
-  const Array6d torque = totalTorque(posture[i]).array();
-  const Array6d by = stiffer(at.harder_by_square.array() * torque.square());
-  return Matrix6d((-torque.cube() / by).matrix().asDiagonal());
+  const JointArray torque = totalTorque(posture[i]).array();
+  const JointArray by = stiffer(at.harder_by_square.array() * torque.square());
+  return JointAngles((-torque.cube() / by).matrix().asDiagonal());
 }
 
 JointAngles squareWhole(const LinearizationPoint& at, const PostureStates& posture, std::size_t i) {
-  const Array6d torque = totalTorque(posture[i]).array();
-  const Array6d by = stiffer(at.harder_by_size.array() * torque.abs());
-  return Matrix6d((-torque * torque.abs() / by).matrix().asDiagonal());
+  const JointArray torque = totalTorque(posture[i]).array();
+  const JointArray by = stiffer(at.harder_by_size.array() * torque.abs());
+  return JointAngles((-torque * torque.abs() / by).matrix().asDiagonal());
 }
 
 /// a_j = h_j / c_j.
-Vector6d overCompliance(const LinearizationPoint& at, const Eigen::VectorXd& own) {
+JointVector overCompliance(const LinearizationPoint& at, const Eigen::VectorXd& own) {
   return (at.compliance.array() > 0.0).select(own.array() / at.compliance.array(), 0.0);
 }
 
@@ -64,38 +64,39 @@ void settleSquare(LinearizationPoint& at, Eigen::VectorXd& own) { at.harder_by_s
 
 void settleSize(LinearizationPoint& at, Eigen::VectorXd& own) { at.harder_by_size = overCompliance(at, own); }
 
-EffectModel bySquare(const char* shape, decltype(EffectModel::angles) angles) {
+EffectModel bySquare(const ModelScope& scope, const char* shape, decltype(EffectModel::angles) angles) {
   return {.shape = shape,
-          .parts = jointParts(1e-6, false, "rad/Nm^3"),
-          .most_parts = 6,
+          .parts = jointParts(scope, 1e-6, false, "rad/Nm^3"),
+          .most_parts = static_cast<std::size_t>(scope.joints),
           .angles = angles,
           .settle = &settleSquare};
 }
 
-EffectModel bySize(const char* shape, decltype(EffectModel::angles) angles) {
+EffectModel bySize(const ModelScope& scope, const char* shape, decltype(EffectModel::angles) angles) {
   return {.shape = shape,
-          .parts = jointParts(1e-6, false, "rad/Nm^2"),
-          .most_parts = 6,
+          .parts = jointParts(scope, 1e-6, false, "rad/Nm^2"),
+          .most_parts = static_cast<std::size_t>(scope.joints),
           .angles = angles,
           .settle = &settleSize};
 }
 
 JointAngles cubic(const LinearizationPoint&, const PostureStates& posture, std::size_t i) {
-  const Vector6d torque = totalTorque(posture[i]);
-  return Matrix6d((-torque.array().cube()).matrix().asDiagonal());
+  const JointVector torque = totalTorque(posture[i]);
+  return JointAngles((-torque.array().cube()).matrix().asDiagonal());
 }
 
 JointAngles square(const LinearizationPoint&, const PostureStates& posture, std::size_t i) {
-  const Vector6d torque = totalTorque(posture[i]);
-  return Matrix6d((-torque.cwiseProduct(torque.cwiseAbs())).asDiagonal());
+  const JointVector torque = totalTorque(posture[i]);
+  return JointAngles((-torque.cwiseProduct(torque.cwiseAbs())).asDiagonal());
 }
 
 constexpr int kKnots = 6, kBends = 4;
 
 JointAngles stages(const LinearizationPoint& at, const PostureStates& posture, std::size_t i) {
-  const Vector6d torque = totalTorque(posture[i]);
-  JointAngles result = JointAngles::Zero(6, 6 * kKnots);
-  for (Eigen::Index j = 0; j < 6; ++j) {
+  const JointVector torque = totalTorque(posture[i]);
+  const Eigen::Index joints = torque.size();
+  JointAngles result = JointAngles::Zero(joints, joints * kKnots);
+  for (Eigen::Index j = 0; j < joints; ++j) {
     for (int b = 0; b < kKnots; ++b) {
       const double knot = at.largest_torque[j] * (b + 1) / (kKnots + 1);
       result(j, kKnots * j + b) = -std::copysign(std::max(std::abs(torque[j]) - knot, 0.0), torque[j]);
@@ -105,9 +106,10 @@ JointAngles stages(const LinearizationPoint& at, const PostureStates& posture, s
 }
 
 JointAngles smoothCurve(const LinearizationPoint& at, const PostureStates& posture, std::size_t i) {
-  const Vector6d torque = totalTorque(posture[i]);
-  JointAngles result = JointAngles::Zero(6, 6 * kBends);
-  for (Eigen::Index j = 0; j < 6; ++j) {
+  const JointVector torque = totalTorque(posture[i]);
+  const Eigen::Index joints = torque.size();
+  JointAngles result = JointAngles::Zero(joints, joints * kBends);
+  for (Eigen::Index j = 0; j < joints; ++j) {
     const double largest = at.largest_torque[j];
     if (!(largest > 0.0)) continue;
     for (int b = 0; b < kBends; ++b) {
@@ -119,9 +121,13 @@ JointAngles smoothCurve(const LinearizationPoint& at, const PostureStates& postu
   return result;
 }
 
-EffectModel byKnots(const char* shape, const char* knot, int knots, decltype(EffectModel::angles) angles) {
+EffectModel byKnots(const ModelScope& scope, const char* shape, const char* knot, int knots,
+                    decltype(EffectModel::angles) angles) {
   constexpr double kMost = 1e-3;  // rad/Nm
-  EffectModel model{.shape = shape, .parts = jointParts(kMost, false, "rad/Nm"), .most_parts = 6, .angles = angles};
+  EffectModel model{.shape = shape,
+                    .parts = jointParts(scope, kMost, false, "rad/Nm"),
+                    .most_parts = static_cast<std::size_t>(scope.joints),
+                    .angles = angles};
   for (EffectPart& part : model.parts) {
     part.most.assign(static_cast<std::size_t>(knots), kMost);
     for (int b = 1; b <= knots; ++b) part.names.push_back(fmt::format("{} {} {}", part.detail, knot, b));
@@ -134,14 +140,14 @@ Remark jointHardeningMissing(const CampaignContents& has) {
   return {};
 }
 
-std::vector<EffectModel> jointHardeningModels(const std::vector<std::string>&) {
-  return {bySquare("stiffness with the square of the torque", &cubic),
-          bySize("stiffness with the size of the torque", &square),
-          bySquare("a spring with a cubic term", &cubicSpring),
-          bySquare("stiffness with the square of the torque, to any size", &cubicWhole),
-          bySize("stiffness with the size of the torque, to any size", &squareWhole),
-          byKnots("by stages of the torque", "stage", kKnots, &stages),
-          byKnots("by a smooth curve of the torque", "bend", kBends, &smoothCurve)};
+std::vector<EffectModel> jointHardeningModels(const ModelScope& scope) {
+  return {bySquare(scope, "stiffness with the square of the torque", &cubic),
+          bySize(scope, "stiffness with the size of the torque", &square),
+          bySquare(scope, "a spring with a cubic term", &cubicSpring),
+          bySquare(scope, "stiffness with the square of the torque, to any size", &cubicWhole),
+          bySize(scope, "stiffness with the size of the torque, to any size", &squareWhole),
+          byKnots(scope, "by stages of the torque", "stage", kKnots, &stages),
+          byKnots(scope, "by a smooth curve of the torque", "bend", kBends, &smoothCurve)};
 }
 
 }  // namespace

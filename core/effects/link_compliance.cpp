@@ -12,11 +12,12 @@ namespace stiffscope::effects {
 
 namespace {
 
-constexpr int kLinks = 4;  // bodies 1 to 4: joint origin to the next; the wrist's own bodies are compact
+/// Bodies 1 to 4 of six: joint origin to the next; the wrist's own bodies are compact.
+constexpr int linksOf(int joints) { return robot::armJointsOf(joints) + 1; }
 
 std::vector<BodyTwist> linkComplianceTwists(const LinearizationPoint&, const PostureStates& posture, std::size_t i) {
   std::vector<BodyTwist> twists;
-  for (int link = 0; link < kLinks; ++link) {
+  for (int link = 0; link < linksOf(posture[i].joints()); ++link) {
     const Eigen::Vector3d from = posture[i].axes[static_cast<std::size_t>(link)].point;
     const Eigen::Vector3d tip = posture[i].axes[static_cast<std::size_t>(link) + 1].point;
     const double length = (tip - from).norm();
@@ -38,9 +39,10 @@ std::vector<BodyTwist> linkComplianceTwists(const LinearizationPoint&, const Pos
   return twists;
 }
 
-std::vector<EffectModel> linkComplianceModels(const std::vector<std::string>&) {
-  EffectModel model{.most_parts = kLinks, .twists = &linkComplianceTwists};
-  for (int link = 1; link <= kLinks; ++link) {
+std::vector<EffectModel> linkComplianceModels(const ModelScope& scope) {
+  const int links = linksOf(scope.joints);
+  EffectModel model{.most_parts = static_cast<std::size_t>(links), .twists = &linkComplianceTwists};
+  for (int link = 1; link <= links; ++link) {
     const std::string name = fmt::format("link {}", link);
     model.parts.push_back({name, {1e-4, 1e-4}, true, "1/(N m^2)", {"1/EI of " + name, "1/GJ of " + name}});
   }

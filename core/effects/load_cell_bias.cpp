@@ -29,11 +29,11 @@ Eigen::MatrixXd alongGravity(const LinearizationPoint& at, const PostureStates& 
                   -at.r0_from_base_link.linear().col(2));
 }
 
-void correctForce(const Vector6d&, LinearizationPoint&, Corrections& corrections, Eigen::VectorXd& own) {
+void correctForce(const JointVector&, LinearizationPoint&, Corrections& corrections, Eigen::VectorXd& own) {
   corrections.cell_force = own;
 }
 
-void correctWeight(const Vector6d&, LinearizationPoint&, Corrections& corrections, Eigen::VectorXd& own) {
+void correctWeight(const JointVector&, LinearizationPoint&, Corrections& corrections, Eigen::VectorXd& own) {
   corrections.missing_weight = own[0];
 }
 
@@ -42,7 +42,7 @@ Remark loadCellBiasMissing(const CampaignContents& has) {
   return {};
 }
 
-std::vector<EffectModel> loadCellBiasModels(const std::vector<std::string>&) {
+std::vector<EffectModel> loadCellBiasModels(const ModelScope&) {
   return {{.shape = "constant in the cell's axes",
            .parts = {{"", {2e3, 2e3, 2e3}, false, "N", {"x", "y", "z"}}},
            .offset = &inCell,

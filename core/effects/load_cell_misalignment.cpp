@@ -18,11 +18,12 @@ Eigen::MatrixXd loadCellMisalignmentOffset(const LinearizationPoint& at, const P
   return columns;
 }
 
-void loadCellMisalignmentCorrect(const Vector6d&, LinearizationPoint&, Corrections& corrections, Eigen::VectorXd& own) {
+void loadCellMisalignmentCorrect(const JointVector&, LinearizationPoint&, Corrections& corrections,
+                                 Eigen::VectorXd& own) {
   corrections.cell_turn = own;
 }
 
-std::vector<EffectModel> loadCellMisalignmentModels(const std::vector<std::string>&) {
+std::vector<EffectModel> loadCellMisalignmentModels(const ModelScope&) {
   const EffectPart turn{"", {0.3, 0.3, 0.3}, false, "rad", {"turn about x", "turn about y", "turn about z"}};
   return {{.parts = {turn}, .offset = &loadCellMisalignmentOffset, .correct = &loadCellMisalignmentCorrect}};
 }

@@ -18,11 +18,11 @@ Eigen::MatrixXd loadPointErrorOffset(const LinearizationPoint& at, const Posture
   return columns;
 }
 
-void loadPointErrorCorrect(const Vector6d&, LinearizationPoint&, Corrections& corrections, Eigen::VectorXd& own) {
+void loadPointErrorCorrect(const JointVector&, LinearizationPoint&, Corrections& corrections, Eigen::VectorXd& own) {
   corrections.load_point = own;
 }
 
-std::vector<EffectModel> loadPointErrorModels(const std::vector<std::string>&) {
+std::vector<EffectModel> loadPointErrorModels(const ModelScope&) {
   return {{.parts = {{"", {0.3, 0.3, 0.3}, false, "m", {"x", "y", "z"}}},
            .offset = &loadPointErrorOffset,
            .correct = &loadPointErrorCorrect}};

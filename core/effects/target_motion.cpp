@@ -92,7 +92,8 @@ Remark targetMotionMissing(const CampaignContents& has) {
   return {};
 }
 
-std::vector<EffectModel> targetMotionModels(const std::vector<std::string>& targets) {
+std::vector<EffectModel> targetMotionModels(const ModelScope& scope) {
+  const std::vector<std::string>& targets = scope.targets;
   return {modelOf(targets, "in proportion to the load", kAlongAxes, &proportional),
           modelOf(targets, "by a step under load", kAlongAxes, &step),
           modelOf(targets, "by a slip that stays", kAlongAxes, &lasting),

@@ -5,12 +5,12 @@ namespace stiffscope::effects {
 // The plate between flange and reflectors gives: rotation about the flange origin about its three axes by
 // the moment there, shift along them by the force, in flange axes. Either of the load and of what hangs on
 // the flange, or of the load alone, where the tool's weight does not go through the plate. The turn about
-// axis 6 is joint 6's own compliance where both axes agree. rad/Nm and m/N, never negative.
+// the last axis is that joint's own compliance where both axes agree. rad/Nm and m/N, never negative.
 
 namespace {
 
 std::vector<BodyTwist> byWrench(const ArmState& state, const robot::Wrench& load) {
-  std::vector<BodyTwist> twists(6, {.first_body = kToolBody, .pivot = state.flange.translation()});
+  std::vector<BodyTwist> twists(6, {.first_body = toolBody(state.joints()), .pivot = state.flange.translation()});
   for (int k = 0; k < 3; ++k) {
     const Eigen::Vector3d axis = state.flange.linear().col(k);
     twists[static_cast<std::size_t>(k)].rotation = axis * axis.dot(load.moment);
@@ -20,7 +20,7 @@ std::vector<BodyTwist> byWrench(const ArmState& state, const robot::Wrench& load
 }
 
 std::vector<BodyTwist> withWeight(const LinearizationPoint&, const PostureStates& posture, std::size_t i) {
-  return byWrench(posture[i], carried(posture[i], 6, posture[i].flange.translation()));
+  return byWrench(posture[i], carried(posture[i], posture[i].joints(), posture[i].flange.translation()));
 }
 
 std::vector<BodyTwist> byLoad(const LinearizationPoint&, const PostureStates& posture, std::size_t i) {
@@ -41,7 +41,7 @@ Remark toolComplianceMissing(const CampaignContents& has) {
   return {};
 }
 
-std::vector<EffectModel> toolComplianceModels(const std::vector<std::string>&) {
+std::vector<EffectModel> toolComplianceModels(const ModelScope&) {
   return {modelOf("by the load and what hangs on the flange", &withWeight), modelOf("by the load alone", &byLoad)};
 }
 

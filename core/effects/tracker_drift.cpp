@@ -26,7 +26,7 @@ Remark trackerDriftMissing(const CampaignContents& has) {
   return {};
 }
 
-std::vector<EffectModel> trackerDriftModels(const std::vector<std::string>&) {
+std::vector<EffectModel> trackerDriftModels(const ModelScope&) {
   return {{.parts = {rigidMotionPart(0.05)}, .offset = &trackerDriftOffset}};
 }
 

@@ -40,7 +40,11 @@ std::optional<Eigen::Matrix3d> inertiaOfABody(const Eigen::Matrix3d& inertia) {
 class ChainBuilder {
  public:
   explicit ChainBuilder(const ElasticSource& source)
-      : source_(source), base_from_r0_(source.geometry.r0_from_base_link.inverse()), arm_(source.geometry.arm) {}
+      : source_(source),
+        base_from_r0_(source.geometry.r0_from_base_link.inverse()),
+        arm_(source.geometry.arm),
+        last_(arm_.axes_in_base_at_zero.size()),
+        body_of_link_(last_ + 1, 0) {}
 
   ElasticModel build() {
     ElasticChain& chain = model_.chain;
@@ -48,7 +52,7 @@ class ChainBuilder {
     chain.base = ownName(source_.campaign.base_link);
     chain.gravity = source_.campaign.gravity_in_base;
     addBase();
-    for (std::size_t joint = 0; joint < 6; ++joint) {
+    for (std::size_t joint = 0; joint < last_; ++joint) {
       if (joint > 0) addBeam(joint - 1);
       addJoint(joint);
     }
@@ -119,13 +123,13 @@ class ChainBuilder {
   /// Of the link that `joint` carries, at the middle of its beam.
   void addBeam(std::size_t joint) {
     const SizesOf beams(source_.effects, effects::Effect::link_compliance);
-    constexpr std::size_t kBeams = 4;
-    if (joint >= kBeams || beams.effect == nullptr) return;
+    if (beams.effect == nullptr) return;
+    const auto own = static_cast<Eigen::Index>(2 * joint);
+    if (own + 1 >= beams.effect->parameters.size()) return;  // a link that the effect takes as rigid
     const Eigen::Vector3d from = axis(joint).point, to = axis(joint + 1).point;
     const double length = (to - from).norm();
     constexpr double kNoBeam = 0.05;  // m: as the effect has it
     if (length < kNoBeam) return;
-    const auto own = static_cast<Eigen::Index>(2 * joint);
     const double bending = beams.at(own), torsion = beams.at(own + 1);
     const Eigen::Vector3d along = (to - from) / length;
     Eigen::Vector3d u, v;
@@ -191,18 +195,19 @@ class ChainBuilder {
       addShift(body, fmt::format("tool_shift_{}", along[k]), flange.linear().col(k), plate.at(3 + k));
     const char* const about[] = {"tool_bending_x", "tool_bending_y", "tool_twist_z"};
     for (int k = 0; k < 3; ++k) addTurn(body, about[k], flange.linear().col(k), plate.at(k));
-    tool_body_ = body_of_link_[6];
+    tool_body_ = body_of_link_.back();
     if (body.joints.empty()) return;
-    // The effect's first equation has all of body 6 hang on the plate, its second one nothing.
+    // The effect's first equation has all of the last body hang on the plate, its second one nothing.
     if (plate.effect->model->shape != "by the load alone")
-      body_of_link_[6] = static_cast<int>(model_.chain.bodies.size());
+      body_of_link_.back() = static_cast<int>(model_.chain.bodies.size());
     tool_body_ = static_cast<int>(model_.chain.bodies.size());
     model_.chain.bodies.push_back(std::move(body));
   }
 
   ChainMass massOf(std::size_t body) const {
     const robot::BodyMass& weight = source_.geometry.weight.bodies[body];
-    ChainMass mass{weight.mass_kg, base_from_r0_ * weight.com_in_base_at_zero, source_.inertias[body]};
+    ChainMass mass{weight.mass_kg, base_from_r0_ * weight.com_in_base_at_zero};
+    if (!source_.inertias.empty()) mass.inertia = source_.inertias[body];
     const robot::BodyMass& links = source_.campaign.robot.bodies[body];
     const double tool_kg = weight.mass_kg - links.mass_kg;
     if (tool_kg <= 0.0) return mass;
@@ -218,7 +223,7 @@ class ChainBuilder {
     const robot::GravityLoad& weight = source_.geometry.weight;
     if (!weight.links_known) model_.remarks.emplace_back(RemarkId::no_masses);
     std::vector<std::string> stand_in;
-    for (std::size_t body = 1; body <= 6; ++body) {
+    for (std::size_t body = 1; body <= last_; ++body) {
       if (!weight.links_known || weight.bodies[body].mass_kg <= 0.0) continue;
       ChainBody& own = model_.chain.bodies[static_cast<std::size_t>(body_of_link_[body])];
       own.mass = massOf(body);
@@ -258,7 +263,8 @@ class ChainBuilder {
   }
 
   int chainBodyOf(const robot::LinkFrame& link) const {
-    return link.body == 6 ? tool_body_ : link.body == 0 ? -1 : body_of_link_[static_cast<std::size_t>(link.body)];
+    const auto body = static_cast<std::size_t>(link.body);
+    return body == last_ ? tool_body_ : body == 0 ? -1 : body_of_link_[body];
   }
 
   void addLoadPoint() {
@@ -303,10 +309,11 @@ class ChainBuilder {
   const ElasticSource& source_;
   Eigen::Isometry3d base_from_r0_;
   const robot::Robot& arm_;
+  std::size_t last_;  // body: as many as joints
   ElasticModel model_;
   std::set<std::string> names_;
-  std::array<int, 7> body_of_link_{};  // that bears the mass of the robot's body
-  int tool_body_ = -1;                 // that reflectors and load are on
+  PerBody<int> body_of_link_;  // that bears the mass of the robot's body
+  int tool_body_ = -1;         // that reflectors and load are on
 };
 
 }  // namespace

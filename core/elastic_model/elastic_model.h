@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "core/campaign/campaign.h"
@@ -21,7 +20,7 @@ struct ElasticSource {
   Eigen::Vector3d tcp_in_flange = Eigen::Vector3d::Zero();
   std::vector<effects::PresentEffect> effects = {};  ///< of the machine, with their sizes
   std::vector<effects::Effect> added = {};           ///< all that were fitted; named where the chain lacks them
-  std::array<Eigen::Matrix3d, 7> inertias = {};      ///< robot::bodyInertias of the campaign's URDF
+  PerBody<Eigen::Matrix3d> inertias = {};  ///< robot::bodyInertias of the campaign's URDF; empty: point masses
 };
 
 struct ElasticModel {
@@ -40,7 +39,7 @@ struct ElasticModel {
 ///    and the next joint's axis.
 ///  - base_compliance: about x and y and along x, y, z of base_link, at its origin.
 ///  - tool_compliance: about and along the flange's axes, at its origin; what it carries (by the effect's shape the
-///    load alone, or all that body 6 weighs as well) lies beyond it.
+///    load alone, or all that the last body weighs as well) lies beyond it.
 /// Other effects of the machine are no springs in series and are named in the remarks, those of the measurement too.
 /// Weights are those of the geometry; where no masses are known there are none. Sites: R0, the flange, tcp, load_point
 /// (axes of the load cell), and each reflector whose place is known.

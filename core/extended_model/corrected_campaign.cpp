@@ -33,7 +33,7 @@ const robot::LinkFrame* linkNamed(const robot::Robot& robot, const std::string& 
 void moveLoadPoint(const Eigen::Vector3d& by, campaign::Campaign& campaign) {
   campaign::LoadCell& cell = *campaign.load_cell;
   const robot::LinkFrame* parent = linkNamed(campaign.robot, cell.parent);
-  if (parent == nullptr || parent->body != 6) {
+  if (parent == nullptr || parent->body != campaign.robot.joints()) {
     throw io::InputError({"--with"}, std::string(effects::idOf(effects::Effect::load_point_error)),
                          fmt::format("the load cell's parent {} does not move with the flange: its point cannot be "
                                      "corrected by one number",
@@ -130,7 +130,7 @@ class Shifter {
       const auto& at_zero = state_.geometry.targets_at_zero[static_cast<std::size_t>(row.target)];
       if (!effects_.day.contains(row.pose) || !at_zero) continue;
       auto& [sum, count] = places[row.pose][row.target];
-      if (count == 0) sum = effects_.statesOf(row.pose).front().posture.motion[6] * *at_zero, count = 1;
+      if (count == 0) sum = effects_.statesOf(row.pose).front().posture.motion.back() * *at_zero, count = 1;
     }
     const Offsets offsets(effects_, places, [&](int pose) { return effects_.statesOf(pose); });
     for (campaign::Displacement& row : table.rows) {
@@ -205,7 +205,7 @@ class Shifter {
   };
 
   /// The arm at rest, not loaded, with the effects' own turns in.
-  effects::ArmState atRest(int pose, const Vector6d& q, double time_s) const {
+  effects::ArmState atRest(int pose, const JointVector& q, double time_s) const {
     effects::ArmState state = effects::gravityEquilibrium(state_.geometry, state_.at, q);
     state.pose = pose;
     state.time_s = time_s;

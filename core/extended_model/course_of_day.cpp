@@ -35,8 +35,10 @@ std::map<int, double> placesInDay(const campaign::Campaign& campaign) {
   return places;
 }
 
-using Unknowns = Eigen::Matrix<double, 7, 1>;  // c, and beta times the size of c
-using Normal = Eigen::Matrix<double, 7, 7>;
+// c, and beta times the size of c
+constexpr int kMostUnknowns = kMostJoints + 1;
+using Unknowns = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMostUnknowns, 1>;
+using Normal = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMostUnknowns, kMostUnknowns>;
 
 /// beta and t.
 struct Trend {
@@ -44,46 +46,47 @@ struct Trend {
 };
 
 std::optional<Trend> trendOf(const identification::MethodResult& method, const std::map<int, double>& places) {
-  const Vector6d& c = method.estimate.compliance;
+  const JointVector& c = method.estimate.compliance;
+  const Eigen::Index joints = c.size(), size = joints + 1;
   struct Posture {
-    Eigen::Matrix<double, Eigen::Dynamic, 7> rows;
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, Eigen::Dynamic, kMostUnknowns> rows;
     Eigen::VectorXd right;
   };
   std::map<int, std::vector<Posture>> postures;
-  Normal normal = Normal::Zero();
-  Unknowns sum = Unknowns::Zero();
+  Normal normal = Normal::Zero(size, size);
+  Unknowns sum = Unknowns::Zero(size);
   for (const identification::CaseEquations& one : method.target_rows) {
     const auto place = places.find(one.posture);
     if (place == places.end()) return std::nullopt;
-    Posture own{{one.right.size(), 7}, one.right};
-    for (int j = 0; j < 6; ++j) {
+    Posture own{{one.right.size(), size}, one.right};
+    for (Eigen::Index j = 0; j < joints; ++j) {
       const bool known = method.estimate.identifiable[static_cast<std::size_t>(j)];
       own.rows.col(j) = known ? Eigen::VectorXd(one.matrix.col(j) * c[j]) : Eigen::VectorXd::Zero(one.right.size());
     }
-    own.rows.col(6) = place->second * (one.matrix * c);
+    own.rows.col(joints) = place->second * (one.matrix * c);
     normal += own.rows.transpose() * own.rows;
     sum += own.rows.transpose() * own.right;
     postures[one.posture].push_back(std::move(own));
   }
-  for (int j = 0; j < 6; ++j)
+  for (Eigen::Index j = 0; j < joints; ++j)
     if (normal(j, j) == 0.0) normal(j, j) = 1.0;
   const double unknowns = 1.0 + static_cast<double>(std::count(method.estimate.identifiable.begin(),
                                                                method.estimate.identifiable.end(), true));
   const double n = static_cast<double>(postures.size());
   constexpr double kFewest = 6.0;
   if (n < unknowns + kFewest) return std::nullopt;
-  const Eigen::MatrixXd inverse = solveSymmetric(normal, Normal::Identity());
+  const Eigen::MatrixXd inverse = solveSymmetric(normal, Normal::Identity(size, size));
   const Unknowns found = inverse * sum;
   double variance = 0.0;
   for (const auto& [pose, parts] : postures) {
-    Unknowns score = Unknowns::Zero();
+    Unknowns score = Unknowns::Zero(size);
     for (const Posture& one : parts) score += one.rows.transpose() * (one.right - one.rows * found);
-    const double influence = inverse.row(6).dot(score);
+    const double influence = inverse.row(joints).dot(score);
     variance += influence * influence;
   }
   variance *= n / (n - unknowns);
   if (!(variance > 0.0)) return std::nullopt;
-  return Trend{found[6], found[6] / std::sqrt(variance), n - unknowns};
+  return Trend{found[joints], found[joints] / std::sqrt(variance), n - unknowns};
 }
 
 }  // namespace
@@ -108,8 +111,8 @@ void addCourse(const CourseOfDay& course, const identification::Identification& 
     if (share == 0.0) return;
     Declared::Column column{source, {}};
     for (const identification::Method which : identification::kMethods) {
-      Vector6d& change = column.compliance[static_cast<std::size_t>(which)];
-      change.setZero();
+      JointVector& change = column.compliance[static_cast<std::size_t>(which)];
+      change.setZero(at.of(which).estimate.joints());
       if (at.of(which).available) change = share * at.of(which).estimate.compliance;
     }
     declared.columns.push_back(column);

@@ -37,8 +37,8 @@ Declared declaredOf(const campaign::Campaign& campaign, const identification::Id
         identification::identify(other, identification::estimatesOnly(options));
     Declared::Column column{source, {}};
     for (const identification::Method which : identification::kMethods) {
-      Vector6d& change = column.compliance[static_cast<std::size_t>(which)];
-      change.setZero();
+      JointVector& change = column.compliance[static_cast<std::size_t>(which)];
+      change.setZero(campaign.robot.joints());
       if (at.of(which).available && moved.of(which).available)
         change = moved.of(which).estimate.compliance - at.of(which).estimate.compliance;
     }

@@ -13,10 +13,10 @@ namespace stiffscope::extended_model {
 namespace {
 
 effects::RestingFlange flangeOf(const ExtendedModel& model, const frames::LoadingGeometry& geometry,
-                                const Eigen::VectorXd& parameters, const Vector6d& compliance) {
+                                const Eigen::VectorXd& parameters, const JointVector& compliance) {
   const auto arm = std::make_shared<const effects::ElasticArm>(geometry, compliance, model.effects.fit.state.at,
                                                                machineEffects(model.effects, parameters));
-  return [&model, &geometry, arm](const Vector6d& commands,
+  return [&model, &geometry, arm](const JointVector& commands,
                                   const effects::FlangeLoad& load) -> std::optional<Eigen::Isometry3d> {
     const Eigen::Isometry3d& at_zero = geometry.arm.base_from_flange_at_zero;
     const effects::ArmState rest = effects::gravityEquilibrium(geometry, model.effects.fit.state.at, commands);
@@ -55,7 +55,7 @@ effects::EffectDeflection effectDeflection(const ExtendedModel& model, identific
 }
 
 Eigen::MatrixXd displacementByHidden(const ExtendedModel& model, identification::Method method,
-                                     const Vector6d& commands, const effects::FlangeLoad& load,
+                                     const JointVector& commands, const effects::FlangeLoad& load,
                                      const std::vector<Eigen::Vector3d>& points) {
   const diagnosis::GapStudy& study = *model.study;
   const frames::LoadingGeometry& geometry = model.with.of(method).geometry;

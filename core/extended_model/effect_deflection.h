@@ -21,7 +21,7 @@ effects::EffectDeflection effectDeflection(const ExtendedModel& model, identific
 /// first order: three rows a point, m per unit; `points` stand unloaded in the method's R0, m. Parameters of effects
 /// that are faults of the measurement move nothing: the machine does not do it. Needs `model.hidden`.
 Eigen::MatrixXd displacementByHidden(const ExtendedModel& model, identification::Method method,
-                                     const Vector6d& commands, const effects::FlangeLoad& load,
+                                     const JointVector& commands, const effects::FlangeLoad& load,
                                      const std::vector<Eigen::Vector3d>& points);
 
 }  // namespace stiffscope::extended_model

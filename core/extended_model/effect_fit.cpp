@@ -192,7 +192,7 @@ constexpr double kModelShare = 0.01;
 Eigen::MatrixXd covarianceOfFree(const EffectFit& effects) {
   const diagnosis::GapLayout& layout = effects.fit.data.layout;
   const std::vector<double> ones(effects.fit.data.postures.size(), 1.0);
-  const diagnosis::Projection projection = diagnosis::project(diagnosis::sumOf(effects.fit.data, ones), layout.effects);
+  const diagnosis::Projection projection = diagnosis::project(diagnosis::sumOf(effects.fit.data, ones), layout);
   Eigen::MatrixXd matrix = projection.matrix(effects.free, effects.free);
   const Eigen::VectorXd scale =
       matrix.diagonal().unaryExpr([](double d) { return d > 0.0 ? 1.0 / std::sqrt(d) : 0.0; });
@@ -367,8 +367,7 @@ std::vector<effects::PresentEffect> machineEffects(const EffectFit& effects, con
 
 Eigen::VectorXd parametersFrom(const EffectFit& effects, const std::vector<double>& weights) {
   const diagnosis::GapFit& fit = effects.fit;
-  const diagnosis::Projection projection =
-      diagnosis::project(diagnosis::sumOf(fit.data, weights), fit.data.layout.effects);
+  const diagnosis::Projection projection = diagnosis::project(diagnosis::sumOf(fit.data, weights), fit.data.layout);
   double postures = 0.0;
   for (const double weight : weights) postures += weight;
   const std::vector<bool> allowed(effects.input->models.size(), true);

@@ -105,7 +105,7 @@ Eigen::MatrixXd displacementByEffects(const diagnosis::SystemInput& input, const
   return all(Eigen::all, columns.parameters);
 }
 
-Eigen::MatrixXd displacementBySteps(const EffectFit& effects, const Eigen::MatrixXd& steps, const Vector6d& q,
+Eigen::MatrixXd displacementBySteps(const EffectFit& effects, const Eigen::MatrixXd& steps, const JointVector& q,
                                     const effects::FlangeLoad& load,
                                     const std::vector<Eigen::Vector3d>& targets_in_flange) {
   const diagnosis::SystemState& state = effects.fit.state;

@@ -52,7 +52,7 @@ Eigen::MatrixXd displacementByEffects(const diagnosis::SystemInput& input, const
 
 /// Displacements at joint angles q (rad) under a load that the day need not have measured, by each column of `steps`
 /// (of EffectFit::free): of reflectors that stand at `targets_in_flange`, of the campaign's in their order. R0, m.
-Eigen::MatrixXd displacementBySteps(const EffectFit& effects, const Eigen::MatrixXd& steps, const Vector6d& q,
+Eigen::MatrixXd displacementBySteps(const EffectFit& effects, const Eigen::MatrixXd& steps, const JointVector& q,
                                     const effects::FlangeLoad& load,
                                     const std::vector<Eigen::Vector3d>& targets_in_flange);
 

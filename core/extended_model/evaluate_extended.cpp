@@ -27,7 +27,7 @@ double pointSum(const Eigen::VectorXd& displacement) {
 }
 
 /// Of a posture's points what the model leaves of their displacement.
-double leftOf(const ExtendedEquations& one, const Eigen::VectorXd& steps, const Vector6d& compliance) {
+double leftOf(const ExtendedEquations& one, const Eigen::VectorXd& steps, const JointVector& compliance) {
   return pointSum(one.rightAt(steps) - one.springs.matrix * compliance);
 }
 
@@ -35,7 +35,7 @@ double leftOf(const ExtendedEquations& one, const Eigen::VectorXd& steps, const 
 struct Refit {
   Weights used;
   Eigen::VectorXd steps;
-  Vector6d compliance;
+  JointVector compliance;
 };
 
 /// leftOf for each of some refits at once, whose steps and compliances stand in columns.
@@ -61,7 +61,7 @@ class PointJudge {
   void add(const std::vector<Refit>& refits) {
     if (refits.empty()) return;
     const auto count = static_cast<Eigen::Index>(refits.size());
-    Eigen::MatrixXd steps(refits.front().steps.size(), count), compliances(6, count);
+    Eigen::MatrixXd steps(refits.front().steps.size(), count), compliances(refits.front().compliance.size(), count);
     for (Eigen::Index k = 0; k < count; ++k) {
       steps.col(k) = refits[static_cast<std::size_t>(k)].steps;
       compliances.col(k) = refits[static_cast<std::size_t>(k)].compliance;
@@ -73,7 +73,7 @@ class PointJudge {
     for (Eigen::Index k = 0; k < count; ++k) add(left.row(k), refits[static_cast<std::size_t>(k)].used);
   }
 
-  double allPostures(const Eigen::VectorXd& steps, const Vector6d& compliance) const {
+  double allPostures(const Eigen::VectorXd& steps, const JointVector& compliance) const {
     double left = 0.0;
     for (const ExtendedEquations& one : equations_) left += leftOf(one, steps, compliance);
     return 1.0 - left / std::accumulate(displacement_.begin(), displacement_.end(), 0.0);
@@ -197,7 +197,7 @@ class MethodJudge {
 
   /// Fills `at_wrist` and `at_targets` of `out`.
   template <class Out>
-  identification::SubsetStudy judge(const MachineDisplacement& machine, const Vector6d& compliance, Out& out) const {
+  identification::SubsetStudy judge(const MachineDisplacement& machine, const JointVector& compliance, Out& out) const {
     PointJudge at_targets(equations_.reflectors, byPosture(model_.with.cases, machine.reflectors));
     PointJudge at_wrist(equations_.wrist, byPosture(model_.with.cases, machine.wrist));
     const bool wrist = !equations_.wrist.empty();
@@ -212,9 +212,9 @@ class MethodJudge {
   }
 
   /// Effects and springs anew on these postures: the steps of the effects, and the compliances.
-  std::pair<Eigen::VectorXd, Vector6d> anew(const Weights& weights) const {
+  std::pair<Eigen::VectorXd, JointVector> anew(const Weights& weights) const {
     Eigen::VectorXd steps = refits_.steps(equations_.reflectors, weights);
-    const Vector6d compliance = solvedCompliance(equations_, which_, own_.estimate.identifiable, weights, steps);
+    const JointVector compliance = solvedCompliance(equations_, which_, own_.estimate.identifiable, weights, steps);
     return {std::move(steps), compliance};
   }
 
@@ -303,7 +303,7 @@ void evaluateExtended(const identification::IdentifyOptions& options, const std:
   for (const identification::Method which : identification::kMethods) {
     identification::MethodResult& method = model.with.methods[static_cast<std::size_t>(which)];
     auto& spread = model.spread.compliance[static_cast<std::size_t>(which)];
-    spread.setZero(6, steps);
+    spread.setZero(model.campaign.robot.joints(), steps);
     if (!method.available) continue;
     MethodEquations equations = methodEquations(model.with, which, cases);
     // To first order: d c = -G E S, G the method's solution of its equations A c + E theta = b.

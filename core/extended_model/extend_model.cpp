@@ -146,7 +146,7 @@ bool contradicted(const identification::Identification& springs) {
   bool any = false;
   for (const identification::MethodResult& method : springs.methods) {
     if (!method.available) continue;
-    for (int j = 0; j < 6; ++j) {
+    for (int j = 0; j < method.estimate.joints(); ++j) {
       if (!method.estimate.identifiable[static_cast<std::size_t>(j)]) continue;
       if (method.estimate.compliance[j] > 0.0) return false;
       any = true;
@@ -206,9 +206,11 @@ void stateStiffnesses(const ExtendedModel& model, diagnosis::Diagnosis& diagnosi
   const identification::StiffnessEstimate& alone = model.without.of(which).estimate;
   diagnosis::StatedStiffness& stated = diagnosis.stated.emplace();
   stated.method = which;
-  for (int j = 0; j < 6; ++j) {
+  stated.expanded.setZero(estimate.joints());
+  stated.interval.resize(estimate.identifiable.size());
+  diagnosis.identifiable = estimate.identifiable;
+  for (int j = 0; j < estimate.joints(); ++j) {
     const auto at = static_cast<std::size_t>(j);
-    diagnosis.identifiable[at] = estimate.identifiable[at];
     if (!estimate.identifiable[at]) continue;
     diagnosis.stiffness_before[j] = alone.stiffness(j);
     diagnosis.stiffness_after[j] = estimate.stiffness(j);

@@ -15,8 +15,8 @@ namespace stiffscope::extended_model {
 /// parameters, one column each: S itself, and the change of the compliances when the parameters move by that column,
 /// to first order through the method's equations.
 struct EffectSpread {
-  Eigen::MatrixXd parameters;                                          ///< S; rows as EffectFit::free
-  std::array<Eigen::Matrix<double, 6, Eigen::Dynamic>, 3> compliance;  ///< by Method; rad/Nm
+  Eigen::MatrixXd parameters;                ///< S; rows as EffectFit::free
+  std::array<JointsByColumn, 3> compliance;  ///< by Method; rad/Nm
 };
 
 /// Joint springs with further effects.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <map>
 #include <memory>
 #include <optional>
@@ -10,9 +11,14 @@
 #include "core/diagnosis/diagnosis_input.h"
 #include "core/diagnosis/fit.h"
 #include "core/extended_model/requested_effects.h"
+#include "core/robot/robot.h"
 #include "metrology/remark.h"
 
 namespace stiffscope::extended_model {
+
+/// One number a joint in each column: of a step of the effects' parameters, or of a draw.
+using JointsByColumn =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMostJoints, Eigen::Dynamic>;
 
 /// One number of an added effect.
 struct EffectParameter {

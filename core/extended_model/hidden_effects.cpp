@@ -48,7 +48,7 @@ Eigen::MatrixXd columnsAtSweeps(const diagnosis::GapStudy& study, const EffectCo
   const Eigen::Matrix3d sweeps_from_r0 = state.r0_from_sweeps.linear().transpose();
   std::vector<Eigen::MatrixXd> rows;
   effects::ArmState rest;
-  forEachReading(sweeps, [&](const Vector6d& q, int target, double time_s, const Eigen::Vector3d& point) {
+  forEachReading(sweeps, [&](const JointVector& q, int target, double time_s, const Eigen::Vector3d& point) {
     if (rows.empty() || rest.q != q) rest = effects::gravityEquilibrium(state.geometry, state.at, q);
     rest.pose = -1;
     rest.time_s = time_s;
@@ -79,7 +79,7 @@ Eigen::MatrixXd columnsAtSweeps(const diagnosis::GapStudy& study, const EffectCo
 Eigen::MatrixXd framesByEffects(const diagnosis::GapStudy& study, const EffectColumns& columns,
                                 const Eigen::MatrixXd& off, const Eigen::MatrixXd& compliance_off,
                                 const campaign::Campaign& campaign, const frames::Frames& frames,
-                                const Vector6d& compliance) {
+                                const JointVector& compliance) {
   if (!frames.sag_removed || !frames.arm.points_placed || !study.input->sweeps) return {};
   campaign::Campaign sweeps = sweepsOf(campaign);
   const Eigen::MatrixXd at_sweeps = columnsAtSweeps(study, columns, sweeps);
@@ -90,16 +90,18 @@ Eigen::MatrixXd framesByEffects(const diagnosis::GapStudy& study, const EffectCo
     if (size == 0.0 || at_sweeps.col(k).isZero(0.0)) continue;
     campaign::Campaign shifted = sweeps;
     Eigen::Index row = 0;
-    forEachReading(shifted, [&](const Vector6d&, int, double, Eigen::Vector3d& point) {
+    forEachReading(shifted, [&](const JointVector&, int, double, Eigen::Vector3d& point) {
       point -= size * at_sweeps.col(k).segment<3>(row);
       row += 3;
     });
     moved += (frames::framesChange(shifted, frames, compliance) - here) * (off.row(k) / size);
   }
-  for (Eigen::Index j = 0; j < 6; ++j) {
+  for (Eigen::Index j = 0; j < compliance.size(); ++j) {
     const double size = std::sqrt(compliance_off.row(j).squaredNorm() / static_cast<double>(compliance_off.cols()));
     if (size == 0.0) continue;
-    const Eigen::VectorXd change = frames::framesChange(sweeps, frames, compliance + size * Vector6d::Unit(j)) - here;
+    JointVector more = compliance;
+    more[j] += size;
+    const Eigen::VectorXd change = frames::framesChange(sweeps, frames, more) - here;
     moved += change * (compliance_off.row(j) / size);
   }
   return moved;
@@ -180,16 +182,15 @@ HiddenDraws hiddenDraws(const diagnosis::GapStudy& study, const EffectFit& fitte
 }
 
 /// -H: how a method's compliances follow each parameter.
-Eigen::Matrix<double, 6, Eigen::Dynamic> gains(const std::vector<CaseEffects>& cases,
-                                               const identification::Identification& seen, Method which,
-                                               Eigen::Index parameters) {
+JointsByColumn gains(const std::vector<CaseEffects>& cases, const identification::Identification& seen, Method which,
+                     Eigen::Index parameters) {
   const MethodEquations equations = methodEquations(seen, which, cases);
   if (equations.reflectors.empty()) return {};
   return complianceBySteps(equations, which, seen.of(which).estimate.identifiable, parameters);
 }
 
-bool allPositive(const Vector6d& compliance, const robot::JointMask& identifiable) {
-  for (int j = 0; j < 6; ++j) {
+bool allPositive(const JointVector& compliance, const robot::JointMask& identifiable) {
+  for (Eigen::Index j = 0; j < compliance.size(); ++j) {
     if (identifiable[static_cast<std::size_t>(j)] && compliance[j] <= 0.0) return false;
   }
   return true;
@@ -206,9 +207,9 @@ std::vector<Eigen::Index> possibleDraws(const StiffnessEstimate& estimate, const
   return kept.size() < kFew ? all : kept;
 }
 
-Vector6d meanSquare(const Eigen::MatrixXd& rows) {
-  return rows.cols() > 0 ? Vector6d(rows.rowwise().squaredNorm() / static_cast<double>(rows.cols()))
-                         : Vector6d(Vector6d::Zero());
+JointVector meanSquare(const Eigen::MatrixXd& rows) {
+  if (rows.cols() == 0) return JointVector::Zero(rows.rows());
+  return rows.rowwise().squaredNorm() / static_cast<double>(rows.cols());
 }
 
 identification::CoverageInterval quantiles(std::vector<double>& values, double coverage) {
@@ -224,9 +225,9 @@ class MethodWeigher {
   MethodWeigher(const HiddenDraws& hidden, const Declared& declared, bool unexplained)
       : hidden_(hidden), declared_(declared), unexplained_(unexplained) {}
 
-  std::vector<BudgetLine> weigh(Method which, const Eigen::Matrix<double, 6, Eigen::Dynamic>& gain,
-                                const StiffnessEstimate& alone, const std::vector<effects::Effect>& in_model,
-                                StiffnessEstimate& estimate, HiddenDraws::OfMethod& draws) const {
+  std::vector<BudgetLine> weigh(Method which, const JointsByColumn& gain, const StiffnessEstimate& alone,
+                                const std::vector<effects::Effect>& in_model, StiffnessEstimate& estimate,
+                                HiddenDraws::OfMethod& draws) const {
     const Eigen::MatrixXd moved_by_all = gain * hidden_.off;
     const std::vector<Eigen::Index> kept = possibleDraws(estimate, moved_by_all);
     const Eigen::MatrixXd moved = moved_by_all(Eigen::all, kept), off = hidden_.off(Eigen::all, kept);
@@ -235,9 +236,9 @@ class MethodWeigher {
     own.covariance = own.parts.total();
     std::vector<BudgetLine> budget = sharedLines(own);
     addEffectLines(gain, off, moved, in_model, budget);
-    Vector6d more = Vector6d::Zero(), by_columns = Vector6d::Zero();
-    const auto addLine = [&](BudgetSource source, const Vector6d& variance) {
-      budget.push_back({source, std::nullopt, false, false, variance, Vector6d::Zero()});
+    JointVector more = JointVector::Zero(estimate.joints()), by_columns = more;
+    const auto addLine = [&](BudgetSource source, const JointVector& variance) {
+      budget.emplace_back(source, variance);
       more += variance;
     };
     if (declared_.gain_sd > 0.0)
@@ -261,43 +262,40 @@ class MethodWeigher {
  private:
   static std::vector<BudgetLine> sharedLines(const StiffnessEstimate& own) {
     std::vector<BudgetLine> lines;
-    const auto add = [&](BudgetSource source, const Matrix6d& part, const Vector6d& dof) {
-      if (part.diagonal().cwiseAbs().maxCoeff() > 0.0)
-        lines.push_back({source, std::nullopt, false, false, part.diagonal(), dof});
+    const auto add = [&](BudgetSource source, const JointMatrix& part, const JointVector& dof) {
+      if (part.diagonal().cwiseAbs().maxCoeff() > 0.0) lines.emplace_back(source, part.diagonal(), dof);
     };
+    const JointVector exactly = JointVector::Zero(own.joints());
     add(BudgetSource::scatter, own.parts.scatter, own.scatter_dof);
-    add(BudgetSource::frames, own.parts.frames, Vector6d::Zero());
-    add(BudgetSource::wrist, own.parts.wrist, Vector6d::Zero());
-    add(BudgetSource::geometry, own.parts.geometry, Vector6d::Zero());
+    add(BudgetSource::frames, own.parts.frames, exactly);
+    add(BudgetSource::wrist, own.parts.wrist, exactly);
+    add(BudgetSource::geometry, own.parts.geometry, exactly);
     return lines;
   }
 
-  void addEffectLines(const Eigen::Matrix<double, 6, Eigen::Dynamic>& gain, const Eigen::MatrixXd& off,
-                      const Eigen::MatrixXd& moved, const std::vector<effects::Effect>& in_model,
-                      std::vector<BudgetLine>& budget) const {
-    Vector6d common = meanSquare(moved);
+  void addEffectLines(const JointsByColumn& gain, const Eigen::MatrixXd& off, const Eigen::MatrixXd& moved,
+                      const std::vector<effects::Effect>& in_model, std::vector<BudgetLine>& budget) const {
+    JointVector common = meanSquare(moved);
     for (std::size_t first = 0; first < hidden_.effect.size();) {
       std::size_t end = first;
       while (end < hidden_.effect.size() && hidden_.effect[end] == hidden_.effect[first]) ++end;
       const auto from = static_cast<Eigen::Index>(first), count = static_cast<Eigen::Index>(end - first);
       const effects::Effect effect = hidden_.effect[first];
-      BudgetLine line;
-      line.source = BudgetSource::effect;
+      BudgetLine line(BudgetSource::effect, meanSquare(gain.middleCols(from, count) * off.middleRows(from, count)));
       line.effect = effect;
       line.declared = hidden_.declared[first];
       line.in_model = std::find(in_model.begin(), in_model.end(), effect) != in_model.end();
-      line.variance = meanSquare(gain.middleCols(from, count) * off.middleRows(from, count));
       common -= line.variance;
       budget.push_back(line);
       first = end;
     }
-    budget.push_back({BudgetSource::correlation, std::nullopt, false, false, common, Vector6d::Zero()});
+    budget.emplace_back(BudgetSource::correlation, common);
   }
 
   /// A draw of the effects each, with some of everything else. `own`: uncertainty without effects; `by_columns`:
   /// variance by what is declared.
   std::vector<double> draws(const Eigen::MatrixXd& moved, const StiffnessEstimate& own, const StiffnessEstimate& alone,
-                            const Vector6d& by_columns, int j, numerics::RandomStream& random) const {
+                            const JointVector& by_columns, int j, numerics::RandomStream& random) const {
     const auto sdOf = [&](const StiffnessEstimate& one) {
       return std::hypot(identification::coveringSd(one, j), std::sqrt(by_columns[j]));
     };
@@ -316,12 +314,12 @@ class MethodWeigher {
   }
 
   void state(const Eigen::MatrixXd& moved, const StiffnessEstimate& own, const StiffnessEstimate& alone,
-             const Vector6d& by_columns, StiffnessEstimate& estimate) const {
+             const JointVector& by_columns, StiffnessEstimate& estimate) const {
     // A fit with a negative stiffness is none: what the possible draws have in their middle stands for it.
     const bool possible = allPositive(own.compliance, own.identifiable);
     numerics::RandomStream random(1, "intervals");
-    estimate.stated.assign(6, {});
-    for (int j = 0; j < 6; ++j) {
+    estimate.stated.assign(static_cast<std::size_t>(estimate.joints()), {});
+    for (int j = 0; j < estimate.joints(); ++j) {
       if (!own.identifiable[static_cast<std::size_t>(j)]) continue;
       identification::CoverageInterval& interval = estimate.stated[static_cast<std::size_t>(j)];
       std::vector<double> values = draws(moved, own, alone, by_columns, j, random);
@@ -341,25 +339,24 @@ class MethodWeigher {
   bool unexplained_;
 };
 
-std::vector<SeenCombination> combinationsOf(const HiddenDraws& hidden,
-                                            const Eigen::Matrix<double, 6, Eigen::Dynamic>& gain,
+std::vector<SeenCombination> combinationsOf(const HiddenDraws& hidden, const JointsByColumn& gain,
                                             const StiffnessEstimate& estimate) {
   const Eigen::MatrixXd all = gain * hidden.off;
   const std::vector<Eigen::Index> kept = possibleDraws(estimate, all);
   const Eigen::MatrixXd moved = all(Eigen::all, kept);
-  const Matrix6d by_others = estimate.parts.total() - moved * moved.transpose() / static_cast<double>(moved.cols());
+  const JointMatrix by_others = estimate.parts.total() - moved * moved.transpose() / static_cast<double>(moved.cols());
   return seenCombinations(hidden.named, moved, hidden.off(Eigen::all, kept), by_others, estimate);
 }
 
 /// The radius of a reflector that took no part moves as that which moves most.
 Eigen::MatrixXd ofAllReflectors(const Eigen::MatrixXd& moved, const frames::Frames& frames) {
-  constexpr Eigen::Index kRadii = frames::FramesCovariance::kRadii;
-  const Eigen::Index seen = moved.rows(), all = kRadii + static_cast<Eigen::Index>(frames.targets_in_r0_at_zero.size());
-  if (seen >= all || seen <= kRadii) return moved;
+  const frames::FramesLayout layout(frames.arm.arm.joints());
+  const Eigen::Index seen = moved.rows(), all = layout.count(frames.targets_in_r0_at_zero.size());
+  if (seen >= all || seen <= layout.radii) return moved;
   Eigen::Index most = 0;
-  moved.bottomRows(seen - kRadii).rowwise().squaredNorm().maxCoeff(&most);
+  moved.bottomRows(seen - layout.radii).rowwise().squaredNorm().maxCoeff(&most);
   Eigen::MatrixXd extended(all, moved.cols());
-  extended << moved, moved.row(kRadii + most).replicate(all - seen, 1);
+  extended << moved, moved.row(layout.radii + most).replicate(all - seen, 1);
   return extended;
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/diagnosis/gap_study.h"
@@ -36,11 +37,12 @@ struct SeenCombination {
 
 /// For each identifiable joint the parameter whose combination with the compliance is known best, where it is known at
 /// least three times better than the compliance itself: the ratio that leaves least of the draws, least squares about
-/// the fit. `moved` and `off`: how far the compliances (6 x draws) and the parameters (one a row) are from the fit;
-/// `own`: covariance of the compliances by everything else, which the combination keeps.
+/// the fit. `moved` and `off`: how far the compliances (joints x draws) and the parameters (one a row) are from the
+/// fit; `own`: covariance of the compliances by everything else, which the combination keeps.
 std::vector<SeenCombination> seenCombinations(const std::vector<HiddenParameter>& parameters,
                                               const Eigen::MatrixXd& moved, const Eigen::MatrixXd& off,
-                                              const Matrix6d& own, const identification::StiffnessEstimate& estimate);
+                                              const JointMatrix& own,
+                                              const identification::StiffnessEstimate& estimate);
 
 /// Where a part of a joint's uncertainty comes from.
 enum class BudgetSource {
@@ -58,14 +60,19 @@ enum class BudgetSource {
   apparent,        ///< between this model and joint springs alone, where no model explains the gap
 };
 
-/// One line of the budget of all six joints (GUM, annex H).
+/// One line of the budget of all joints (GUM, annex H).
 struct BudgetLine {
   BudgetSource source = BudgetSource::scatter;
   std::optional<effects::Effect> effect;
-  bool in_model = false;                 ///< of an effect: fitted, not only possible
-  bool declared = false;                 ///< of an effect: its size is known beforehand from what is declared
-  Vector6d variance = Vector6d::Zero();  ///< of c, rad^2/(Nm)^2; negative where a correlation takes away
-  Vector6d dof = Vector6d::Zero();       ///< degrees of freedom; 0: known exactly, or from all draws together
+  bool in_model = false;  ///< of an effect: fitted, not only possible
+  bool declared = false;  ///< of an effect: its size is known beforehand from what is declared
+  JointVector variance;   ///< of c, rad^2/(Nm)^2; negative where a correlation takes away
+  JointVector dof;        ///< degrees of freedom; 0: known exactly, or from all draws together
+
+  BudgetLine(BudgetSource of, JointVector variance_of_c)
+      : source(of), variance(std::move(variance_of_c)), dof(JointVector::Zero(variance.size())) {}
+  BudgetLine(BudgetSource of, JointVector variance_of_c, JointVector its_dof)
+      : source(of), variance(std::move(variance_of_c)), dof(std::move(its_dof)) {}
 };
 
 /// What the day declares with a standard uncertainty, and what one of these does; and what its course shows.
@@ -76,7 +83,7 @@ struct Declared {
 
   struct Column {
     BudgetSource source = BudgetSource::masses;
-    std::array<Vector6d, 3> compliance;  ///< by Method: change by one standard uncertainty, rad/Nm
+    std::array<JointVector, 3> compliance;  ///< by Method: change by one standard uncertainty, rad/Nm
   };
   std::vector<Column> columns;
 };
@@ -91,11 +98,11 @@ struct HiddenDraws {
 
   /// Errors of one method's compliances.
   struct OfMethod {
-    std::vector<Eigen::Index> possible;                   ///< draws in which no stiffness is negative
-    Eigen::Matrix<double, 6, Eigen::Dynamic> compliance;  ///< c of these draws less the estimate's, rad/Nm
-    Matrix6d others = Matrix6d::Zero();  ///< covariance of c by what is no effect, for normal numbers of its coverage
+    std::vector<Eigen::Index> possible;  ///< draws in which no stiffness is negative
+    JointsByColumn compliance;           ///< c of these draws less the estimate's, rad/Nm
+    JointMatrix others;                  ///< covariance of c by what is no effect, for normal numbers of its coverage
   };
-  std::array<OfMethod, 3> methods;  ///< by Method; without draws where that is not available
+  std::array<OfMethod, 3> methods;  ///< by Method; empty where that is not available
 };
 
 /// How far the data let anything besides the fitted model move the stiffnesses.

@@ -94,8 +94,7 @@ std::vector<ExtendedEquations> equationsOf(const std::vector<identification::Cas
     } else {
       Eigen::Index count = 0, at = 0;
       for (std::size_t i = first[p]; i < first[p + 1]; ++i) count += rows[i].right.size();
-      own.springs = {Eigen::Matrix<double, Eigen::Dynamic, 6>(count, 6), Eigen::VectorXd(count),
-                     rows[first[p]].posture};
+      own.springs = {JointRows(count, rows[first[p]].matrix.cols()), Eigen::VectorXd(count), rows[first[p]].posture};
       for (std::size_t i = first[p]; i < first[p + 1]; ++i) {
         const Eigen::MatrixXd here = by_steps(i);
         own.by_steps.conservativeResize(count, here.cols());
@@ -208,8 +207,13 @@ std::vector<ExtendedNormal> poseNormals(const identification::Identification& re
 
 namespace {
 
-ExtendedNormal sumOf(const std::vector<ExtendedEquations>& postures, const std::vector<double>& weights) {
-  ExtendedNormal sum;
+ExtendedNormal nothingOf(std::size_t joints) {
+  return {identification::NormalEquations(static_cast<Eigen::Index>(joints))};
+}
+
+ExtendedNormal sumOf(const std::vector<ExtendedEquations>& postures, const std::vector<double>& weights,
+                     std::size_t joints) {
+  ExtendedNormal sum = nothingOf(joints);
   for (std::size_t p = 0; p < postures.size(); ++p) postures[p].normal.addTo(weights[p], sum);
   return sum;
 }
@@ -217,23 +221,25 @@ ExtendedNormal sumOf(const std::vector<ExtendedEquations>& postures, const std::
 /// What a method solves, summed over postures with weights.
 class SummedEquations {
  public:
-  SummedEquations(const MethodEquations& equations, Method method, const std::vector<double>& weights)
-      : decoupled_(method == Method::decoupled_partial_pose) {
+  SummedEquations(const MethodEquations& equations, Method method, const robot::JointMask& unknown,
+                  const std::vector<double>& weights)
+      : decoupled_(method == Method::decoupled_partial_pose), unknown_(unknown), first_(nothingOf(unknown.size())) {
     if (method == Method::complete_pose) {
       for (std::size_t p = 0; p < equations.pose.size(); ++p) equations.pose[p].addTo(weights[p], first_);
       return;
     }
-    first_ = sumOf(decoupled_ ? equations.wrist : equations.reflectors, weights);
-    if (decoupled_) second_ = sumOf(equations.reflectors, weights);
+    first_ = sumOf(decoupled_ ? equations.wrist : equations.reflectors, weights, unknown.size());
+    if (decoupled_) second_ = sumOf(equations.reflectors, weights, unknown.size());
   }
 
-  Vector6d compliance(const robot::JointMask& unknown, const Eigen::VectorXd& steps) const {
-    return decoupled_ ? identification::solveDecoupled(first_.at(steps), second_.at(steps), unknown)
-                      : identification::solveNormal(first_.at(steps), unknown);
+  JointVector compliance(const Eigen::VectorXd& steps) const {
+    return decoupled_ ? identification::solveDecoupled(first_.at(steps), second_.at(steps), unknown_)
+                      : identification::solveNormal(first_.at(steps), unknown_);
   }
 
  private:
   bool decoupled_;
+  const robot::JointMask& unknown_;
   ExtendedNormal first_, second_;
 };
 
@@ -243,7 +249,7 @@ void ExtendedNormal::addTo(double weight, ExtendedNormal& sum) const {
   if (weight == 0.0) return;
   sum.springs.matrix += weight * springs.matrix;
   sum.springs.right += weight * springs.right;
-  if (sum.by_steps.cols() == 0) sum.by_steps.setZero(6, by_steps.cols());
+  if (sum.by_steps.cols() == 0) sum.by_steps.setZero(by_steps.rows(), by_steps.cols());
   sum.by_steps += weight * by_steps;
 }
 
@@ -253,18 +259,17 @@ identification::NormalEquations ExtendedNormal::at(const Eigen::VectorXd& steps)
   return normal;
 }
 
-Vector6d solvedCompliance(const MethodEquations& equations, Method method, const robot::JointMask& unknown,
-                          const std::vector<double>& weights, const Eigen::VectorXd& steps) {
-  return SummedEquations(equations, method, weights).compliance(unknown, steps);
+JointVector solvedCompliance(const MethodEquations& equations, Method method, const robot::JointMask& unknown,
+                             const std::vector<double>& weights, const Eigen::VectorXd& steps) {
+  return SummedEquations(equations, method, unknown, weights).compliance(steps);
 }
 
-Eigen::Matrix<double, 6, Eigen::Dynamic> complianceBySteps(const MethodEquations& equations, Method method,
-                                                           const robot::JointMask& unknown, Eigen::Index count) {
-  const SummedEquations summed(equations, method, std::vector<double>(equations.reflectors.size(), 1.0));
-  const Vector6d here = summed.compliance(unknown, Eigen::VectorXd::Zero(count));
-  Eigen::Matrix<double, 6, Eigen::Dynamic> by_steps(6, count);
-  for (Eigen::Index k = 0; k < count; ++k)
-    by_steps.col(k) = summed.compliance(unknown, Eigen::VectorXd::Unit(count, k)) - here;
+JointsByColumn complianceBySteps(const MethodEquations& equations, Method method, const robot::JointMask& unknown,
+                                 Eigen::Index count) {
+  const SummedEquations summed(equations, method, unknown, std::vector<double>(equations.reflectors.size(), 1.0));
+  const JointVector here = summed.compliance(Eigen::VectorXd::Zero(count));
+  JointsByColumn by_steps(here.size(), count);
+  for (Eigen::Index k = 0; k < count; ++k) by_steps.col(k) = summed.compliance(Eigen::VectorXd::Unit(count, k)) - here;
   return by_steps;
 }
 

@@ -29,8 +29,8 @@ std::vector<CaseEffects> caseEffects(const diagnosis::GapStudy& study, const Eff
 /// A method's normal equations of one posture with the effects in them, A c + E z = b: z the steps by which the
 /// effects' parameters leave their fitted values, b the corrected readings' displacement.
 struct ExtendedNormal {
-  identification::NormalEquations springs;                 ///< A^T A and A^T b
-  Eigen::Matrix<double, 6, Eigen::Dynamic> by_steps = {};  ///< A^T E
+  identification::NormalEquations springs;  ///< A^T A and A^T b
+  JointsByColumn by_steps = {};             ///< A^T E
 
   void addTo(double weight, ExtendedNormal& sum) const;
   identification::NormalEquations at(const Eigen::VectorXd& steps) const;
@@ -62,13 +62,12 @@ std::vector<ExtendedNormal> poseNormals(const identification::Identification& re
                                         const std::vector<CaseEffects>& effects, double length);
 
 /// The method's compliances with the effects moved by `steps`, from postures with weights.
-Vector6d solvedCompliance(const MethodEquations& equations, identification::Method method,
-                          const robot::JointMask& unknown, const std::vector<double>& weights,
-                          const Eigen::VectorXd& steps);
+JointVector solvedCompliance(const MethodEquations& equations, identification::Method method,
+                             const robot::JointMask& unknown, const std::vector<double>& weights,
+                             const Eigen::VectorXd& steps);
 
 /// How the compliances follow each of `count` steps, from all postures: one column a step.
-Eigen::Matrix<double, 6, Eigen::Dynamic> complianceBySteps(const MethodEquations& equations,
-                                                           identification::Method method,
-                                                           const robot::JointMask& unknown, Eigen::Index count);
+JointsByColumn complianceBySteps(const MethodEquations& equations, identification::Method method,
+                                 const robot::JointMask& unknown, Eigen::Index count);
 
 }  // namespace stiffscope::extended_model

@@ -7,10 +7,11 @@ namespace stiffscope::extended_model {
 
 std::vector<SeenCombination> seenCombinations(const std::vector<HiddenParameter>& parameters,
                                               const Eigen::MatrixXd& moved, const Eigen::MatrixXd& off,
-                                              const Matrix6d& own, const identification::StiffnessEstimate& estimate) {
+                                              const JointMatrix& own,
+                                              const identification::StiffnessEstimate& estimate) {
   std::vector<SeenCombination> seen;
   const auto draws = static_cast<double>(std::max<Eigen::Index>(1, moved.cols()));
-  for (int j = 0; j < 6; ++j) {
+  for (int j = 0; j < estimate.joints(); ++j) {
     if (!estimate.identifiable[static_cast<std::size_t>(j)]) continue;
     const double apart = moved.row(j).squaredNorm() / draws, rest = std::max(0.0, own(j, j));
     double least = apart;

@@ -27,7 +27,7 @@ struct Stated {
 /// A posture under the load that identified: what says whether another day has it too.
 struct LoadedPosture {
   std::string pose;
-  Vector6d q = Vector6d::Zero();                    ///< rad
+  JointVector q;                                    ///< rad
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< R0, N
 };
 
@@ -35,12 +35,18 @@ struct LoadedPosture {
 /// its postures, in which what the model misses is the same on every day (comparison::PairedFit), and the variances
 /// that its postures share and other days do not.
 struct SpringsOfDay {
+  explicit SpringsOfDay(int joints)
+      : compliance(JointVector::Zero(joints)),
+        identifiable(static_cast<std::size_t>(joints), false),
+        shared(compliance),
+        dof(compliance) {}
+
   bool available = false;
-  Vector6d compliance = Vector6d::Zero();  ///< rad/Nm
-  robot::JointMask identifiable{};
-  Vector6d shared = Vector6d::Zero();  ///< variances, (rad/Nm)^2
-  Vector6d dof = Vector6d::Zero();     ///< of the scatter between postures
-  std::vector<Vector6d> influences;    ///< one a posture, rad/Nm
+  JointVector compliance;  ///< rad/Nm
+  robot::JointMask identifiable;
+  JointVector shared;                   ///< variances, (rad/Nm)^2
+  JointVector dof;                      ///< of the scatter between postures
+  std::vector<JointVector> influences;  ///< one a posture, rad/Nm
 };
 
 /// One entry of a diagnosis: effects that the day cannot tell apart, by their ids; `unknown` alone where none explains.
@@ -49,8 +55,14 @@ struct EffectFound {
   std::string detail;
 };
 
-/// What a fleet keeps of one campaign: SI units and radians.
+/// What a fleet keeps of one campaign of a machine of so many joints: SI units and radians.
 struct CampaignResult {
+  explicit CampaignResult(int joints)
+      : stiffness(static_cast<std::size_t>(joints)),
+        springs{SpringsOfDay(joints), SpringsOfDay(joints), SpringsOfDay(joints)} {}
+
+  int joints() const { return static_cast<int>(stiffness.size()); }
+
   std::string name, date, robot;
   DayKind kind = DayKind::loaded;
   campaign::DoubleEncoder encoders = campaign::DoubleEncoder::unspecified;
@@ -61,7 +73,7 @@ struct CampaignResult {
 
   // Of a day with loads.
   std::optional<identification::Method> method;          ///< shown first
-  std::array<Stated, 6> stiffness;                       ///< of the day's model, Nm/rad; high infinite where it is open
+  PerJoint<Stated> stiffness;                            ///< of the day's model, Nm/rad; high infinite where it is open
   double deflection = kUnknown;                          ///< mean at the reflectors, m
   Stated compensated;                                    ///< share of it on postures held out
   std::array<SpringsOfDay, 3> springs;                   ///< by Method
@@ -79,8 +91,13 @@ struct CampaignResult {
   bool hasUnknown() const;
 };
 
-/// Two days of one machine, one after the other.
+/// Two days of one machine of so many joints, one after the other.
 struct PairResult {
+  explicit PairResult(int joints)
+      : difference(static_cast<std::size_t>(joints)),
+        taken(difference),
+        p_value(static_cast<std::size_t>(joints), kUnknown) {}
+
   DayKind kind = DayKind::loaded;
   std::string reason;  ///< why they cannot be compared, in words; then nothing else is filled
   bool same_postures = false;
@@ -88,9 +105,9 @@ struct PairResult {
 
   // Of days with loads: c_after - c_before by joint, rad/Nm (comparison::StiffnessChange).
   std::optional<identification::Method> method;
-  std::array<Stated, 6> difference;  ///< not a number where the joint cannot be compared
-  std::array<Stated, 6> taken;       ///< share of the compliance before that is gone
-  std::array<double, 6> p_value{kUnknown, kUnknown, kUnknown, kUnknown, kUnknown, kUnknown};
+  PerJoint<Stated> difference;  ///< not a number where the joint cannot be compared
+  PerJoint<Stated> taken;       ///< share of the compliance before that is gone
+  PerJoint<double> p_value;
 
   // Of days without (comparison::GeometryChange).
   double machine_p = kUnknown;   ///< of an unchanged machine

@@ -29,12 +29,13 @@ bool inOrder(const FleetCampaign& a, const FleetCampaign& b) {
 void sortCampaigns(std::vector<FleetCampaign>& campaigns) { std::sort(campaigns.begin(), campaigns.end(), inOrder); }
 
 std::vector<DaySeries> seriesOf(const std::vector<FleetCampaign>& campaigns) {
-  std::map<std::tuple<std::string, DayKind, campaign::DoubleEncoder>, DaySeries> series;
+  std::map<std::tuple<std::string, DayKind, campaign::DoubleEncoder, int>, DaySeries> series;
   for (std::size_t i = 0; i < campaigns.size(); ++i) {
     const std::optional<CampaignResult>& result = campaigns[i].result;
     if (!result || result->kind == DayKind::sweeps) continue;
-    DaySeries& own = series[{campaigns[i].machine, result->kind, result->encoders}];
+    DaySeries& own = series[{campaigns[i].machine, result->kind, result->encoders, result->joints()}];
     own.machine = campaigns[i].machine, own.kind = result->kind, own.encoders = result->encoders;
+    own.joints = result->joints();
     own.campaigns.push_back(i);
   }
   std::vector<DaySeries> all;
@@ -57,11 +58,12 @@ std::vector<FleetPair> pairsOf(const std::vector<DaySeries>& series) {
 namespace {
 
 /// Corrects the pairs' p-values for their number; returns it.
-std::size_t correctPairs(std::vector<FleetPair>& pairs) {
+std::size_t correctPairs(const std::vector<FleetCampaign>& campaigns, std::vector<FleetPair>& pairs) {
   std::vector<double> p_values;
-  for (const FleetPair& pair : pairs) {
-    for (int j = 0; j < 6; ++j)
-      p_values.push_back(pair.result ? pair.result->p_value[static_cast<std::size_t>(j)] : kUnknown);
+  for (FleetPair& pair : pairs) {
+    pair.p_holm.assign(static_cast<std::size_t>(campaigns[pair.after].result->joints()), kUnknown);
+    for (std::size_t j = 0; j < pair.p_holm.size(); ++j)
+      p_values.push_back(pair.result && j < pair.result->p_value.size() ? pair.result->p_value[j] : kUnknown);
     p_values.push_back(pair.result ? pair.result->machine_p : kUnknown);
   }
   const std::vector<double> corrected = comparison::holm(p_values);
@@ -95,13 +97,13 @@ Stated statedOf(const comparison::Uncertain& number) {
 }
 
 PairResult comparedLoaded(const CampaignResult& before, const CampaignResult& after) {
-  PairResult result;
+  PairResult result(after.joints());
   result.method = commonMethod({&before, &after});
   if (!result.method) return result;
   const ComplianceSeries both({&before, &after}, *result.method);
   result.same_postures = both.samePostures();
   result.postures = static_cast<int>(both.posturesOfAll());
-  for (int joint = 0; joint < 6; ++joint) {
+  for (int joint = 0; joint < after.joints(); ++joint) {
     if (!both.has(joint)) continue;
     const std::size_t j = static_cast<std::size_t>(joint);
     const comparison::Uncertain difference = both.contrast(joint, Eigen::Vector2d(-1.0, 1.0), {0, 1});
@@ -122,6 +124,7 @@ struct Charted {
   std::size_t series = 0;
   Method method = Method::partial_pose;
   ComplianceSeries compliances;
+  int joints = 0;
 };
 
 std::vector<Charted> chartedSeries(const Fleet& fleet) {
@@ -130,7 +133,8 @@ std::vector<Charted> chartedSeries(const Fleet& fleet) {
     if (fleet.series[s].kind != DayKind::loaded) continue;
     std::vector<const CampaignResult*> days;
     for (const std::size_t one : fleet.series[s].campaigns) days.push_back(&*fleet.campaigns[one].result);
-    if (const auto method = commonMethod(days)) charted.push_back({s, *method, ComplianceSeries(days, *method)});
+    if (const auto method = commonMethod(days))
+      charted.push_back({s, *method, ComplianceSeries(days, *method), fleet.series[s].joints});
   }
   return charted;
 }
@@ -146,7 +150,7 @@ struct Question {
 std::vector<Question> questionsOf(const std::vector<Charted>& charted, const std::vector<FleetPair>& pairs) {
   std::vector<Question> questions;
   for (const Charted& one : charted) {
-    for (int joint = 0; joint < 6; ++joint) {
+    for (int joint = 0; joint < one.joints; ++joint) {
       if (one.compliances.days() < 2 || !one.compliances.has(joint)) continue;
       questions.push_back(
           {&one, joint, nullptr, one.compliances.likeliestStep(joint, 0, one.compliances.days()).p_value});
@@ -184,8 +188,6 @@ FleetStep geometryStep(const Fleet& fleet, const FleetPair& pair, double p_holm)
   return found;
 }
 
-std::array<std::vector<Step>, 6> noSteps() { return {}; }
-
 /// Fills charts, and steps of compliances and geometries.
 void studySeries(Fleet& fleet) {
   const std::vector<Charted> charted = chartedSeries(fleet);
@@ -194,7 +196,7 @@ void studySeries(Fleet& fleet) {
   for (const Question& one : questions) p_values.push_back(one.p_value);
   const std::vector<double> corrected = comparison::holm(p_values);
   fleet.chart_questions = questions.size();
-  std::map<const Charted*, std::array<std::vector<Step>, 6>> steps;
+  std::map<const Charted*, PerJoint<std::vector<Step>>> steps;
   for (std::size_t q = 0; q < questions.size(); ++q) {
     if (!(corrected[q] <= kFleetLevel)) continue;
     const Question& one = questions[q];
@@ -214,15 +216,17 @@ void studySeries(Fleet& fleet) {
     std::erase_if(found, [&](const Step& step) {
       return (step.begin != 0 || step.end != one.charted->compliances.days()) && step.p_value > level;
     });
-    steps.emplace(one.charted, noSteps()).first->second[static_cast<std::size_t>(one.joint)] = std::move(found);
+    PerJoint<std::vector<Step>>& own = steps[one.charted];
+    own.resize(static_cast<std::size_t>(one.charted->joints));
+    own[static_cast<std::size_t>(one.joint)] = std::move(found);
   }
   for (const Charted& one : charted) {
     SeriesCharts charts;
     charts.series = one.series, charts.method = one.method, charts.same_postures = one.compliances.samePostures();
     const auto found = steps.find(&one);
-    for (int joint = 0; joint < 6; ++joint) {
-      const std::size_t j = static_cast<std::size_t>(joint);
-      charts.joints[j] = one.compliances.chart(joint, found == steps.end() ? std::vector<Step>{} : found->second[j]);
+    for (int joint = 0; joint < one.joints; ++joint) {
+      charts.joints.push_back(one.compliances.chart(
+          joint, found == steps.end() ? std::vector<Step>{} : found->second[static_cast<std::size_t>(joint)]));
     }
     fleet.charts.push_back(charts);
   }
@@ -309,7 +313,7 @@ Need needOf(const Fleet& fleet, const FleetStep& step) {
 
 std::vector<int> impreciseJoints(const CampaignResult& day) {
   std::vector<int> joints;
-  for (int j = 0; j < 6; ++j) {
+  for (int j = 0; j < day.joints(); ++j) {
     const Stated& k = day.stiffness[static_cast<std::size_t>(j)];
     if (!std::isfinite(k.value)) continue;
     if (!std::isfinite(k.high) || !std::isfinite(k.low) || k.high - k.low > k.value) joints.push_back(j + 1);
@@ -344,8 +348,8 @@ void addNeedsOfDay(const FleetCampaign& campaign, std::size_t place, std::vector
 }
 
 void addScatter(const Fleet& fleet, const SeriesCharts& charts, std::vector<Need>& needs) {
-  for (int j = 0; j < 6; ++j) {
-    const ControlChart& chart = charts.joints[static_cast<std::size_t>(j)];
+  for (std::size_t j = 0; j < charts.joints.size(); ++j) {
+    const ControlChart& chart = charts.joints[j];
     if (!std::isfinite(chart.scatter)) continue;
     if (chart.scatter_p * static_cast<double>(std::max<std::size_t>(1, fleet.chart_questions)) > kFleetLevel) continue;
     needs.push_back({NeedId::dates_scatter, Remark(RemarkId::dates_scatter, j + 1, chart.scatter),
@@ -389,7 +393,7 @@ Fleet studyFleet(std::vector<FleetCampaign> campaigns, std::vector<FleetPair> pa
   fleet.campaigns = std::move(campaigns);
   fleet.pairs = std::move(pairs);
   fleet.series = seriesOf(fleet.campaigns);
-  fleet.pair_questions = correctPairs(fleet.pairs);
+  fleet.pair_questions = correctPairs(fleet.campaigns, fleet.pairs);
   studySeries(fleet);
   studyEffects(fleet);
   std::stable_sort(fleet.steps.begin(), fleet.steps.end(), [](const FleetStep& a, const FleetStep& b) {

@@ -15,7 +15,7 @@ namespace stiffscope::fleet {
 
 /// A compliance that is another from one date on.
 struct Step {
-  int joint = 0;                     ///< 0..5
+  int joint = 0;                     ///< from 0
   std::size_t first = 0;             ///< day from which the change holds
   std::size_t begin = 0, end = 0;    ///< days that were looked at: [begin, first) against [first, end)
   comparison::Uncertain difference;  ///< after - before, rad/Nm
@@ -123,16 +123,19 @@ struct FleetPair {
   std::size_t before = 0, after = 0;
   std::optional<PairResult> result;
   std::string failure;
-  /// Corrected for all questions that the pairs of the fleet ask (Holm): by joint, and of the geometry.
-  std::array<double, 6> p_holm{kUnknown, kUnknown, kUnknown, kUnknown, kUnknown, kUnknown};
+  /// Corrected for all questions that the pairs of the fleet ask (Holm): by joint, as many as the machine has (by
+  /// studyFleet; before it none), and of the geometry.
+  PerJoint<double> p_holm;
   double machine_p_holm = kUnknown;
 };
 
-/// Days of one machine that can be held against each other: of one kind, the double encoders in one state.
+/// Days of one machine that can be held against each other: of one kind, the double encoders in one state, as many
+/// joints in the URDF.
 struct DaySeries {
   std::string machine;
   DayKind kind = DayKind::loaded;
   campaign::DoubleEncoder encoders = campaign::DoubleEncoder::unspecified;
+  int joints = 0;
   std::vector<std::size_t> campaigns;  ///< in order of date
 };
 
@@ -155,7 +158,7 @@ struct SeriesCharts {
   std::size_t series = 0;
   identification::Method method = identification::Method::partial_pose;
   bool same_postures = false;
-  std::array<ControlChart, 6> joints;
+  PerJoint<ControlChart> joints;
 };
 
 /// What a machine needs, the most urgent first in the order of this list.

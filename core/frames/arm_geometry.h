@@ -17,13 +17,13 @@ struct LoadingGeometry {
   std::optional<Eigen::Matrix3d> displacements_in_r0;  ///< turns the `displacements` table's vectors into R0
   Eigen::Isometry3d r0_from_base_link = Eigen::Isometry3d::Identity();
   robot::GravityLoad weight;
-  Vector6d compliance = Vector6d::Zero();  ///< for the gravity sag, rad/Nm; zero: rigid
+  JointVector compliance;  ///< for the gravity sag, rad/Nm; zero or empty: rigid
 
   /// Joint angles with the sag in.
-  Vector6d sagged(const Vector6d& q) const { return robot::saggedAngles(arm, q, weight, compliance); }
+  JointVector sagged(const JointVector& q) const { return robot::saggedAngles(arm, q, weight, compliance); }
 };
 
 /// The geometry as the sweeps give it, for Complete Pose and Decoupled Partial Pose.
-LoadingGeometry sweptGeometry(const campaign::Campaign& campaign, const Frames& frames, const Vector6d& compliance);
+LoadingGeometry sweptGeometry(const campaign::Campaign& campaign, const Frames& frames, const JointVector& compliance);
 
 }  // namespace stiffscope::frames

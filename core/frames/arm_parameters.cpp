@@ -8,7 +8,7 @@
 namespace stiffscope::frames {
 
 AxesAtStart axesAtStart(const robot::ArmAxes& axes) {
-  AxesAtStart start;
+  AxesAtStart start(axes.size());
   for (std::size_t j = 0; j < start.size(); ++j) {
     start[j].line = axes[j];
     metrology::basisAcross(start[j].line.direction, start[j].across_u, start[j].across_v);
@@ -18,7 +18,7 @@ AxesAtStart axesAtStart(const robot::ArmAxes& axes) {
 
 AxesAtStart sweptAxes(const Frames& frames, const robot::ArmAxes& axes) {
   const Eigen::Matrix3d turn = frames.arm.r0_from_points.linear();
-  AxesAtStart start;
+  AxesAtStart start(axes.size());
   for (std::size_t j = 0; j < start.size(); ++j) {
     const metrology::MeasuredLine& swept = frames.axes[j].at_zero;
     const metrology::Line& axis = axes[j];
@@ -29,20 +29,31 @@ AxesAtStart sweptAxes(const Frames& frames, const robot::ArmAxes& axes) {
   return start;
 }
 
+namespace {
+
+Eigen::Vector4d ofAxis(const Eigen::Ref<const Eigen::VectorXd>& steps, std::size_t axis) {
+  return steps.segment<ArmParameters::kOfAxis>(ArmParameters::kOfAxis * static_cast<Eigen::Index>(axis));
+}
+
+}  // namespace
+
 LoadingGeometry moved(const LoadingGeometry& geometry, const Eigen::VectorXd& steps, const Eigen::Vector3d& centre) {
   LoadingGeometry result = geometry;
+  const ArmParameters parameters(geometry.arm.joints());
   const AxesAtStart start = axesAtStart(geometry.arm.axes_in_base_at_zero);
   for (std::size_t j = 0; j < start.size(); ++j) {
-    result.arm.axes_in_base_at_zero[j] = start[j].moved(steps.segment<4>(4 * static_cast<Eigen::Index>(j)));
+    result.arm.axes_in_base_at_zero[j] = start[j].moved(ofAxis(steps, j));
   }
-  if (!steps.segment<8>(16).isZero()) carryFlange(geometry.arm.axes_in_base_at_zero, result.arm);
+  const std::size_t last = start.size() - 1, across = axisAcrossLast(geometry.arm.axes_in_base_at_zero);
+  if (!ofAxis(steps, across).isZero() || !ofAxis(steps, last).isZero())
+    carryFlange(geometry.arm.axes_in_base_at_zero, result.arm);
   if (result.r0_from_loading) {
-    const Vector6d of_readings = steps.segment<ArmParameters::kBase>(ArmParameters::kBaseAt);
+    const Vector6d of_readings = steps.segment<ArmParameters::kBase>(parameters.baseAt());
     result.r0_from_loading = metrology::motionAbout(centre, of_readings) * *geometry.r0_from_loading;
   }
   for (std::size_t t = 0; t < result.targets_at_zero.size(); ++t) {
     if (!result.targets_at_zero[t]) continue;
-    *result.targets_at_zero[t] += steps.segment<3>(ArmParameters::targetAt(t));
+    *result.targets_at_zero[t] += steps.segment<3>(parameters.targetAt(t));
   }
   return result;
 }
@@ -67,18 +78,19 @@ Eigen::Matrix3d leftJacobian(const Eigen::Vector3d& r) {
 }  // namespace
 
 PlacedArm::PlacedArm(const AxesAtStart& start, const Eigen::Vector3d& about)
-    : PlacedArm(start, about, AxesSteps::Zero(), Vector6d::Zero()) {}
+    : PlacedArm(start, about, AxesSteps::Zero(ArmParameters(static_cast<int>(start.size())).axes()), Vector6d::Zero()) {
+}
 
 PlacedArm::PlacedArm(const AxesAtStart& start, const Eigen::Vector3d& about, const AxesSteps& axes_by,
                      const Vector6d& base_by)
-    : centre(about) {
-  for (std::size_t j = 0; j < axes.size(); ++j) {
+    : steps(ArmParameters::kOfAxis * start.size()), centre(about) {
+  for (std::size_t j = 0; j < start.size(); ++j) {
     const Eigen::Vector4d own = axes_by.segment<4>(4 * static_cast<Eigen::Index>(j));
-    axes[j] = own.isZero(0.0) ? start[j].line : start[j].moved(own);
+    const metrology::Line& axis = axes.emplace_back(own.isZero(0.0) ? start[j].line : start[j].moved(own));
     const double length = std::sqrt(1.0 + own.tail<2>().squaredNorm());
     const auto tilt = [&](const Eigen::Vector3d& across) {
-      const Eigen::Vector3d rotation = axes[j].direction.cross(across) / length;
-      return SmallMotion{rotation, -rotation.cross(axes[j].point)};
+      const Eigen::Vector3d rotation = axis.direction.cross(across) / length;
+      return SmallMotion{rotation, -rotation.cross(axis.point)};
     };
     steps[4 * j].shift = start[j].across_u;
     steps[4 * j + 1].shift = start[j].across_v;
@@ -96,7 +108,8 @@ SmallMotion PlacedArm::byBase(std::size_t k) const {
   return {-rotation, rotation.cross(centre)};
 }
 
-PlacedPosture::PlacedPosture(const PlacedArm& arm, const robot::ArmPosture& posture) : arm_(arm), posture_(posture) {
+PlacedPosture::PlacedPosture(const PlacedArm& arm, const robot::ArmPosture& posture)
+    : arm_(arm), posture_(posture), of_axis_(arm.steps.size()), beyond_(arm.steps.size()) {
   for (std::size_t k = 0; k < of_axis_.size(); ++k) {
     const Eigen::Isometry3d &before = posture.motion[k / 4], &after = posture.motion[k / 4 + 1];
     if (k % 4 < 2) {  // an axis that shifts turns nothing
@@ -110,15 +123,16 @@ PlacedPosture::PlacedPosture(const PlacedArm& arm, const robot::ArmPosture& post
   }
 }
 
-Eigen::Matrix<double, 3, ArmParameters::kAxes> PlacedPosture::byAxes(const Eigen::Vector3d& position) const {
-  Eigen::Matrix<double, 3, ArmParameters::kAxes> columns;
+PointByAxes PlacedPosture::byAxes(const Eigen::Vector3d& position) const {
+  PointByAxes columns(3, static_cast<Eigen::Index>(beyond_.size()));
   for (std::size_t k = 0; k < beyond_.size(); ++k) columns.col(static_cast<Eigen::Index>(k)) = beyond_[k].at(position);
   return columns;
 }
 
 Eigen::Matrix<double, 3, ArmParameters::kBase> PlacedPosture::byBase(const Eigen::Vector3d& position) const {
   Eigen::Matrix<double, 3, ArmParameters::kBase> columns;
-  for (std::size_t k = 0; k < 6; ++k) columns.col(static_cast<Eigen::Index>(k)) = arm_.byBase(k).at(position);
+  for (std::size_t k = 0; k < ArmParameters::kBase; ++k)
+    columns.col(static_cast<Eigen::Index>(k)) = arm_.byBase(k).at(position);
   return columns;
 }
 
@@ -127,10 +141,10 @@ SmallMotion PlacedPosture::byJoint(std::size_t j) const {
   return {direction, (posture_.motion[j] * arm_.axes[j].point).cross(direction)};
 }
 
-Matrix36d PlacedPosture::byAngles(const Eigen::Vector3d& position) const {
+PointJacobian PlacedPosture::byAngles(const Eigen::Vector3d& position) const {
   robot::ArmAxes axes;
-  for (std::size_t j = 0; j < axes.size(); ++j) {
-    axes[j] = {posture_.motion[j] * arm_.axes[j].point, posture_.motion[j].linear() * arm_.axes[j].direction};
+  for (std::size_t j = 0; j < arm_.axes.size(); ++j) {
+    axes.push_back({posture_.motion[j] * arm_.axes[j].point, posture_.motion[j].linear() * arm_.axes[j].direction});
   }
   return robot::pointJacobianAt(axes, position);
 }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <array>
+#include <boost/container/static_vector.hpp>
 
 #include "core/frames/arm_geometry.h"
 #include "core/robot/kinematics.h"
@@ -9,25 +9,40 @@
 
 namespace stiffscope::frames {
 
-/// Everything that places an arm and its reflectors against the readings, as steps from a geometry; m and rad, in R0:
-///   4 j + 0..3       axis j = 0..5 at zero joint angles: shift_u, shift_v, tilt_u, tilt_v, as MeasuredLine has them
-///   kBaseAt + 0..5   the readings against the base: rotation vector r about `centre`, then shift s
-///   kTargetsAt + 3 t reflector t at zero joint angles: x, y, z
+/// Everything that places an arm and its reflectors against the readings, as steps from a geometry; m and rad, in R0.
+/// Of n joints:
+///   4 j + 0..3        axis j = 0..n-1 at zero joint angles: shift_u, shift_v, tilt_u, tilt_v, as MeasuredLine has them
+///   baseAt() + 0..5   the readings against the base: rotation vector r about `centre`, then shift s
+///   targetAt(t) + 0.. reflector t at zero joint angles: x, y, z
 /// At joint angles q (rad), reflector t, which stands at x_t at zero, is seen at
-///   p = B exp(xi_1 q_1) ... exp(xi_6 q_6) x_t,   B^-1 y = exp([r]) (y - centre) + centre + s,
+///   p = B exp(xi_1 q_1) ... exp(xi_n q_n) x_t,   B^-1 y = exp([r]) (y - centre) + centre + s,
 /// xi_j the joint axes as moved. Six combinations are free by choice of frame: fits hold them by a prior, or fix as
 /// many parameters.
-struct ArmParameters {
-  static constexpr Eigen::Index kAxes = 24, kBase = 6, kBaseAt = kAxes, kTargetsAt = kAxes + kBase;
+class ArmParameters {
+ public:
+  static constexpr Eigen::Index kOfAxis = 4, kBase = 6, kOfMostAxes = kOfAxis * kMostJoints;
   /// For differences of what is more than positions: far above rounding, far below where the model curves.
   static constexpr double kSmall = 1e-6;
-  static Eigen::Index targetAt(std::size_t target) { return kTargetsAt + 3 * static_cast<Eigen::Index>(target); }
-  static Eigen::Index count(std::size_t targets) { return targetAt(targets); }
+
+  constexpr explicit ArmParameters(int joints) : axes_(kOfAxis * joints) {}
+
+  constexpr Eigen::Index axes() const { return axes_; }  ///< how many are of the axes
+  constexpr Eigen::Index baseAt() const { return axes_; }
+  constexpr Eigen::Index targetsAt() const { return axes_ + kBase; }
+  constexpr Eigen::Index targetAt(std::size_t target) const {
+    return targetsAt() + 3 * static_cast<Eigen::Index>(target);
+  }
+  constexpr Eigen::Index count(std::size_t targets) const { return targetAt(targets); }
+
+ private:
+  Eigen::Index axes_;
 };
-using AxesSteps = Eigen::Matrix<double, ArmParameters::kAxes, 1>;
+/// Those of the axes alone, and the displacement of a point by each of them.
+using AxesSteps = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, ArmParameters::kOfMostAxes, 1>;
+using PointByAxes = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, ArmParameters::kOfMostAxes>;
 
 /// The axes from which steps are taken: at zero, in R0, each with its two directions across.
-using AxesAtStart = std::array<metrology::MeasuredLine, 6>;
+using AxesAtStart = PerJoint<metrology::MeasuredLine>;
 
 /// Directions across by metrology::basisAcross, no covariance: what `moved` takes.
 AxesAtStart axesAtStart(const robot::ArmAxes& axes);
@@ -37,7 +52,7 @@ AxesAtStart axesAtStart(const robot::ArmAxes& axes);
 AxesAtStart sweptAxes(const Frames& frames, const robot::ArmAxes& axes);
 
 /// The geometry moved by all of its parameters, `steps` as long as ArmParameters::count of its reflectors. The flange,
-/// and what is fixed to it, follows axes 5 and 6 (see ArmInR0).
+/// and what is fixed to it, follows the last two axes (see ArmInR0).
 LoadingGeometry moved(const LoadingGeometry& geometry, const Eigen::VectorXd& steps, const Eigen::Vector3d& centre);
 
 /// A small motion: rotation vector, and shift of what stands at the origin.
@@ -47,10 +62,13 @@ struct SmallMotion {
   Eigen::Vector3d at(const Eigen::Vector3d& point) const { return rotation.cross(point) + shift; }
 };
 
+/// One a parameter of the axes.
+using SmallMotions = boost::container::static_vector<SmallMotion, ArmParameters::kOfMostAxes>;
+
 /// Axes and base at some values of their parameters: what all postures have in common.
 struct PlacedArm {
   robot::ArmAxes axes;
-  std::array<SmallMotion, ArmParameters::kAxes> steps;  ///< of the axis itself, by a small change of its parameter
+  SmallMotions steps;  ///< of the axis itself, by a small change of its parameter
   Eigen::Isometry3d base = Eigen::Isometry3d::Identity();
   Eigen::Vector3d centre;
   Eigen::Matrix3d turn_by_rotation = Eigen::Matrix3d::Identity();  ///< turn of the base by a small change of r
@@ -68,21 +86,21 @@ struct PlacedArm {
 /// b from its place at zero, M_0 = B. Keeps a reference to the arm.
 class PlacedPosture {
  public:
-  PlacedPosture(const PlacedArm& arm, const Vector6d& q)
+  PlacedPosture(const PlacedArm& arm, const JointVector& q)
       : PlacedPosture(arm, robot::postureAt(arm.axes, q, arm.base)) {}
   /// A posture that was computed before, of the arm and base as placed.
   PlacedPosture(const PlacedArm& arm, const robot::ArmPosture& posture);
 
-  Eigen::Vector3d position(const Eigen::Vector3d& at_zero) const { return posture_.motion[6] * at_zero; }
+  Eigen::Vector3d position(const Eigen::Vector3d& at_zero) const { return posture_.motion.back() * at_zero; }
 
   // Derivatives of a point of the flange that is at `position` now.
-  Eigen::Matrix<double, 3, ArmParameters::kAxes> byAxes(const Eigen::Vector3d& position) const;
+  PointByAxes byAxes(const Eigen::Vector3d& position) const;
   Eigen::Matrix<double, 3, ArmParameters::kBase> byBase(const Eigen::Vector3d& position) const;
-  Eigen::Matrix3d byTarget() const { return posture_.motion[6].linear(); }
-  Matrix36d byAngles(const Eigen::Vector3d& position) const;
+  Eigen::Matrix3d byTarget() const { return posture_.motion.back().linear(); }
+  PointJacobian byAngles(const Eigen::Vector3d& position) const;
   /// Motion of the flange by a small turn of joint j.
   SmallMotion byJoint(std::size_t j) const;
-  /// How body b (0: the base, 6: the flange) stands turned from where it is at zero.
+  /// How body b (0: the base; the last: the flange) stands turned from where it is at zero.
   Eigen::Matrix3d turnOf(std::size_t body) const { return posture_.motion[body].linear(); }
 
   /// By a small change of axis parameter k: the axis of joint k / 4, and all that this joint carries.
@@ -92,7 +110,7 @@ class PlacedPosture {
  private:
   const PlacedArm& arm_;
   robot::ArmPosture posture_;
-  std::array<SmallMotion, ArmParameters::kAxes> of_axis_, beyond_;
+  SmallMotions of_axis_, beyond_;
 };
 
 }  // namespace stiffscope::frames

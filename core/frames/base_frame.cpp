@@ -22,22 +22,27 @@ robot::Robot inFrame(const robot::Robot& nominal, const Eigen::Isometry3d& r0_fr
   return robot;
 }
 
-Eigen::Isometry3d frameOnAxes56(const std::array<metrology::Line, 6>& axes) {
-  // baseFrame with axis 6 as z and axis 5 as y: any fixed rule serves, the same for both sets of axes.
-  return metrology::baseFrame(axes[5], axes[4]);
-}
-
 }  // namespace
 
-void carryFlange(const std::array<metrology::Line, 6>& from, robot::Robot& arm) {
-  const Eigen::Isometry3d carry = frameOnAxes56(arm.axes_in_base_at_zero) * frameOnAxes56(from).inverse();
+std::size_t axisAcrossLast(const robot::ArmAxes& axes) {
+  std::size_t across = axes.size() - 2;
+  while (across > 0 && metrology::angleBetween(axes[across], axes.back()) < kNearParallel) --across;
+  return across;
+}
+
+void carryFlange(const robot::ArmAxes& from, robot::Robot& arm) {
+  // baseFrame with the last axis as z and the one across as y: any fixed rule serves, the same for both sets of axes.
+  const robot::ArmAxes& to = arm.axes_in_base_at_zero;
+  const std::size_t across = axisAcrossLast(from);
+  const Eigen::Isometry3d carry =
+      metrology::baseFrame(to.back(), to[across]) * metrology::baseFrame(from.back(), from[across]).inverse();
   arm.base_from_flange_at_zero = carry * arm.base_from_flange_at_zero;
   for (robot::LinkFrame& link : arm.links) {
-    if (link.body == 6) link.base_from_link_at_zero = carry * link.base_from_link_at_zero;
+    if (link.body == arm.joints()) link.base_from_link_at_zero = carry * link.base_from_link_at_zero;
   }
 }
 
-ArmInR0 armInR0(const robot::Robot& nominal, const std::array<MeasuredAxis, 6>& axes) {
+ArmInR0 armInR0(const robot::Robot& nominal, const MeasuredAxes& axes) {
   ArmInR0 result;
   const NominalBaseFrame rule = nominalBaseFrame(nominal);
   result.r0_from_base_link = rule.base_link_from_r0.inverse();
@@ -50,14 +55,14 @@ ArmInR0 armInR0(const robot::Robot& nominal, const std::array<MeasuredAxis, 6>& 
   axis_2.direction *= rule.sense[1];
   result.r0_from_points = metrology::baseFrame(axis_1, axis_2).inverse();
 
-  const std::array<metrology::Line, 6> nominal_in_r0 = result.arm.axes_in_base_at_zero;
-  for (std::size_t i = 0; i < 6; ++i) {
+  const robot::ArmAxes nominal_in_r0 = result.arm.axes_in_base_at_zero;
+  for (std::size_t i = 0; i < axes.size(); ++i) {
     if (!axes[i].measured) continue;
     metrology::Line& axis = result.arm.axes_in_base_at_zero[i];
     const metrology::Line measured = movedBy(result.r0_from_points, axes[i].at_zero.line);
     axis = {metrology::nearestPoint(measured, axis.point), measured.direction};
   }
-  if (axes[4].measured && axes[5].measured) carryFlange(nominal_in_r0, result.arm);
+  if (axes[axisAcrossLast(nominal_in_r0)].measured && axes.back().measured) carryFlange(nominal_in_r0, result.arm);
   return result;
 }
 

@@ -18,12 +18,18 @@ struct ArmInR0 {
 };
 
 /// Axes that were swept replace the URDF's; those that were not keep their nominal place in R0. The flange, and
-/// what is fixed to it, is carried by the measured axes 5 and 6: it keeps its nominal place in the frame with z along
-/// axis 6, x along the part of axis 5 across it, and the origin at the foot of their common perpendicular on axis 6.
-ArmInR0 armInR0(const robot::Robot& nominal, const std::array<MeasuredAxis, 6>& axes);
+/// what is fixed to it, is carried by the last two axes where both are measured (5 and 6 of six; axisAcrossLast): it
+/// keeps its nominal place in the frame with z along the last axis, y along the part of the other across it, and the
+/// origin at the foot of their common perpendicular on the last.
+ArmInR0 armInR0(const robot::Robot& nominal, const MeasuredAxes& axes);
 
-/// Carries the arm's flange, and what is fixed to it, from where axes 5 and 6 of `from` put it to where its own put it.
-void carryFlange(const std::array<metrology::Line, 6>& from, robot::Robot& arm);
+/// The axis that with the last makes the frame that carries the flange: the one before it, or, where that is within a
+/// degree of parallel to it, the nearest before that is not. From 0.
+std::size_t axisAcrossLast(const robot::ArmAxes& axes);
+
+/// Carries the arm's flange, and what is fixed to it, from where the last two axes of `from` put it to where its own
+/// put it.
+void carryFlange(const robot::ArmAxes& from, robot::Robot& arm);
 
 /// The rule of the campaign format for R0, on the nominal robot: which way axis 1 and axis 2 are directed to become
 /// z0 and y0 (+1: as the joint turns, -1: against it), and where R0 stands.

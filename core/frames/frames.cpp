@@ -13,11 +13,8 @@ namespace stiffscope::frames {
 
 namespace {
 
-using Layout = FramesCovariance;
-constexpr Eigen::Index kOfAxes = Layout::kWristCentre;  // numbers that depend on the axes alone
-
 /// The axes at zero, in R0 as it is measured; those that are not measured stand there without uncertainty.
-std::vector<metrology::MeasuredLine> axesInR0(const std::array<MeasuredAxis, 6>& axes, const ArmInR0& arm) {
+std::vector<metrology::MeasuredLine> axesInR0(const MeasuredAxes& axes, const ArmInR0& arm) {
   std::vector<metrology::MeasuredLine> lines;
   for (std::size_t i = 0; i < axes.size(); ++i) {
     metrology::MeasuredLine line;
@@ -41,8 +38,8 @@ metrology::Line directedAlong(const Eigen::Vector3d& direction, metrology::Line 
 }
 
 /// Error of R0, distances and angles, as they follow from the axes; smooth where distances and angles are zero.
-metrology::LineNumbers numbersOf(const std::vector<metrology::MeasuredLine>& axes,
-                                 const std::array<LinkGeometry, 5>& links) {
+metrology::LineNumbers numbersOf(const std::vector<metrology::MeasuredLine>& axes, const Links& links) {
+  const FramesLayout at(static_cast<int>(axes.size()));
   std::vector<metrology::LinePairNumber> distances, angles;
   for (std::size_t i = 0; i < links.size(); ++i) {
     const metrology::MeasuredLine &first = axes[i], &second = axes[i + 1];
@@ -51,27 +48,26 @@ metrology::LineNumbers numbersOf(const std::vector<metrology::MeasuredLine>& axe
     // Exactly parallel axes, as only drawings have them, tilt about any normal.
     angles.push_back(metrology::tiltAbout(metrology::commonNormal(first.line, second.line).value_or(first.across_u)));
   }
-  return [distances, angles](const std::vector<metrology::Line>& moved) {
-    Eigen::VectorXd numbers(kOfAxes);
+  return [at, distances, angles](const std::vector<metrology::Line>& moved) {
+    Eigen::VectorXd numbers(at.wrist_centre);
     const Eigen::Isometry3d r0 = metrology::baseFrame(directedAlong(Eigen::Vector3d::UnitZ(), moved[0]),
                                                       directedAlong(Eigen::Vector3d::UnitY(), moved[1]));
-    numbers.segment<6>(Layout::kR0) = metrology::frameError(Eigen::Isometry3d::Identity(), r0);
-    std::array<metrology::Line, 6> lines;
-    std::copy(moved.begin(), moved.end(), lines.begin());
+    numbers.segment<6>(FramesLayout::kR0) = metrology::frameError(Eigen::Isometry3d::Identity(), r0);
+    const robot::ArmAxes lines(moved.begin(), moved.end());
     for (std::size_t i = 0; i < distances.size(); ++i) {
       const auto row = static_cast<Eigen::Index>(i);
-      numbers[Layout::kDistances + row] =
+      numbers[FramesLayout::kDistances + row] =
           distances[i] ? distances[i](lines[i], lines[i + 1])
                        : metrology::distanceAcross(lines[i], lines[i + 1], hayatiPoint(lines, i));
-      numbers[Layout::kAngles + row] = angles[i](lines[i], lines[i + 1]);
+      numbers[at.angles + row] = angles[i](lines[i], lines[i + 1]);
     }
     return numbers;
   };
 }
 
-void addWrist(const WristCentre& wrist, Eigen::MatrixXd& covariance) {
+void addWrist(const WristCentre& wrist, const FramesLayout& at, Eigen::MatrixXd& covariance) {
   const auto place = [&](Eigen::Index i) {
-    return i < 3 ? Layout::kWristCentre + i : Layout::kRadii + wrist.targets[static_cast<std::size_t>(i - 3)];
+    return i < 3 ? at.wrist_centre + i : at.radii + wrist.targets[static_cast<std::size_t>(i - 3)];
   };
   const Eigen::MatrixXd& own = wrist.spheres.covariance;
   for (Eigen::Index i = 0; i < own.rows(); ++i) {
@@ -88,10 +84,10 @@ Eigen::MatrixXd FramesCovariance::total() const {
   return all;
 }
 
-FramesCovariance framesCovariance(const std::array<MeasuredAxis, 6>& axes, const ArmInR0& arm,
-                                  const std::array<LinkGeometry, 5>& links, const WristCentre& wrist,
-                                  std::size_t targets, const Eigen::Vector3d& station) {
-  const Eigen::Index size = Layout::kRadii + static_cast<Eigen::Index>(targets);
+FramesCovariance framesCovariance(const MeasuredAxes& axes, const ArmInR0& arm, const Links& links,
+                                  const WristCentre& wrist, std::size_t targets, const Eigen::Vector3d& station) {
+  const FramesLayout at(static_cast<int>(axes.size()));
+  const Eigen::Index size = at.count(targets);
   FramesCovariance covariance{Eigen::MatrixXd::Zero(size, size),
                               Eigen::MatrixXd::Zero(size, size),
                               Eigen::VectorXd::Zero(size),
@@ -99,46 +95,47 @@ FramesCovariance framesCovariance(const std::array<MeasuredAxis, 6>& axes, const
                               {}};
   if (!arm.points_placed) return covariance;
   const std::vector<metrology::MeasuredLine> lines = axesInR0(axes, arm);
-  Eigen::MatrixXd by_axes = Eigen::MatrixXd::Zero(size, 24);
-  by_axes.topRows(kOfAxes) = metrology::derivativesByLines(lines, numbersOf(lines, links));
-  covariance.by_scale.segment<3>(Layout::kR0 + 3) = -(arm.r0_from_points * station);
+  Eigen::MatrixXd by_axes = Eigen::MatrixXd::Zero(size, static_cast<Eigen::Index>(4 * axes.size()));
+  by_axes.topRows(at.wrist_centre) = metrology::derivativesByLines(lines, numbersOf(lines, links));
+  covariance.by_scale.segment<3>(FramesLayout::kR0 + 3) = -(arm.r0_from_points * station);
   for (std::size_t i = 0; i < links.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
     if (axes[i].measured && axes[i + 1].measured) {
-      covariance.by_scale[Layout::kDistances + row] = links[i].distance;
+      covariance.by_scale[FramesLayout::kDistances + row] = links[i].distance;
     } else {
-      by_axes.row(Layout::kDistances + row).setZero();
-      by_axes.row(Layout::kAngles + row).setZero();
+      by_axes.row(FramesLayout::kDistances + row).setZero();
+      by_axes.row(at.angles + row).setZero();
     }
   }
   if (wrist.measured) {
-    by_axes.middleRows<3>(Layout::kWristCentre) =
-        metrology::pointByFrameError(wrist.centre_in_r0) * by_axes.topRows<6>();
-    covariance.by_scale.segment<3>(Layout::kWristCentre) = wrist.centre_in_r0;
+    by_axes.middleRows<3>(at.wrist_centre) = metrology::pointByFrameError(wrist.centre_in_r0) * by_axes.topRows<6>();
+    covariance.by_scale.segment<3>(at.wrist_centre) = wrist.centre_in_r0;
     for (const int target : wrist.targets) {
-      covariance.by_scale[Layout::kRadii + target] = wrist.radii[static_cast<std::size_t>(target)];
+      covariance.by_scale[at.radii + target] = wrist.radii[static_cast<std::size_t>(target)];
     }
   }
   covariance.readings = by_axes * axesCovariance(axes) * by_axes.transpose();
-  if (wrist.measured) addWrist(wrist, covariance.readings);
+  if (wrist.measured) addWrist(wrist, at, covariance.readings);
   return covariance;
 }
 
-void stateUncertainties(const FramesCovariance& covariance, const std::array<MeasuredAxis, 6>& axes, const ArmInR0& arm,
-                        std::array<LinkGeometry, 5>& links, WristCentre& wrist) {
+void stateUncertainties(const FramesCovariance& covariance, const MeasuredAxes& axes, const ArmInR0& arm, Links& links,
+                        WristCentre& wrist) {
   if (!arm.points_placed) return;
+  const FramesLayout at(static_cast<int>(axes.size()));
   const Eigen::MatrixXd total = covariance.total();
   for (std::size_t i = 0; i < links.size(); ++i) {
     if (!axes[i].measured || !axes[i + 1].measured) continue;
-    const auto row = static_cast<Eigen::Index>(i), distance = Layout::kDistances + row, angle = Layout::kAngles + row;
+    const auto row = static_cast<Eigen::Index>(i), distance = FramesLayout::kDistances + row, angle = at.angles + row;
     links[i].distance_sd = std::sqrt(total(distance, distance));
     links[i].angle_sd = std::sqrt(total(angle, angle));
     links[i].distance_sag_sd = std::sqrt(covariance.sag(distance, distance));
   }
-  wrist.miss_45_sd = links[3].distance_sd.value_or(0.0);
-  wrist.miss_56_sd = links[4].distance_sd.value_or(0.0);
+  for (WristAxesMiss& miss : wrist.misses) {
+    miss.sd = links[static_cast<std::size_t>(miss.first)].distance_sd.value_or(0.0);
+  }
   if (!wrist.measured) return;
-  wrist.covariance = total.block<3, 3>(Layout::kWristCentre, Layout::kWristCentre);
+  wrist.covariance = total.block<3, 3>(at.wrist_centre, at.wrist_centre);
   const Eigen::Matrix3d common = wrist.covariance - wrist.spheres.covariance.topLeftCorner<3, 3>();
   Eigen::Matrix3d own = Eigen::Matrix3d::Zero();
   for (const WristTableRow& row : wrist.table) own += row.covariance;
@@ -163,7 +160,7 @@ std::vector<std::optional<Eigen::Vector3d>> targetsAtZero(const campaign::Campai
     for (std::size_t row = 0; row < rows.size(); ++row) {
       // The reflectors of one stop follow each other.
       if (row == 0 || rows[row].q != rows[row - 1].q)
-        zero_from_now = robot::postureAt(arm.arm, rows[row].q).motion[6].inverse();
+        zero_from_now = robot::postureAt(arm.arm, rows[row].q).motion.back().inverse();
       const auto k = static_cast<std::size_t>(rows[row].target);
       sums[k] += zero_from_now * (arm.r0_from_points * rigid[row]);
       ++counts[k];
@@ -181,12 +178,12 @@ std::vector<std::optional<Eigen::Vector3d>> targetsAtZero(const campaign::Campai
 
 namespace {
 
-/// Where axis 6 pierces the plane z = 0 of the flange, in flange axes.
+/// Where the last axis pierces the plane z = 0 of the flange, in flange axes.
 Eigen::Vector3d tcpInFlange(const robot::Robot& arm) {
   const Eigen::Isometry3d flange_from_base = arm.base_from_flange_at_zero.inverse();
-  const metrology::Line& axis_6 = arm.axes_in_base_at_zero[5];
-  const Eigen::Vector3d point = flange_from_base * axis_6.point;
-  const Eigen::Vector3d direction = flange_from_base.linear() * axis_6.direction;
+  const metrology::Line& last = arm.axes_in_base_at_zero.back();
+  const Eigen::Vector3d point = flange_from_base * last.point;
+  const Eigen::Vector3d direction = flange_from_base.linear() * last.direction;
   if (direction.z() == 0.0) return Eigen::Vector3d::Zero();
   return point - point.z() / direction.z() * direction;
 }
@@ -210,21 +207,20 @@ Frames measureOnce(const campaign::Campaign& campaign, const SagModel& sag) {
 }  // namespace
 
 Eigen::VectorXd framesDifference(const Frames& from, const Frames& to) {
-  using At = FramesCovariance;
-  Eigen::VectorXd numbers =
-      Eigen::VectorXd::Zero(At::kRadii + static_cast<Eigen::Index>(from.targets_in_r0_at_zero.size()));
-  numbers.segment<6>(At::kR0) =
+  const FramesLayout at(from.arm.arm.joints());
+  Eigen::VectorXd numbers = Eigen::VectorXd::Zero(at.count(from.targets_in_r0_at_zero.size()));
+  numbers.segment<6>(FramesLayout::kR0) =
       metrology::frameError(from.arm.r0_from_points.inverse(), to.arm.r0_from_points.inverse());
   for (std::size_t i = 0; i < from.links.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
-    numbers[At::kDistances + row] = to.links[i].distance - from.links[i].distance;
-    numbers[At::kAngles + row] = to.links[i].angle - from.links[i].angle;
+    numbers[FramesLayout::kDistances + row] = to.links[i].distance - from.links[i].distance;
+    numbers[at.angles + row] = to.links[i].angle - from.links[i].angle;
   }
   if (!from.wrist.measured || !to.wrist.measured) return numbers;
-  numbers.segment<3>(At::kWristCentre) = to.wrist.centre_in_r0 - from.wrist.centre_in_r0;
+  numbers.segment<3>(at.wrist_centre) = to.wrist.centre_in_r0 - from.wrist.centre_in_r0;
   for (const int target : from.wrist.targets) {
     const auto k = static_cast<std::size_t>(target);
-    numbers[At::kRadii + target] = to.wrist.radii[k] - from.wrist.radii[k];
+    numbers[at.radii + target] = to.wrist.radii[k] - from.wrist.radii[k];
   }
   return numbers;
 }
@@ -232,16 +228,17 @@ Eigen::VectorXd framesDifference(const Frames& from, const Frames& to) {
 namespace {
 
 /// The part of the covariance that comes from the compliances, by differences of the whole measurement.
-std::optional<Eigen::MatrixXd> sagPart(const Frames& frames, const Vector6d& compliance, const Matrix6d& covariance,
-                                       const std::function<Frames(const Vector6d&)>& measuredWith) {
+std::optional<Eigen::MatrixXd> sagPart(const Frames& frames, const JointVector& compliance,
+                                       const JointMatrix& covariance,
+                                       const std::function<Frames(const JointVector&)>& measuredWith) {
   if (!frames.arm.points_placed) return std::nullopt;
   constexpr double kStep = 1e-8;  // rad/Nm: a hundredth of a stiff joint's; the sag is linear far beyond it
-  const std::size_t targets = frames.targets_in_r0_at_zero.size();
+  const int joints = frames.arm.arm.joints();
   Eigen::MatrixXd by_compliance =
-      Eigen::MatrixXd::Zero(FramesCovariance::kRadii + static_cast<Eigen::Index>(targets), 6);
-  for (int joint = 0; joint < 6; ++joint) {
+      Eigen::MatrixXd::Zero(FramesLayout(joints).count(frames.targets_in_r0_at_zero.size()), joints);
+  for (int joint = 0; joint < joints; ++joint) {
     if (covariance(joint, joint) == 0.0) continue;
-    const Frames moved = measuredWith(compliance + kStep * Vector6d::Unit(joint));
+    const Frames moved = measuredWith(compliance + kStep * JointVector::Unit(joints, joint));
     if (moved.arm.points_placed) by_compliance.col(joint) = framesDifference(frames, moved) / kStep;
   }
   return by_compliance * covariance * by_compliance.transpose();
@@ -268,14 +265,14 @@ Frames measureFrames(const campaign::Campaign& campaign) {
   return frames;
 }
 
-Frames refineFrames(const campaign::Campaign& campaign, const Frames& so_far, const Vector6d& compliance,
-                    const std::optional<Matrix6d>& covariance) {
+Frames refineFrames(const campaign::Campaign& campaign, const Frames& so_far, const JointVector& compliance,
+                    const std::optional<JointMatrix>& covariance) {
   if (!so_far.weight.links_known) return so_far;
-  const auto measuredUnder = [&](const robot::GravityLoad& weight, const Vector6d& c) {
+  const auto measuredUnder = [&](const robot::GravityLoad& weight, const JointVector& c) {
     return measureOnce(campaign, SagModel(so_far.arm.arm, weight, c, so_far.targets_in_r0_at_zero,
                                           so_far.arm.r0_from_points.inverse()));
   };
-  const auto measuredWith = [&](const Vector6d& c) { return measuredUnder(so_far.weight, c); };
+  const auto measuredWith = [&](const JointVector& c) { return measuredUnder(so_far.weight, c); };
   Frames frames = measuredWith(compliance);
   frames.sag_removed = true;
   frames.sag_note = Remark(RemarkId::sag_taken_off);
@@ -298,7 +295,7 @@ Frames refineFrames(const campaign::Campaign& campaign, const Frames& so_far, co
   return frames;
 }
 
-Eigen::VectorXd framesChange(const campaign::Campaign& campaign, const Frames& frames, const Vector6d& compliance) {
+Eigen::VectorXd framesChange(const campaign::Campaign& campaign, const Frames& frames, const JointVector& compliance) {
   const Frames other =
       measureOnce(campaign, SagModel(frames.arm.arm, frames.weight, compliance, frames.targets_in_r0_at_zero,
                                      frames.arm.r0_from_points.inverse()));

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
+#include <boost/container/static_vector.hpp>
 #include <optional>
 #include <vector>
 
@@ -26,14 +26,22 @@ struct WristTableRow {
   int readings = 0;
 };
 
-/// The wrist centre by the wrist sweep (paper, II.D).
+/// Two consecutive axes of the wrist, which should meet.
+struct WristAxesMiss {
+  int first = 0;          ///< the first of them, from 0
+  double distance = 0.0;  ///< m
+  double sd = 0.0;        ///< standard uncertainty (FramesCovariance); 0 where the axes were not measured
+};
+
+/// The wrist centre, where the last robot::wristJointsOf axes meet, by the wrist sweep (paper, II.D). The joints before
+/// them are the arm's: 1-3 of six.
 struct WristCentre {
   bool measured = false;
   Remark reason;
-  Vector6d q = Vector6d::Zero();                           ///< axes 1-3 during the sweep (4-6 zero)
+  JointVector q;                                           ///< the arm's joints during the sweep, the wrist's at zero
   Eigen::Vector3d centre_in_r0 = Eigen::Vector3d::Zero();  ///< common centre of all spheres, at q
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();    ///< of it, with R0's (FramesCovariance); R0 axes, m^2
-  Eigen::Vector3d centre_at_zero_in_r0 = Eigen::Vector3d::Zero();  ///< with axes 1-3 turned back to zero
+  Eigen::Vector3d centre_at_zero_in_r0 = Eigen::Vector3d::Zero();  ///< with the arm's joints turned back to zero
   std::vector<double> radii;  ///< |P_wrist P1X| by target; NaN for a target that was not swept
   metrology::SphereFit
       spheres;               ///< in R0 as it is measured: its covariance is that of the wrist sweep's readings alone
@@ -45,11 +53,10 @@ struct WristCentre {
 
   // Side by side with the sphere centre, all at q (docs/method.md, Wrist centre).
   Eigen::Vector3d reflector_barycentre_in_r0 = Eigen::Vector3d::Zero();  ///< Dumas et al.
-  Eigen::Vector3d nearest_axes_56_in_r0 = Eigen::Vector3d::Zero();       ///< middle of their common perpendicular
-  double miss_45 = 0.0;                                                  ///< distance between axes 4 and 5, m
-  double miss_56 = 0.0;                                                  ///< distance between axes 5 and 6, m
-  double miss_45_sd = 0.0;  ///< standard uncertainty (FramesCovariance); 0 where the axes were not measured
-  double miss_56_sd = 0.0;
+  /// Middle of the common perpendicular of the last two axes.
+  Eigen::Vector3d nearest_last_axes_in_r0 = Eigen::Vector3d::Zero();
+  /// From the wrist's first axis on: of axes 4 and 5, 5 and 6 of six.
+  PerJoint<WristAxesMiss> misses;
 };
 
 /// Fits concentric spheres to the wrist sweep, on the readings referred to the rigid arm.
@@ -72,25 +79,37 @@ struct LinkGeometry {
   double nominal_angle = 0.0;
 };
 
+/// [i] the one between axes i+1 and i+2: one fewer than joints.
+using Links = boost::container::static_vector<LinkGeometry, kMostJoints - 1>;
+
 /// Link i between axes i+1 and i+2 of the arm (paper, II.D: link lengths by circle-point). For axes within a degree of
 /// parallel the common perpendicular's place is undetermined: their distance is taken in the plane normal to the first,
 /// at the foot on it of the common perpendicular with the axis before (Hayati). For three axes within a degree of
 /// parallel that foot is undetermined too, kilometres away: there the point of the axis before is carried over.
-std::array<LinkGeometry, 5> linkGeometry(const robot::Robot& nominal, const ArmInR0& arm);
+Links linkGeometry(const robot::Robot& nominal, const ArmInR0& arm);
 
 /// Where on axis `first` the distance to a nearly parallel next one is taken, see linkGeometry.
-Eigen::Vector3d hayatiPoint(const std::array<metrology::Line, 6>& axes, std::size_t first);
+Eigen::Vector3d hayatiPoint(const robot::ArmAxes& axes, std::size_t first);
 
-/// Joint covariance of what the sweeps give, with everything that they have in common: R0 in all that is expressed in
-/// it, an axis in the two links that it ends, the sag's stiffnesses in everything. In the order
+/// What the sweeps give as one vector, of so many joints, in the order
 ///   error of R0: rotation vector, origin (FrameError: R0 as measured against the true one, in R0's axes),
-///   five distances and five angles between consecutive axes,
+///   distances, then angles between consecutive axes, one fewer than joints of each,
 ///   the wrist centre at the wrist sweep's posture, in R0 as measured,
 ///   the radius of each target of the campaign;
-/// rad and m; rows of what was not measured are zero.
-struct FramesCovariance {
-  static constexpr Eigen::Index kR0 = 0, kDistances = 6, kAngles = 11, kWristCentre = 16, kRadii = 19;
+/// rad and m.
+struct FramesLayout {
+  static constexpr Eigen::Index kR0 = 0, kDistances = 6;
+  Eigen::Index links, angles, wrist_centre, radii;  ///< links: how many; the others: where they start
 
+  constexpr explicit FramesLayout(int joints)
+      : links(joints - 1), angles(kDistances + links), wrist_centre(angles + links), radii(wrist_centre + 3) {}
+  constexpr Eigen::Index count(std::size_t targets) const { return radii + static_cast<Eigen::Index>(targets); }
+};
+
+/// Joint covariance of what the sweeps give, with everything that they have in common: R0 in all that is expressed in
+/// it, an axis in the two links that it ends, the sag's stiffnesses in everything. In the order of FramesLayout; rows
+/// of what was not measured are zero.
+struct FramesCovariance {
   Eigen::MatrixXd readings;  ///< by the noise of the sweeps' readings
   Eigen::MatrixXd sag;       ///< by the covariance of the stiffnesses with which the sag was corrected for
   Eigen::VectorXd by_scale;  ///< how a relative error of the tracker's scale, common to all readings, moves each
@@ -108,15 +127,14 @@ struct FramesCovariance {
   metrology::FrameCovariance r0() const { return total().topLeftCorner<6, 6>(); }
 };
 
-/// By the law of propagation (GUM 5.2.2), with `sag` zero. Size 19 + the campaign's targets; all zero where R0 is not
-/// placed in the frame of the readings. `station`: the tracker's, in that frame.
-FramesCovariance framesCovariance(const std::array<MeasuredAxis, 6>& axes, const ArmInR0& arm,
-                                  const std::array<LinkGeometry, 5>& links, const WristCentre& wrist,
-                                  std::size_t targets, const Eigen::Vector3d& station);
+/// By the law of propagation (GUM 5.2.2), with `sag` zero. FramesLayout::count of the campaign's targets; all zero
+/// where R0 is not placed in the frame of the readings. `station`: the tracker's, in that frame.
+FramesCovariance framesCovariance(const MeasuredAxes& axes, const ArmInR0& arm, const Links& links,
+                                  const WristCentre& wrist, std::size_t targets, const Eigen::Vector3d& station);
 
 /// Puts the standard uncertainties into links and wrist.
-void stateUncertainties(const FramesCovariance& covariance, const std::array<MeasuredAxis, 6>& axes, const ArmInR0& arm,
-                        std::array<LinkGeometry, 5>& links, WristCentre& wrist);
+void stateUncertainties(const FramesCovariance& covariance, const MeasuredAxes& axes, const ArmInR0& arm, Links& links,
+                        WristCentre& wrist);
 
 /// Where each reflector would stand in R0 with all joints at zero: the mean of its sweep readings, referred to the
 /// rigid arm and turned back by their joint angles. Where a target's place on the flange is declared and no
@@ -126,13 +144,13 @@ std::vector<std::optional<Eigen::Vector3d>> targetsAtZero(const campaign::Campai
 
 /// Everything the sweeps give (paper, II.D): axes, R0, the arm in R0, link lengths, P_TCP, the wrist centre.
 struct Frames {
-  std::array<MeasuredAxis, 6> axes;
+  MeasuredAxes axes;
   ArmInR0 arm;
   campaign::PointFrame points_frame = campaign::PointFrame::tracker;  ///< the frame of the sweeps' readings
-  std::array<LinkGeometry, 5> links;
+  Links links;
   std::vector<std::optional<Eigen::Vector3d>> targets_in_r0_at_zero;
   WristCentre wrist;
-  Eigen::Vector3d tcp_in_flange = Eigen::Vector3d::Zero();  ///< P_TCP: where axis 6 pierces the flange plane
+  Eigen::Vector3d tcp_in_flange = Eigen::Vector3d::Zero();  ///< P_TCP: where the last axis pierces the flange plane
   robot::GravityLoad weight;                                ///< in R0
   bool sag_removed = false;                                 ///< readings were referred to the rigid arm
   double largest_sag = 0.0;                                 ///< largest correction of a reading of the sweeps, m
@@ -149,15 +167,15 @@ Frames measureFrames(const campaign::Campaign& campaign);
 /// of the whole measurement. It knows nothing of what is wrong with a sag by joint springs alone: bearings that
 /// deflect across their axes bend the arm too, and falsify the springs; LinkGeometry::distance_by_sag shows the stake,
 /// and FramesCovariance::hidden weighs it.
-Frames refineFrames(const campaign::Campaign& campaign, const Frames& so_far, const Vector6d& compliance,
-                    const std::optional<Matrix6d>& covariance = std::nullopt);
+Frames refineFrames(const campaign::Campaign& campaign, const Frames& so_far, const JointVector& compliance,
+                    const std::optional<JointMatrix>& covariance = std::nullopt);
 
-/// How the numbers of FramesCovariance differ between two measurements of the same sweeps, in their order.
+/// How the numbers of FramesLayout differ between two measurements of the same sweeps, in their order.
 Eigen::VectorXd framesDifference(const Frames& from, const Frames& to);
 
 /// The frames by these sweeps, corrected for the sag of `frames` by these compliances, less `frames`: the numbers of
-/// FramesCovariance in their order. The campaign has the tables and targets that `frames` was measured from.
-Eigen::VectorXd framesChange(const campaign::Campaign& campaign, const Frames& frames, const Vector6d& compliance);
+/// FramesLayout in their order. The campaign has the tables and targets that `frames` was measured from.
+Eigen::VectorXd framesChange(const campaign::Campaign& campaign, const Frames& frames, const JointVector& compliance);
 
 /// r0_from_points for a table: the measured frame for readings in the sweeps' frame; for readings in base_link with
 /// sweeps by the tracker, or none, the URDF's. Empty where the frame of the table is not known in R0.

@@ -23,7 +23,7 @@ struct ReflectorReading {
 };
 
 struct UnloadedPosture {
-  Vector6d q;  ///< with the sag in
+  JointVector q;  ///< with the sag in
   std::vector<ReflectorReading> reflectors;
 };
 
@@ -51,7 +51,7 @@ class PositionsCost : public ceres::CostFunction {
  public:
   PositionsCost(const AxesAtStart& axes, const Eigen::Vector3d& centre, std::vector<UnloadedPosture> postures,
                 Eigen::Index parameters)
-      : axes_(axes), centre_(centre), postures_(std::move(postures)) {
+      : axes_(axes), places_(static_cast<int>(axes.size())), centre_(centre), postures_(std::move(postures)) {
     for (const UnloadedPosture& one : postures_) rows_ += 3 * static_cast<Eigen::Index>(one.reflectors.size());
     set_num_residuals(static_cast<int>(parameters) + 1);
     mutable_parameter_block_sizes()->push_back(static_cast<int>(parameters));
@@ -95,8 +95,8 @@ class PositionsCost : public ceres::CostFunction {
   }
 
   PositionSums sumsAt(const Eigen::Ref<const Eigen::VectorXd>& steps, bool with_products) const {
-    const PlacedArm arm(axes_, centre_, steps.head<ArmParameters::kAxes>(),
-                        steps.segment<ArmParameters::kBase>(ArmParameters::kBaseAt));
+    const PlacedArm arm(axes_, centre_, steps.head(places_.axes()),
+                        steps.segment<ArmParameters::kBase>(places_.baseAt()));
     constexpr std::size_t kTogether = 16, kMicroseconds = 64;  // postures, and what they take
     return numerics::sumInBlocks<PositionSums>(
         (postures_.size() + kTogether - 1) / kTogether,
@@ -119,16 +119,15 @@ class PositionsCost : public ceres::CostFunction {
     for (const UnloadedPosture& one : postures) {
       const PlacedPosture posture(arm, one.q);
       for (const ReflectorReading& reading : one.reflectors) {
-        const Eigen::Index target = ArmParameters::targetAt(reading.target);
+        const Eigen::Index target = places_.targetAt(reading.target);
         const Eigen::Vector3d position = posture.position(reading.at_zero + steps.segment<3>(target));
         const Eigen::Vector3d off = reading.point - position, left = reading.whiten * off;
         sum.weighted += left.squaredNorm();
         sum.plain += off.squaredNorm();
         if (!with_products) continue;
         auto own = rows.middleRows<3>(row);
-        own.leftCols<ArmParameters::kAxes>().noalias() = -reading.whiten * posture.byAxes(position);
-        own.middleCols<ArmParameters::kBase>(ArmParameters::kBaseAt).noalias() =
-            -reading.whiten * posture.byBase(position);
+        own.leftCols(places_.axes()).noalias() = -reading.whiten * posture.byAxes(position);
+        own.middleCols<ArmParameters::kBase>(places_.baseAt()).noalias() = -reading.whiten * posture.byBase(position);
         own.middleCols<3>(target).noalias() = -reading.whiten * posture.byTarget();
         own.col(count) = left;
         row += 3;
@@ -140,6 +139,7 @@ class PositionsCost : public ceres::CostFunction {
   }
 
   AxesAtStart axes_;
+  ArmParameters places_;
   Eigen::Vector3d centre_;
   std::vector<UnloadedPosture> postures_;
   Eigen::Index rows_ = 0;
@@ -149,7 +149,8 @@ class PositionsCost : public ceres::CostFunction {
 
 class Calibration {
  public:
-  Calibration(const campaign::Campaign& campaign, const LoadingGeometry& start) : campaign_(campaign), start_(start) {}
+  Calibration(const campaign::Campaign& campaign, const LoadingGeometry& start)
+      : campaign_(campaign), start_(start), places_(start.arm.joints()) {}
 
   GeometryCalibration run() {
     GeometryCalibration result;
@@ -232,7 +233,7 @@ class Calibration {
       for (std::size_t k = 0; k < own.size(); ++k) own[k].whiten = whitening(positions_[first[p] + k]);
     });
     std::sort(used_targets_.begin(), used_targets_.end());
-    steps_ = Eigen::VectorXd::Zero(ArmParameters::count(start_.targets_at_zero.size()));
+    steps_ = Eigen::VectorXd::Zero(places_.count(start_.targets_at_zero.size()));
     cost_ =
         new PositionsCost(axesAtStart(start_.arm.axes_in_base_at_zero), centre_, std::move(postures), steps_.size());
     problem_.AddResidualBlock(cost_, nullptr, steps_.data());
@@ -250,11 +251,11 @@ class Calibration {
   /// `unseen`.
   std::vector<int> freeParameters(const std::vector<int>& unseen) const {
     std::vector<int> free;
-    for (int k = 0; k < ArmParameters::kBase; ++k) free.push_back(ArmParameters::kBaseAt + k);
+    for (int k = 0; k < ArmParameters::kBase; ++k) free.push_back(static_cast<int>(places_.baseAt()) + k);
     for (const std::size_t t : used_targets_) {
-      for (int k = 0; k < 3; ++k) free.push_back(static_cast<int>(ArmParameters::targetAt(t)) + k);
+      for (int k = 0; k < 3; ++k) free.push_back(static_cast<int>(places_.targetAt(t)) + k);
     }
-    for (int k = 0; k < ArmParameters::kAxes; ++k) {
+    for (int k = 0; k < places_.axes(); ++k) {
       if (std::find(unseen.begin(), unseen.end(), k) == unseen.end()) free.push_back(k);
     }
     return free;
@@ -265,13 +266,13 @@ class Calibration {
   /// and 2, which define R0.
   std::vector<int> unseenOfAxes() const {
     std::vector<int> order = freeParameters({});
-    auto axes = order.end() - ArmParameters::kAxes;
-    for (int axis = 5; axis >= 0; --axis) {
+    auto axes = order.end() - places_.axes();
+    for (int axis = start_.arm.joints() - 1; axis >= 0; --axis) {
       for (int k = 0; k < 4; ++k) *axes++ = 4 * axis + k;
     }
     std::vector<int> unseen;
     for (const int column : numerics::columnsInSpanOfEarlier(cost_->jacobian(steps_), order)) {
-      if (column < ArmParameters::kAxes) unseen.push_back(column);
+      if (column < places_.axes()) unseen.push_back(column);
     }
     std::sort(unseen.begin(), unseen.end());
     return unseen;
@@ -305,6 +306,7 @@ class Calibration {
 
   const campaign::Campaign& campaign_;
   LoadingGeometry start_;
+  ArmParameters places_;
   std::vector<UnloadedPosition> positions_;
   std::vector<std::size_t> used_targets_;
   Eigen::Vector3d centre_ = Eigen::Vector3d::Zero();  ///< mean of the measured points, in R0

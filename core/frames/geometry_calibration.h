@@ -16,7 +16,7 @@ namespace stiffscope::frames {
 struct UnloadedPosition {
   int pose = 0;
   int target = 0;
-  Vector6d q = Vector6d::Zero();
+  JointVector q;
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   int readings = 0;
 };

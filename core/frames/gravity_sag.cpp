@@ -31,7 +31,7 @@ RigidPoints rigidPoints(const campaign::Campaign& campaign, const SagModel& sag)
   return points;
 }
 
-SagModel::SagModel(robot::Robot arm_in_r0, robot::GravityLoad weight, const Vector6d& compliance,
+SagModel::SagModel(robot::Robot arm_in_r0, robot::GravityLoad weight, const JointVector& compliance,
                    std::vector<std::optional<Eigen::Vector3d>> targets_in_r0_at_zero,
                    const Eigen::Isometry3d& points_from_r0)
     : active_(weight.any() && !compliance.isZero()),
@@ -41,13 +41,13 @@ SagModel::SagModel(robot::Robot arm_in_r0, robot::GravityLoad weight, const Vect
       targets_(std::move(targets_in_r0_at_zero)),
       points_from_r0_(points_from_r0.linear()) {}
 
-Eigen::Vector3d SagModel::displacement(const Vector6d& q, int target) const {
+Eigen::Vector3d SagModel::displacement(const JointVector& q, int target) const {
   if (!active_) return Eigen::Vector3d::Zero();
   const auto& at_zero = targets_[static_cast<std::size_t>(target)];
   if (!at_zero) return Eigen::Vector3d::Zero();
   const robot::ArmPosture rigid = robot::postureAt(arm_, q);
   const robot::ArmPosture sagged = robot::postureAt(arm_, robot::saggedAngles(arm_, q, weight_, compliance_));
-  return points_from_r0_ * (sagged.motion[6] * *at_zero - rigid.motion[6] * *at_zero);
+  return points_from_r0_ * (sagged.motion.back() * *at_zero - rigid.motion.back() * *at_zero);
 }
 
 }  // namespace stiffscope::frames

@@ -15,19 +15,19 @@ class SagModel {
  public:
   /// No sag: masses or stiffnesses not known.
   SagModel() = default;
-  SagModel(robot::Robot arm_in_r0, robot::GravityLoad weight, const Vector6d& compliance,
+  SagModel(robot::Robot arm_in_r0, robot::GravityLoad weight, const JointVector& compliance,
            std::vector<std::optional<Eigen::Vector3d>> targets_in_r0_at_zero, const Eigen::Isometry3d& points_from_r0);
 
   bool active() const { return active_; }
 
   /// Displacement of target `target` by the sag at joint angles q, in the axes of the readings, m.
-  Eigen::Vector3d displacement(const Vector6d& q, int target) const;
+  Eigen::Vector3d displacement(const JointVector& q, int target) const;
 
  private:
   bool active_ = false;
   robot::Robot arm_;
   robot::GravityLoad weight_;
-  Vector6d compliance_ = Vector6d::Zero();
+  JointVector compliance_;
   std::vector<std::optional<Eigen::Vector3d>> targets_;
   Eigen::Matrix3d points_from_r0_ = Eigen::Matrix3d::Identity();
 };

@@ -12,7 +12,7 @@ namespace stiffscope::frames {
 namespace {
 
 /// How axis `axis` at zero moves with the axes before it at zero: 4 x 4 axis.
-Eigen::MatrixXd byEarlierAxes(const std::array<MeasuredAxis, 6>& axes, std::size_t axis) {
+Eigen::MatrixXd byEarlierAxes(const MeasuredAxes& axes, std::size_t axis) {
   std::vector<metrology::MeasuredLine> earlier;
   for (std::size_t before = 0; before < axis; ++before) earlier.push_back(axes[before].at_zero);
   return metrology::derivativesByLines(earlier, [&](const std::vector<metrology::Line>& moved) -> Eigen::VectorXd {
@@ -23,8 +23,9 @@ Eigen::MatrixXd byEarlierAxes(const std::array<MeasuredAxis, 6>& axes, std::size
 
 }  // namespace
 
-AxesCovariance axesCovariance(const std::array<MeasuredAxis, 6>& axes) {
-  AxesCovariance by_fits = AxesCovariance::Zero(), of_fits = AxesCovariance::Zero();
+AxesCovariance axesCovariance(const MeasuredAxes& axes) {
+  const auto size = static_cast<Eigen::Index>(4 * axes.size());
+  AxesCovariance by_fits = AxesCovariance::Zero(size, size), of_fits = by_fits;
   for (std::size_t axis = 0; axis < axes.size(); ++axis) {
     if (!axes[axis].measured) continue;
     const auto at = static_cast<Eigen::Index>(4 * axis);
@@ -50,7 +51,7 @@ struct Sweep {
   std::vector<metrology::CirclePoints> circles;
   std::vector<std::vector<double>> angles;  ///< of the turning joint, per circle and point
   std::vector<int> targets;
-  Vector6d q = Vector6d::Zero();  ///< of the first reading
+  JointVector q;  ///< of the first reading
   bool others_moved = false;
 };
 
@@ -64,7 +65,7 @@ Sweep collect(const campaign::Campaign& campaign, int axis, const RigidPoints& p
     const campaign::CircleReading& reading = campaign.circle_sweeps->rows[row];
     if (reading.axis != axis) continue;
     if (first) sweep.q = reading.q, first = false;
-    for (int joint = 0; joint < 6; ++joint) {
+    for (int joint = 0; joint < campaign.robot.joints(); ++joint) {
       if (joint != axis && std::abs(reading.q[joint] - sweep.q[joint]) > kStandsStill) sweep.others_moved = true;
     }
     const auto [place, added] = circle_of.try_emplace(reading.target, sweep.circles.size());
@@ -98,7 +99,7 @@ double scatterTurnedBack(const Sweep& sweep, const metrology::Line& axis, double
 }
 
 /// Turns the measured axis back through the axes before it; false with the reason where one of those is unknown.
-bool turnBackToZero(const std::array<MeasuredAxis, 6>& axes, int axis, MeasuredAxis& measured) {
+bool turnBackToZero(const MeasuredAxes& axes, int axis, MeasuredAxis& measured) {
   Eigen::Isometry3d back = Eigen::Isometry3d::Identity();
   for (int before = 0; before < axis; ++before) {
     if (measured.swept_at[before] == 0.0) continue;
@@ -119,7 +120,8 @@ bool turnBackToZero(const std::array<MeasuredAxis, 6>& axes, int axis, MeasuredA
 
 }  // namespace
 
-metrology::Line turnedBack(const std::vector<metrology::Line>& axes_at_zero, const Vector6d& q, metrology::Line line) {
+metrology::Line turnedBack(const std::vector<metrology::Line>& axes_at_zero, const JointVector& q,
+                           metrology::Line line) {
   for (std::size_t before = 0; before < axes_at_zero.size(); ++before) {
     const Eigen::Isometry3d back = turnAbout(axes_at_zero[before], -q[static_cast<Eigen::Index>(before)]);
     line = {back * line.point, back.linear() * line.direction};
@@ -131,9 +133,10 @@ metrology::TrackerNoise trackerNoise(const campaign::Tracker& tracker) {
   return {tracker.range_fixed, tracker.range_per_m, tracker.angle_fixed, tracker.angle_per_m, tracker.station};
 }
 
-std::array<MeasuredAxis, 6> measureAxes(const campaign::Campaign& campaign, const RigidPoints& points) {
-  std::array<MeasuredAxis, 6> axes;
-  for (int axis = 0; axis < 6; ++axis) {
+MeasuredAxes measureAxes(const campaign::Campaign& campaign, const RigidPoints& points) {
+  const int joints = campaign.robot.joints();
+  MeasuredAxes axes(static_cast<std::size_t>(joints), MeasuredAxis(joints));
+  for (int axis = 0; axis < joints; ++axis) {
     MeasuredAxis& measured = axes[static_cast<std::size_t>(axis)];
     if (!campaign.circle_sweeps) {
       measured.reason = Remark(RemarkId::no_circle_sweeps);

@@ -1,26 +1,18 @@
 #include "core/frames/frames.h"
 
-#include <numbers>
-
 #include "metrology/lines.h"
 
 namespace stiffscope::frames {
 
-namespace {
-
-constexpr double kNearParallel = std::numbers::pi / 180.0;
-
-}  // namespace
-
-Eigen::Vector3d hayatiPoint(const std::array<metrology::Line, 6>& axes, std::size_t first) {
+Eigen::Vector3d hayatiPoint(const robot::ArmAxes& axes, std::size_t first) {
   if (first == 0) return axes[0].point;
   if (metrology::angleBetween(axes[first - 1], axes[first]) < kNearParallel)
     return metrology::nearestPoint(axes[first], hayatiPoint(axes, first - 1));
   return metrology::commonPerpendicular(axes[first - 1], axes[first]).foot_on_second;
 }
 
-std::array<LinkGeometry, 5> linkGeometry(const robot::Robot& nominal, const ArmInR0& arm) {
-  std::array<LinkGeometry, 5> links;
+Links linkGeometry(const robot::Robot& nominal, const ArmInR0& arm) {
+  Links links(nominal.axes_in_base_at_zero.size() - 1);
   const auto& actual = arm.arm.axes_in_base_at_zero;
   const auto& urdf = nominal.axes_in_base_at_zero;
   for (std::size_t i = 0; i < links.size(); ++i) {

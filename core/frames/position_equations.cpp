@@ -17,24 +17,27 @@ class RowMaker {
       : geometry_(geometry),
         axes_(sweptAxes(frames, geometry.arm.axes_in_base_at_zero)),
         arm_(axes_),
-        steps_(ArmParameters::count(targets)) {}
+        places_(geometry.arm.joints()),
+        joints_(geometry.arm.joints()),
+        steps_(places_.count(targets)) {}
 
-  Eigen::Index parameters() const { return steps_ + 6; }
+  const ArmParameters& places() const { return places_; }
+  Eigen::Index parameters() const { return steps_ + joints_; }
 
   Eigen::MatrixXd prior() const {
     Eigen::MatrixXd prior = Eigen::MatrixXd::Zero(parameters(), parameters());
-    for (Eigen::Index j = 0; j < 6; ++j) {
+    for (Eigen::Index j = 0; j < joints_; ++j) {
       prior.block<4, 4>(4 * j, 4 * j) = axes_[static_cast<std::size_t>(j)].covariance.inverse();
     }
-    prior.bottomRightCorner<6, 6>() = Matrix6d::Identity() / (kSagShare * kSagShare);
+    prior.bottomRightCorner(joints_, joints_) = JointMatrix::Identity(joints_, joints_) / (kSagShare * kSagShare);
     return prior;
   }
 
   /// Rows of one posture but for the base's columns; `r0_from_loading` has brought the measured points into R0.
-  void add(const campaign::StatePoints& state, const Vector6d& q, const metrology::TrackerNoise& noise,
+  void add(const campaign::StatePoints& state, const JointVector& q, const metrology::TrackerNoise& noise,
            AbsoluteRows& result) const {
     const Eigen::Isometry3d& r0_from_loading = *geometry_.r0_from_loading;
-    const Vector6d sagged = geometry_.sagged(q);
+    const JointVector sagged = geometry_.sagged(q);
     const PlacedPosture posture(arm_, sagged);
     for (const campaign::ReflectorMean& mean : state.reflectors) {
       const auto& at_zero = geometry_.targets_at_zero[static_cast<std::size_t>(mean.target)];
@@ -49,11 +52,11 @@ class RowMaker {
       row.weight = (r0_from_loading.linear() * covariance * r0_from_loading.linear().transpose()).inverse();
       row.by_angles = posture.byAngles(modelled);
       row.jacobian = Eigen::MatrixXd::Zero(3, parameters());
-      row.jacobian.leftCols<ArmParameters::kAxes>() = posture.byAxes(modelled);
-      row.jacobian.middleCols<3>(ArmParameters::targetAt(static_cast<std::size_t>(mean.target))) = posture.byTarget();
+      row.jacobian.leftCols(places_.axes()) = posture.byAxes(modelled);
+      row.jacobian.middleCols<3>(places_.targetAt(static_cast<std::size_t>(mean.target))) = posture.byTarget();
       // The sag is proportional to each compliance: q_sagged = q + c tau.
       row.sag = sagged - q;
-      row.jacobian.rightCols<6>() = row.by_angles * row.sag.asDiagonal();
+      row.jacobian.rightCols(joints_) = row.by_angles * row.sag.asDiagonal();
       result.rows.push_back(std::move(row));
     }
   }
@@ -62,14 +65,15 @@ class RowMaker {
   const LoadingGeometry& geometry_;
   AxesAtStart axes_;
   PlacedArm arm_;
-  Eigen::Index steps_;
+  ArmParameters places_;
+  Eigen::Index joints_, steps_;
 };
 
 Remark missing(const campaign::Campaign& campaign, const Frames& frames, const LoadingGeometry& geometry,
                const std::optional<metrology::TrackerNoise>& noise) {
   if (!campaign.loading || !campaign.states) return Remark(RemarkId::no_absolute_readings);
   if (!noise) return Remark(RemarkId::tracker_noise_not_declared);
-  for (std::size_t j = 0; j < 6; ++j) {
+  for (std::size_t j = 0; j < frames.axes.size(); ++j) {
     if (!frames.axes[j].measured) return Remark(RemarkId::axis_not_measured, j + 1, frames.axes[j].reason);
   }
   if (!geometry.r0_from_loading) return Remark(RemarkId::loading_in_other_frame);
@@ -96,6 +100,7 @@ AbsoluteRows absoluteRows(const campaign::Campaign& campaign, const Frames& fram
     maker.add(state, reported->q, *noise, result);
     result.poses.push_back(state.pose);
   }
+  result.joints = geometry.arm.joints();
   result.parameters = static_cast<int>(maker.parameters());
   result.prior = maker.prior();
   std::vector<bool> seen(campaign.targets.size(), false);
@@ -105,7 +110,7 @@ AbsoluteRows absoluteRows(const campaign::Campaign& campaign, const Frames& fram
   }
   for (AbsoluteRow& row : result.rows) {
     // The readings' motion moves what was read, which need not be near the model.
-    row.jacobian.middleCols<6>(ArmParameters::kBaseAt) = metrology::pointByFrameError(row.point - result.centre);
+    row.jacobian.middleCols<6>(maker.places().baseAt()) = metrology::pointByFrameError(row.point - result.centre);
   }
   result.targets = static_cast<int>(std::count(seen.begin(), seen.end(), true));
   return result;

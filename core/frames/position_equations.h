@@ -16,7 +16,7 @@ namespace stiffscope::frames {
 inline constexpr double kSagShare = 0.1;
 
 /// One unloaded reflector against the model, in R0: measured less modelled, and how the model moves with the
-/// parameters: ArmParameters about the centre, axes as swept, then the compliances in parts of themselves (6).
+/// parameters: ArmParameters about the centre, axes as swept, then the compliances in parts of themselves, one a joint.
 struct AbsoluteRow {
   int pose = 0;
   int target = 0;
@@ -24,8 +24,8 @@ struct AbsoluteRow {
   Eigen::Vector3d residual = Eigen::Vector3d::Zero();
   Eigen::Matrix3d weight = Eigen::Matrix3d::Zero();  ///< inverse covariance of the reading
   Eigen::MatrixXd jacobian;                          ///< 3 x parameters
-  Vector6d sag = Vector6d::Zero();                   ///< of the posture's joints by the own weight, rad
-  Matrix36d by_angles = Matrix36d::Zero();           ///< by the posture's joint angles
+  JointVector sag;                                   ///< of the posture's joints by the own weight, rad
+  PointJacobian by_angles;                           ///< by the posture's joint angles
 };
 
 struct AbsoluteRows {
@@ -34,6 +34,7 @@ struct AbsoluteRows {
   std::vector<int> poses;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< mean of the measured points
   int targets = 0;
+  int joints = 0;
   int parameters = 0;
   Eigen::MatrixXd prior;  ///< inverse covariance of what is known beforehand: axes by their sweeps, compliances
 };

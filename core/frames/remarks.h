@@ -13,7 +13,7 @@ enum class RemarkId {
   no_wrist_sweep,
   r0_not_in_frame_of_readings,
   wrist_sweep_in_other_frame,
-  arm_moved_in_wrist_sweep,
+  arm_moved_in_wrist_sweep,  ///< number of the last axis before the wrist
   wrist_reflectors_under_four,
   // the arm's own sag
   sag_without_stiffness,

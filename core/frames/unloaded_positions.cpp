@@ -54,7 +54,8 @@ std::optional<BaseFromPostures> baseFromPostures(const LoadingGeometry& geometry
   for (const auto& [pose, seen] : poses) {
     const auto turn = measuredTurn(first, seen);
     if (!turn) continue;
-    const Eigen::Matrix3d by_model = seen.posture.motion[6].linear() * first.posture.motion[6].linear().transpose();
+    const Eigen::Matrix3d by_model =
+        seen.posture.motion.back().linear() * first.posture.motion.back().linear().transpose();
     cross += robot::rotationVector(*turn) * robot::rotationVector(by_model).transpose();
   }
   const metrology::NearestRotation nearest = metrology::nearestRotation(cross);
@@ -68,8 +69,8 @@ std::optional<BaseFromPostures> baseFromPostures(const LoadingGeometry& geometry
   Eigen::VectorXd right = Eigen::VectorXd::Zero(size);
   std::vector<int> counts(target_count, 0);
   for (const auto& [pose, seen] : poses) {
-    const Eigen::Matrix3d turn = points_from_base * seen.posture.motion[6].linear();
-    const Eigen::Vector3d shift = points_from_base * seen.posture.motion[6].translation();
+    const Eigen::Matrix3d turn = points_from_base * seen.posture.motion.back().linear();
+    const Eigen::Vector3d shift = points_from_base * seen.posture.motion.back().translation();
     for (const auto& [target, point] : seen.points) {
       const Eigen::Index at = 3 + 3 * target;
       normal.topLeftCorner<3, 3>() += Eigen::Matrix3d::Identity();

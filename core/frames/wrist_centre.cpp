@@ -46,9 +46,10 @@ SweepOfTargets collect(const campaign::Campaign& campaign, const ArmInR0& arm, c
 }
 
 bool armStoodStill(const campaign::WristSweep& sweep) {
-  const Vector6d& first = sweep.rows.front().q;
+  const JointVector& first = sweep.rows.front().q;
+  const int arm = robot::armJointsOf(static_cast<int>(first.size()));
   for (const campaign::WristReading& reading : sweep.rows) {
-    if ((reading.q.head<3>() - first.head<3>()).cwiseAbs().maxCoeff() > kStandsStill) return false;
+    if ((reading.q.head(arm) - first.head(arm)).cwiseAbs().maxCoeff() > kStandsStill) return false;
   }
   return true;
 }
@@ -67,12 +68,13 @@ void fillTable(const SweepOfTargets& sweep, WristCentre& wrist) {
 }
 
 void compareWithAxes(const ArmInR0& arm, const robot::ArmPosture& posture, WristCentre& wrist) {
-  const metrology::Line axis_4 = robot::axisAt(arm.arm, posture, 3), axis_5 = robot::axisAt(arm.arm, posture, 4),
-                        axis_6 = robot::axisAt(arm.arm, posture, 5);
-  const metrology::CommonPerpendicular wrist_56 = metrology::commonPerpendicular(axis_5, axis_6);
-  wrist.nearest_axes_56_in_r0 = 0.5 * (wrist_56.foot_on_first + wrist_56.foot_on_second);
-  wrist.miss_45 = metrology::commonPerpendicular(axis_4, axis_5).distance;
-  wrist.miss_56 = wrist_56.distance;
+  const int last = arm.arm.joints() - 1;
+  for (int first = robot::armJointsOf(arm.arm.joints()); first < last; ++first) {
+    const metrology::CommonPerpendicular between = metrology::commonPerpendicular(
+        robot::axisAt(arm.arm, posture, first), robot::axisAt(arm.arm, posture, first + 1));
+    wrist.misses.push_back({first, between.distance});
+    wrist.nearest_last_axes_in_r0 = 0.5 * (between.foot_on_first + between.foot_on_second);
+  }
 }
 
 }  // namespace
@@ -80,12 +82,14 @@ void compareWithAxes(const ArmInR0& arm, const robot::ArmPosture& posture, Wrist
 WristCentre measureWristCentre(const campaign::Campaign& campaign, const ArmInR0& arm, const RigidPoints& points,
                                const std::vector<std::optional<Eigen::Vector3d>>& targets_at_zero) {
   WristCentre wrist;
-  if (campaign.wrist_sweep) wrist.q.head<3>() = campaign.wrist_sweep->rows.front().q.head<3>();
+  const int carrying = robot::armJointsOf(arm.arm.joints());
+  wrist.q.setZero(arm.arm.joints());
+  if (campaign.wrist_sweep) wrist.q.head(carrying) = campaign.wrist_sweep->rows.front().q.head(carrying);
   const robot::ArmPosture posture = robot::postureAt(arm.arm, wrist.q);
   compareWithAxes(arm, posture, wrist);
   int seen = 0;
   for (const auto& target : targets_at_zero) {
-    if (target) wrist.reflector_barycentre_in_r0 += posture.motion[6] * *target, ++seen;
+    if (target) wrist.reflector_barycentre_in_r0 += posture.motion.back() * *target, ++seen;
   }
   if (seen > 0) wrist.reflector_barycentre_in_r0 /= seen;
 
@@ -103,7 +107,7 @@ WristCentre measureWristCentre(const campaign::Campaign& campaign, const ArmInR0
     return wrist;
   }
   if (!armStoodStill(*campaign.wrist_sweep)) {
-    wrist.reason = Remark(RemarkId::arm_moved_in_wrist_sweep);
+    wrist.reason = Remark(RemarkId::arm_moved_in_wrist_sweep, carrying);
     return wrist;
   }
   const SweepOfTargets sweep = collect(campaign, arm, points);
@@ -118,7 +122,7 @@ WristCentre measureWristCentre(const campaign::Campaign& campaign, const ArmInR0
   }
   wrist.centre_in_r0 = wrist.spheres.centre;
   wrist.targets = sweep.targets;
-  wrist.centre_at_zero_in_r0 = posture.motion[3].inverse() * wrist.centre_in_r0;
+  wrist.centre_at_zero_in_r0 = posture.motion[static_cast<std::size_t>(carrying)].inverse() * wrist.centre_in_r0;
   wrist.radii.assign(campaign.targets.size(), std::numeric_limits<double>::quiet_NaN());
   for (std::size_t k = 0; k < sweep.targets.size(); ++k) {
     wrist.radii[static_cast<std::size_t>(sweep.targets[k])] = wrist.spheres.radii[k];

@@ -10,7 +10,7 @@ namespace stiffscope::identification {
 
 namespace {
 
-Vector6d solveDraw(const SubsetMethod& method, std::uint64_t seed, std::uint64_t draw) {
+JointVector solveDraw(const SubsetMethod& method, std::uint64_t seed, std::uint64_t draw) {
   std::seed_seq seeds{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32),
                       static_cast<std::uint32_t>(draw)};
   std::mt19937_64 random(seeds);
@@ -27,7 +27,7 @@ Vector6d solveDraw(const SubsetMethod& method, std::uint64_t seed, std::uint64_t
 CoverageInterval PostureBootstrap::compliance(int joint, double coverage) const {
   if (compliances.empty()) return {};
   std::vector<double> sorted;
-  for (const Vector6d& one : compliances) sorted.push_back(one[joint]);
+  for (const JointVector& one : compliances) sorted.push_back(one[joint]);
   std::sort(sorted.begin(), sorted.end());
   return {numerics::quantile(sorted, 0.5 * (1.0 - coverage)), numerics::quantile(sorted, 0.5 * (1.0 + coverage))};
 }

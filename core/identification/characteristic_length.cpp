@@ -15,26 +15,30 @@ namespace {
 /// J^T J of the stacked Jacobian, displacement and rotation rows apart: its condition number at any L is that
 /// of linear / L^2 + angular, square root taken.
 struct StackedJacobian {
-  Matrix6d linear = Matrix6d::Zero(), angular = Matrix6d::Zero();
+  JointMatrix linear, angular;  // none before the first posture
 
   StackedJacobian& operator+=(const StackedJacobian& other) {
+    if (other.linear.size() == 0) return *this;
+    if (linear.size() == 0) return *this = other;
     linear += other.linear;
     angular += other.angular;
     return *this;
   }
 
   double condition(double length) const {
-    const Matrix6d gram = linear / (length * length) + angular;
+    const JointMatrix gram = linear / (length * length) + angular;
     const Eigen::VectorXd values = symmetricEigenvalues(gram);
-    return std::sqrt(values[5] / values[0]);
+    return std::sqrt(values[values.size() - 1] / values[0]);
   }
 };
 
 StackedJacobian stackedJacobian(const std::vector<LoadCase>& cases, const Eigen::Vector3d& tcp_in_flange) {
   return numerics::sumInBlocks<StackedJacobian>(cases.size(), [&](std::size_t i, StackedJacobian& sum) {
-    const Matrix6d jacobian = robot::jacobianAt(cases[i].axes, *cases[i].flange_unloaded * tcp_in_flange);
-    sum.linear += jacobian.topRows<3>().transpose() * jacobian.topRows<3>();
-    sum.angular += jacobian.bottomRows<3>().transpose() * jacobian.bottomRows<3>();
+    const Jacobian jacobian = robot::jacobianAt(cases[i].axes, *cases[i].flange_unloaded * tcp_in_flange);
+    const Eigen::Index joints = jacobian.cols();
+    if (sum.linear.size() == 0) sum.linear = sum.angular = JointMatrix::Zero(joints, joints);
+    sum.linear += jacobian.topRows<3>().transpose().lazyProduct(jacobian.topRows<3>());
+    sum.angular += jacobian.bottomRows<3>().transpose().lazyProduct(jacobian.bottomRows<3>());
   });
 }
 

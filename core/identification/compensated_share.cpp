@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <type_traits>
 
 #include "core/identification/estimate.h"
 #include "core/numerics/parallel.h"
@@ -60,7 +61,8 @@ DeflectionJudge::DeflectionJudge(const std::vector<CaseEquations>& equations, co
         PointBlock& block = blocks_[at / PointBlock::kPoints];
         const std::size_t point = at % PointBlock::kPoints;
         for (int axis = 0; axis < 3; ++axis) {
-          for (int joint = 0; joint < 6; ++joint) block.matrix[axis][joint][point] = one.matrix(row + axis, joint);
+          for (Eigen::Index joint = 0; joint < one.matrix.cols(); ++joint)
+            block.matrix[axis][joint][point] = one.matrix(row + axis, joint);
           block.right[axis][point] = one.right[row + axis];
         }
         sum += one.right.segment<3>(row).norm();
@@ -76,7 +78,7 @@ constexpr std::size_t kTogether = 8;  // blocks at a time: they stay in the near
 
 }  // namespace
 
-void DeflectionJudge::addResidual(std::size_t from_block, std::size_t blocks, const Vector6d& compliance,
+void DeflectionJudge::addResidual(std::size_t from_block, std::size_t blocks, const JointVector& compliance,
                                   std::vector<double>& per_posture) const {
   std::array<double, kTogether * PointBlock::kPoints> norms;
   residualNorms(std::span(blocks_).subspan(from_block, blocks), compliance, norms);
@@ -92,7 +94,7 @@ void DeflectionJudge::addResidual(std::size_t from_block, std::size_t blocks, co
   }
 }
 
-void DeflectionJudge::residuals(std::span<const Vector6d> compliances,
+void DeflectionJudge::residuals(std::span<const JointVector> compliances,
                                 std::span<std::vector<double>* const> per_posture) const {
   for (std::vector<double>* one : per_posture) one->assign(displacement_.size(), 0.0);
   for (std::size_t from = 0; from < blocks_.size(); from += kTogether) {
@@ -102,14 +104,14 @@ void DeflectionJudge::residuals(std::span<const Vector6d> compliances,
   }
 }
 
-std::vector<double> DeflectionJudge::residual(const Vector6d& compliance) const {
+std::vector<double> DeflectionJudge::residual(const JointVector& compliance) const {
   std::vector<double> per_posture;
   std::vector<double>* const into = &per_posture;
   residuals({&compliance, 1}, {&into, 1});
   return per_posture;
 }
 
-double DeflectionJudge::compensated(const Vector6d& compliance) const {
+double DeflectionJudge::compensated(const JointVector& compliance) const {
   const std::vector<double> left = residual(compliance);
   return 1.0 - std::accumulate(left.begin(), left.end(), 0.0) /
                    std::accumulate(displacement_.begin(), displacement_.end(), 0.0);
@@ -132,11 +134,12 @@ double DeflectionJudge::compensated(const Vector6d& compliance) const {
 #define STIFFSCOPE_BY_PROCESSOR
 #endif
 
-STIFFSCOPE_BY_PROCESSOR
-void residualNorms(std::span<const PointBlock> blocks, const Vector6d& compliance, std::span<double> norms) {
-  double c[6];
-  for (int joint = 0; joint < 6; ++joint) c[joint] = compliance[joint];
-  double* norm = norms.data();
+namespace {
+
+/// `joints` is a number for the compiler where it is that of most machines.
+template <class Joints>
+[[gnu::always_inline]] inline void normsOf(std::span<const PointBlock> blocks, const double* c, double* norm,
+                                           Joints joints) {
   constexpr std::size_t kPoints = PointBlock::kPoints;
   for (const PointBlock& block : blocks) {
     // Points innermost: every compiler puts those side by side into registers.
@@ -144,7 +147,7 @@ void residualNorms(std::span<const PointBlock> blocks, const Vector6d& complianc
     for (int axis = 0; axis < 3; ++axis) {
       double residual[kPoints];
       for (std::size_t point = 0; point < kPoints; ++point) residual[point] = block.right[axis][point];
-      for (int joint = 0; joint < 6; ++joint) {
+      for (int joint = 0; joint < joints; ++joint) {
         for (std::size_t point = 0; point < kPoints; ++point)
           residual[point] -= block.matrix[axis][joint][point] * c[joint];
       }
@@ -153,6 +156,14 @@ void residualNorms(std::span<const PointBlock> blocks, const Vector6d& complianc
     for (std::size_t point = 0; point < kPoints; ++point) norm[point] = std::sqrt(square[point]);
     norm += PointBlock::kPoints;
   }
+}
+
+}  // namespace
+
+STIFFSCOPE_BY_PROCESSOR
+void residualNorms(std::span<const PointBlock> blocks, const JointVector& compliance, std::span<double> norms) {
+  if (compliance.size() == 6) return normsOf(blocks, compliance.data(), norms.data(), std::integral_constant<int, 6>());
+  normsOf(blocks, compliance.data(), norms.data(), static_cast<int>(compliance.size()));
 }
 
 }  // namespace stiffscope::identification

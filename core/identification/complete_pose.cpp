@@ -10,7 +10,7 @@
 namespace stiffscope::identification {
 
 CaseEquations completePoseEquations(const LoadCase& load_case, const Eigen::Vector3d& tcp_in_flange,
-                                    const Vector6d& torque) {
+                                    const JointVector& torque) {
   const Eigen::Isometry3d &before = *load_case.flange_unloaded, &after = *load_case.flange_loaded;
   const Eigen::AngleAxisd rotation(after.linear() * before.linear().transpose());
   const Eigen::Vector3d unloaded = before * tcp_in_flange, loaded = after * tcp_in_flange;

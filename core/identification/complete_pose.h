@@ -29,7 +29,7 @@ double jacobianCondition(const std::vector<LoadCase>& cases, const Eigen::Vector
 /// the rigid motion of the reflectors between unloaded and loaded. Rows 0-2 in m, rows 3-5 in rad, not yet
 /// normalised. Needs load_case.flange_unloaded and flange_loaded.
 CaseEquations completePoseEquations(const LoadCase& load_case, const Eigen::Vector3d& tcp_in_flange,
-                                    const Vector6d& torque);
+                                    const JointVector& torque);
 
 /// How the right-hand side of completePoseEquations follows small displacements of the case's reflectors, three columns
 /// each in their order: the least-squares rigid motion, taken in the middle of the move.
@@ -41,7 +41,7 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> poseByReflectors(const frames::LoadingG
 /// Pose equations with the displacement rows divided by the characteristic length.
 CaseEquations normalised(const CaseEquations& pose_equations, double characteristic_length);
 
-/// All six compliances at once from normalised equations; residuals are judged at P_TCP's displacement.
+/// All compliances at once from normalised equations; residuals are judged at P_TCP's displacement.
 StiffnessEstimate completePose(const std::vector<CaseEquations>& pose_equations, double characteristic_length,
                                const robot::JointMask& unknown);
 

@@ -9,6 +9,8 @@ namespace stiffscope::identification {
 
 namespace {
 
+Eigen::Index armOf(const JointVector& compliance) { return robot::armJointsOf(static_cast<int>(compliance.size())); }
+
 /// Sums of lengths, m.
 struct LeakSums {
   double leak = 0.0, whole = 0.0;
@@ -22,9 +24,9 @@ struct LeakSums {
 
 }  // namespace
 
-double wristLeak(const LoadedArm& arm, const Eigen::Vector3d& centre_at_zero, const Vector6d& compliance) {
-  Vector6d wrist_only = compliance;
-  wrist_only.head<3>().setZero();
+double wristLeak(const LoadedArm& arm, const Eigen::Vector3d& centre_at_zero, const JointVector& compliance) {
+  JointVector wrist_only = compliance;
+  wrist_only.head(armOf(compliance)).setZero();
   const auto sums = numerics::sumInBlocks<LeakSums>(arm.wrist.size(), [&](std::size_t i, LeakSums& sum) {
     // The wrist centre where the arm's geometry has it, so that only the axes' miss counts.
     const Eigen::Vector3d centre = modelledWrist(arm.geometry.arm, arm.cases[i], centre_at_zero);
@@ -36,18 +38,23 @@ double wristLeak(const LoadedArm& arm, const Eigen::Vector3d& centre_at_zero, co
 
 namespace {
 
-robot::JointMask armOf(const robot::JointMask& unknown) {
-  return {unknown[0], unknown[1], unknown[2], false, false, false};
+robot::JointMask armOf(robot::JointMask unknown) {
+  const auto arm = static_cast<std::size_t>(robot::armJointsOf(static_cast<int>(unknown.size())));
+  std::fill(unknown.begin() + arm, unknown.end(), false);
+  return unknown;
 }
-robot::JointMask wristOf(const robot::JointMask& unknown) {
-  return {false, false, false, unknown[3], unknown[4], unknown[5]};
+robot::JointMask wristOf(robot::JointMask unknown) {
+  const auto arm = static_cast<std::size_t>(robot::armJointsOf(static_cast<int>(unknown.size())));
+  std::fill(unknown.begin(), unknown.begin() + arm, false);
+  return unknown;
 }
 
-Vector6d armPartOf(const Vector6d& compliance) {
-  return (Vector6d() << compliance.head<3>(), Eigen::Vector3d::Zero()).finished();
+JointVector armPartOf(JointVector compliance) {
+  compliance.tail(robot::wristJointsOf(static_cast<int>(compliance.size()))).setZero();
+  return compliance;
 }
 
-double variance(const std::vector<CaseEquations>& equations, const Vector6d& compliance) {
+double variance(const std::vector<CaseEquations>& equations, const JointVector& compliance) {
   double sum = 0.0;
   Eigen::Index rows = 0;
   for (const CaseEquations& one : equations) {
@@ -63,22 +70,23 @@ void setDecoupledScatter(const std::vector<NormalEquations>& wrist, const std::v
                          const NormalEquations& wrist_sum, const NormalEquations& reflector_sum, double wrist_variance,
                          double reflector_variance, StiffnessEstimate& estimate) {
   const robot::JointMask arm_joints = armOf(estimate.identifiable), wrist_joints = wristOf(estimate.identifiable);
-  const Vector6d arm_only = armPartOf(estimate.compliance);
-  const Matrix6d arm_inverse = inverseNormal(wrist_sum, arm_joints);
-  const Matrix6d wrist_inverse = inverseNormal(reflector_sum, wrist_joints);
-  const Matrix6d carried = Matrix6d::Identity() - wrist_inverse * reflector_sum.matrix;
+  const JointVector arm_only = armPartOf(estimate.compliance);
+  const JointMatrix arm_inverse = inverseNormal(wrist_sum, arm_joints);
+  const JointMatrix wrist_inverse = inverseNormal(reflector_sum, wrist_joints);
+  const Eigen::Index joints = estimate.compliance.size();
+  const JointMatrix carried = JointMatrix::Identity(joints, joints) - wrist_inverse * reflector_sum.matrix;
   const PostureGains arm_gain(wrist_sum, arm_joints), wrist_gain(reflector_sum, wrist_joints);
   std::vector<PostureGain> by_wrist(wrist.size()), by_reflectors(wrist.size());
-  std::vector<Vector6d> influences(wrist.size());
+  std::vector<JointVector> influences(wrist.size());
   numerics::smallWorkOnAllCores(wrist.size(), [&](std::size_t p) {
     by_wrist[p] = carried * arm_gain.of(wrist[p].matrix);
     by_reflectors[p] = wrist_gain.of(reflectors[p].matrix);
     influences[p] = by_wrist[p] * (wrist[p].right - wrist[p].matrix * arm_only) +
                     by_reflectors[p] * (reflectors[p].right - reflectors[p].matrix * estimate.compliance);
   });
-  Vector6d dof = Vector6d::Zero();
+  JointVector dof = JointVector::Zero(joints);
   numerics::onAllCores(
-      6,
+      static_cast<std::size_t>(joints),
       [&](std::size_t joint) {
         if (!estimate.identifiable[joint]) return;
         const int j = static_cast<int>(joint);
@@ -92,9 +100,10 @@ void setDecoupledScatter(const std::vector<NormalEquations>& wrist, const std::v
 
 }  // namespace
 
-Vector6d solveDecoupled(const NormalEquations& wrist_sum, const NormalEquations& reflector_sum,
-                        const robot::JointMask& unknown) {
-  const Vector6d arm = solveNormal(wrist_sum, armOf(unknown));
+JointVector solveDecoupled(const NormalEquations& wrist_sum, const NormalEquations& reflector_sum,
+                           const robot::JointMask& unknown) {
+  const JointVector arm = solveNormal(wrist_sum, armOf(unknown));
+  if (reflector_sum.right.size() == 0) return arm;
   // A^T (b - A c_arm) = A^T b - (A^T A) c_arm: the arm's model subtracted, (37).
   const NormalEquations rest{reflector_sum.matrix, reflector_sum.right - reflector_sum.matrix * arm};
   return arm + solveNormal(rest, wristOf(unknown));  // (33), (38)

@@ -20,7 +20,8 @@ namespace {
 /// R of A = Q R, A given in blocks of rows: the rows at hand under what the earlier ones left.
 class TriangularFactor {
  public:
-  void add(const Eigen::Matrix<double, Eigen::Dynamic, 6>& rows) {
+  void add(const JointRows& rows) {
+    if (work_.cols() == 0) work_.resize(kRows, rows.cols());
     rows_ += rows.rows();
     for (Eigen::Index from = 0; from < rows.rows();) {
       const Eigen::Index count = std::min(rows.rows() - from, kRows - filled_);
@@ -32,46 +33,62 @@ class TriangularFactor {
 
   /// With the rows under the other one's, too.
   TriangularFactor& operator+=(TriangularFactor& other) {
+    if (other.work_.cols() == 0) return *this;
     add(other.triangle());
-    rows_ += other.rows_ - 6;
+    rows_ += other.rows_ - other.work_.cols();
     return *this;
   }
 
   /// Of all rows.
   Eigen::Index rows() const { return rows_; }
 
-  Matrix6d triangle() {
+  JointMatrix triangle() {
     reduce();
-    return work_.topRows<6>();
+    return work_.topRows(work_.cols());
   }
 
  private:
   void reduce() {
     work_.bottomRows(kRows - filled_).setZero();
-    const Matrix6d triangle = work_.householderQr().matrixQR().topRows<6>().triangularView<Eigen::Upper>();
-    work_.topRows<6>() = triangle;
-    filled_ = 6;
+    const Eigen::Index joints = work_.cols();
+    const JointMatrix triangle = work_.householderQr().matrixQR().topRows(joints).triangularView<Eigen::Upper>();
+    work_.topRows(joints) = triangle;
+    filled_ = joints;
   }
 
   static constexpr Eigen::Index kRows = 96;
-  Eigen::Matrix<double, kRows, 6> work_;
+  Eigen::Matrix<double, kRows, Eigen::Dynamic, Eigen::ColMajor, kRows, kMostJoints> work_;
   Eigen::Index filled_ = 0, rows_ = 0;
 };
 
 }  // namespace
 
 NormalEquations& NormalEquations::operator+=(const NormalEquations& other) {
+  if (other.right.size() == 0) return *this;
+  if (right.size() == 0) return *this = other;
   matrix += other.matrix;
   right += other.right;
   return *this;
 }
 
+void NormalEquations::add(const PointJacobian& rows, const Eigen::Vector3d& values) {
+  if (right.size() == 0) *this = NormalEquations(rows.cols());
+  if (rows.cols() == 6) {  // most machines, at fixed size
+    const Eigen::Map<const Eigen::Matrix<double, 3, 6>> six(rows.data());
+    Eigen::Map<Matrix6d>(matrix.data()).noalias() += six.transpose() * six;
+    Eigen::Map<Vector6d>(right.data()).noalias() += six.transpose() * values;
+    return;
+  }
+  matrix.noalias() += rows.transpose().lazyProduct(rows);
+  right.noalias() += rows.transpose().lazyProduct(values);
+}
+
 NormalEquations normalEquations(const CaseEquations& equations) {
   // By columns: for few rows a general matrix product costs more in its preparations than it computes.
-  NormalEquations normal;
-  for (int i = 0; i < 6; ++i) {
+  NormalEquations normal(equations.matrix.cols());
+  for (Eigen::Index i = 0; i < equations.matrix.cols(); ++i) {
     const auto column = equations.matrix.col(i);
-    for (int j = 0; j <= i; ++j) {
+    for (Eigen::Index j = 0; j <= i; ++j) {
       normal.matrix(i, j) = normal.matrix(j, i) = column.dot(equations.matrix.col(j));
     }
     normal.right[i] = column.dot(equations.right);
@@ -91,22 +108,25 @@ NormalEquations sumOf(const std::vector<NormalEquations>& normal) {
   return sum;
 }
 
-ScaledNormal scaledNormal(const Matrix6d& matrix, const robot::JointMask& unknown) {
-  // Joints left out get a unit diagonal: one fixed-size solve serves every mask.
-  ScaledNormal scaled{matrix, Vector6d::Zero()};
-  for (int j = 0; j < 6; ++j) {
+ScaledNormal scaledNormal(const JointMatrix& matrix, const robot::JointMask& unknown) {
+  // Joints left out get a unit diagonal: one solve serves every mask.
+  const auto joints = static_cast<Eigen::Index>(unknown.size());
+  if (matrix.size() == 0) return {JointMatrix::Identity(joints, joints), JointVector::Zero(joints)};  // no equations
+  ScaledNormal scaled{matrix, JointVector::Zero(joints)};
+  for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
     if (unknown[static_cast<std::size_t>(j)] && matrix(j, j) > 0.0) scaled.scale[j] = 1.0 / std::sqrt(matrix(j, j));
   }
   scaled.matrix = scaled.scale.asDiagonal() * matrix * scaled.scale.asDiagonal();
-  for (int j = 0; j < 6; ++j) {
+  for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
     if (scaled.scale[j] == 0.0) scaled.matrix(j, j) = 1.0;
   }
   return scaled;
 }
 
-Vector6d solveNormal(const NormalEquations& sum, const robot::JointMask& unknown) {
+JointVector solveNormal(const NormalEquations& sum, const robot::JointMask& unknown) {
+  if (sum.right.size() == 0) return JointVector::Zero(static_cast<Eigen::Index>(unknown.size()));
   const ScaledNormal scaled = scaledNormal(sum.matrix, unknown);
-  const Vector6d right = scaled.scale.cwiseProduct(sum.right);
+  const JointVector right = scaled.scale.cwiseProduct(sum.right);
   // The plain Cholesky factors are twice as quick, which counts over 92,378 subsets; the pivoted ones bear a
   // rank loss.
   return scaled.scale.cwiseProduct(solvePositive(scaled.matrix, right));
@@ -116,13 +136,14 @@ double conditionNumber(const std::vector<CaseEquations>& equations, const robot:
   auto factor = numerics::sumInBlocks<TriangularFactor>(
       equations.size(), [&](std::size_t i, TriangularFactor& sum) { sum.add(equations[i].matrix); });
   // Q turns columns and leaves their lengths: the triangular factor has those of the stacked matrix.
-  const Matrix6d triangle = factor.triangle();
-  Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 6> unit(6, 0);
-  for (int j = 0; j < 6; ++j) {
+  if (factor.rows() == 0) return std::numeric_limits<double>::infinity();
+  const JointMatrix triangle = factor.triangle();
+  JointMatrix unit(triangle.rows(), 0);
+  for (Eigen::Index j = 0; j < triangle.cols(); ++j) {
     if (!unknown[static_cast<std::size_t>(j)]) continue;
     const double length = triangle.col(j).norm();
     if (length == 0.0) return std::numeric_limits<double>::infinity();
-    unit.conservativeResize(6, unit.cols() + 1);
+    unit.conservativeResize(triangle.rows(), unit.cols() + 1);
     unit.rightCols<1>() = triangle.col(j) / length;
   }
   if (unit.cols() == 0 || factor.rows() < unit.cols()) return std::numeric_limits<double>::infinity();
@@ -157,7 +178,8 @@ std::optional<Three> largestTriangle(const LoadCase& load_case, const std::vecto
 
 Eigen::Vector3d modelledWrist(const robot::Robot& arm, const LoadCase& load_case,
                               const Eigen::Vector3d& centre_at_zero) {
-  return unloadedPosture(arm, load_case).motion[3] * centre_at_zero;
+  const auto carrying = static_cast<std::size_t>(robot::armJointsOf(arm.joints()));
+  return unloadedPosture(arm, load_case).motion[carrying] * centre_at_zero;
 }
 
 std::optional<WristMove> wristMove(const LoadCase& load_case, const std::vector<double>& radii,
@@ -196,7 +218,7 @@ Eigen::Matrix<double, 3, Eigen::Dynamic> wristByReflectors(const LoadCase& load_
   return map;
 }
 
-CaseEquations wristEquations(const LoadCase& load_case, const WristMove& wrist, const Vector6d& torque) {
+CaseEquations wristEquations(const LoadCase& load_case, const WristMove& wrist, const JointVector& torque) {
   const Eigen::Vector3d point = jacobianPoint(load_case, wrist.unloaded, wrist.loaded);
   return {pointRows(jacobianAxes(load_case), point, torque), wrist.displacement(), load_case.pose};
 }
@@ -206,59 +228,62 @@ namespace {
 /// By how K_c turns torques into torques, K_c c; the own weight's part depends on the posture alone.
 class SpringTorque {
  public:
-  SpringTorque(const frames::LoadingGeometry& geometry, const LoadCase& load_case, const Vector6d& compliance)
-      : axes_(load_case.axes), compliance_(compliance) {
+  SpringTorque(const frames::LoadingGeometry& geometry, const LoadCase& load_case, const JointVector& compliance)
+      : axes_(load_case.axes),
+        by_weight_(JointMatrix::Zero(compliance.size(), compliance.size())),
+        compliance_(compliance) {
     if (geometry.weight.any()) {
       by_weight_ = robot::geometricStiffness(axes_, unloadedPosture(geometry.arm, load_case), geometry.weight);
     }
   }
 
   /// Solves s = tau + K_c c s.
-  Vector6d under(const robot::Wrench& wrench) const {
-    const Matrix6d change = robot::geometricStiffness(axes_, wrench) + by_weight_;
-    const Matrix6d system = Matrix6d::Identity() - change * compliance_.asDiagonal();
+  JointVector under(const robot::Wrench& wrench) const {
+    const JointMatrix change = robot::geometricStiffness(axes_, wrench) + by_weight_;
+    const Eigen::Index joints = compliance_.size();
+    const JointMatrix system = JointMatrix::Identity(joints, joints) - change * compliance_.asDiagonal();
     return solveLu(system, robot::jointTorque(axes_, wrench));
   }
 
  private:
   const robot::ArmAxes& axes_;
-  Matrix6d by_weight_ = Matrix6d::Zero();
-  const Vector6d& compliance_;
+  JointMatrix by_weight_;
+  const JointVector& compliance_;
 };
 
 /// The wrench as the model's turn of its body by these joint angles directs it.
-robot::Wrench turnedWrench(const robot::Robot& arm, const LoadCase& load_case, const Vector6d& loaded) {
+robot::Wrench turnedWrench(const robot::Robot& arm, const LoadCase& load_case, const JointVector& loaded) {
   const auto body = static_cast<std::size_t>(load_case.wrench_turns_with);
   const Eigen::Matrix3d turn = robot::postureAt(arm, loaded).motion[body].linear() * load_case.unturned.transpose();
   return {load_case.wrench.point, turn * load_case.wrench_unturned.force, turn * load_case.wrench_unturned.moment};
 }
 
-robot::ArmAxes middleOf(const robot::Robot& arm, const LoadCase& load_case, const Vector6d& compliance,
-                        const Vector6d& torque) {
+robot::ArmAxes middleOf(const robot::Robot& arm, const LoadCase& load_case, const JointVector& compliance,
+                        const JointVector& torque) {
   return robot::axesAt(arm, robot::postureAt(arm, load_case.q_sagged + 0.5 * compliance.cwiseProduct(torque)));
 }
 
 }  // namespace
 
-std::vector<Vector6d> jointTorques(const std::vector<LoadCase>& cases) {
-  std::vector<Vector6d> torques(cases.size());
+std::vector<JointVector> jointTorques(const std::vector<LoadCase>& cases) {
+  std::vector<JointVector> torques(cases.size());
   numerics::smallWorkOnAllCores(
       cases.size(), [&](std::size_t i) { torques[i] = robot::jointTorque(cases[i].axes, cases[i].wrench); });
   return torques;
 }
 
-std::vector<Vector6d> jointTorquesWithGeometricStiffness(const frames::LoadingGeometry& geometry,
-                                                         const std::vector<LoadCase>& cases,
-                                                         const Vector6d& compliance) {
-  std::vector<Vector6d> torques(cases.size());
+std::vector<JointVector> jointTorquesWithGeometricStiffness(const frames::LoadingGeometry& geometry,
+                                                            const std::vector<LoadCase>& cases,
+                                                            const JointVector& compliance) {
+  std::vector<JointVector> torques(cases.size());
   numerics::smallWorkOnAllCores(cases.size(), [&](std::size_t i) {
     torques[i] = SpringTorque(geometry, cases[i], compliance).under(cases[i].wrench);
   });
   return torques;
 }
 
-void updateLoadedConfiguration(const frames::LoadingGeometry& geometry, const Vector6d& compliance,
-                               std::vector<LoadCase>& cases, std::vector<Vector6d>& torques) {
+void updateLoadedConfiguration(const frames::LoadingGeometry& geometry, const JointVector& compliance,
+                               std::vector<LoadCase>& cases, std::vector<JointVector>& torques) {
   torques.resize(cases.size());
   numerics::smallWorkOnAllCores(cases.size(), [&](std::size_t i) {
     LoadCase& load_case = cases[i];
@@ -273,14 +298,14 @@ void updateLoadedConfiguration(const frames::LoadingGeometry& geometry, const Ve
   });
 }
 
-void takeJacobiansAtMiddle(const frames::LoadingGeometry& geometry, const Vector6d& compliance,
-                           const std::vector<Vector6d>& torques, std::vector<LoadCase>& cases) {
+void takeJacobiansAtMiddle(const frames::LoadingGeometry& geometry, const JointVector& compliance,
+                           const std::vector<JointVector>& torques, std::vector<LoadCase>& cases) {
   for (std::size_t i = 0; i < cases.size(); ++i) {
     cases[i].middle = middleOf(geometry.arm, cases[i], compliance, torques[i]);
   }
 }
 
-Matrix36d pointRows(const robot::ArmAxes& axes, const Eigen::Vector3d& point, const Vector6d& torque) {
+PointJacobian pointRows(const robot::ArmAxes& axes, const Eigen::Vector3d& point, const JointVector& torque) {
   return robot::pointJacobianAt(axes, point) * torque.asDiagonal();
 }
 

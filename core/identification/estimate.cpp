@@ -127,13 +127,13 @@ InfluenceCovariance combined(double a, const InfluenceCovariance& first, double 
 }
 
 InfluenceCovariance influenceCovariance(const std::vector<PostureGain>& gains,
-                                        const std::vector<NormalEquations>& normal, const Matrix6d& inverse,
+                                        const std::vector<NormalEquations>& normal, const JointMatrix& inverse,
                                         int joint) {
   const auto n = static_cast<Eigen::Index>(gains.size());
-  InfluenceCovariance covariance{Eigen::VectorXd(n), Eigen::MatrixXd(6, n), -inverse};
+  InfluenceCovariance covariance{Eigen::VectorXd(n), Eigen::MatrixXd(inverse.rows(), n), -inverse};
   for (Eigen::Index p = 0; p < n; ++p) {
     const auto at = static_cast<std::size_t>(p);
-    const Vector6d row = gains[at].row(joint).transpose(), through = normal[at].matrix * row;
+    const JointVector row = gains[at].row(joint).transpose(), through = normal[at].matrix * row;
     covariance.through.col(p) = through;
     covariance.own[p] = row.dot(through);
   }
@@ -152,37 +152,45 @@ double matchedDof(const InfluenceCovariance& covariance) {
 namespace {
 
 /// (I - G)^-1/2 of a symmetric G with eigenvalues in 0 .. 1, a thousand postures' as well as two's.
-Matrix6d inverseRootOfRest(const Matrix6d& g) {
+template <class Matrix>
+Matrix inverseRootOfRest(const Matrix& g) {
   // With many postures G is small: by the series sum (2k)! / (4^k k!^2) G^k, the rest of which is below 1e-16.
   constexpr double kSmall = 0.006;
   if (g.trace() < kSmall) {
     constexpr std::array<double, 6> kSeries{0.5, 3.0 / 8.0, 5.0 / 16.0, 35.0 / 128.0, 63.0 / 256.0, 231.0 / 1024.0};
-    Matrix6d sum = kSeries.back() * g;
+    Matrix sum = kSeries.back() * g;
     for (std::size_t k = kSeries.size() - 1; k-- > 0;) {
       sum.diagonal().array() += kSeries[k];
       sum = (sum * g).eval();
     }
-    return Matrix6d::Identity() + sum;
+    return Matrix::Identity(g.rows(), g.cols()) + sum;
   }
   const SymmetricEigen own = symmetricEigen(g);
   constexpr double kMost = 0.95;  // a posture that alone determines a combination has no residual to correct
-  const Vector6d root = (1.0 - own.values.array().min(kMost)).rsqrt();
+  const JointVector root = (1.0 - own.values.array().min(kMost)).rsqrt();
   return own.vectors * root.asDiagonal() * own.vectors.transpose();
+}
+
+template <class Matrix>
+Matrix gainOf(const Matrix& whiten, const Matrix& own) {
+  return whiten.transpose() * inverseRootOfRest<Matrix>(whiten * own * whiten.transpose()) * whiten;
 }
 
 }  // namespace
 
 PostureGains::PostureGains(const NormalEquations& sum, const robot::JointMask& unknown) {
   const ScaledNormal scaled = scaledNormal(sum.matrix, unknown);
-  const Eigen::LLT<Matrix6d> cholesky(scaled.matrix);
-  whiten_ = cholesky.matrixL().solve(Matrix6d(scaled.scale.asDiagonal()));
+  const Eigen::LLT<JointMatrix> cholesky(scaled.matrix);
+  whiten_ = cholesky.matrixL().solve(JointMatrix(scaled.scale.asDiagonal()));
 }
 
-PostureGain PostureGains::of(const Matrix6d& own) const {
-  return whiten_.transpose() * inverseRootOfRest(whiten_ * own * whiten_.transpose()) * whiten_;
+PostureGain PostureGains::of(const JointMatrix& own) const {
+  // A posture's every time: of most machines at fixed size.
+  if (own.rows() == 6) return gainOf<Matrix6d>(whiten_, own);
+  return gainOf<JointMatrix>(whiten_, own);
 }
 
-Matrix6d inverseNormal(const NormalEquations& sum, const robot::JointMask& unknown) {
+JointMatrix inverseNormal(const NormalEquations& sum, const robot::JointMask& unknown) {
   const ScaledNormal scaled = scaledNormal(sum.matrix, unknown);
   return scaled.scale.asDiagonal() * inverseOf(scaled.matrix) * scaled.scale.asDiagonal();
 }
@@ -205,7 +213,7 @@ std::vector<CaseEquations> byPosture(std::vector<CaseEquations> equations) {
     }
     CaseEquations& last = equations[postures - 1];
     const Eigen::Index had = last.right.size(), more = one.right.size();
-    last.matrix.conservativeResize(had + more, 6);
+    last.matrix.conservativeResize(had + more, Eigen::NoChange);
     last.right.conservativeResize(had + more);
     last.matrix.bottomRows(more) = one.matrix;
     last.right.tail(more) = one.right;
@@ -247,18 +255,19 @@ Remark StiffnessEstimate::mark(int joint) const {
   return {};
 }
 
-Matrix6d scatterCovariance(const std::vector<Vector6d>& influences, const robot::JointMask& unknown) {
+JointMatrix scatterCovariance(const std::vector<JointVector>& influences, const robot::JointMask& unknown) {
   const double unknowns = static_cast<double>(std::count(unknown.begin(), unknown.end(), true));
+  const auto joints = static_cast<Eigen::Index>(unknown.size());
   if (static_cast<double>(influences.size()) < unknowns / 3.0 + 2.0) {
-    return Matrix6d::Constant(std::numeric_limits<double>::quiet_NaN());
+    return JointMatrix::Constant(joints, joints, std::numeric_limits<double>::quiet_NaN());
   }
-  Matrix6d sum = Matrix6d::Zero();
-  for (const Vector6d& one : influences) sum += one * one.transpose();
+  JointMatrix sum = JointMatrix::Zero(joints, joints);
+  for (const JointVector& one : influences) sum += one * one.transpose();
   return sum;
 }
 
-void setScatter(std::vector<Vector6d> influences, const Vector6d& dof, StiffnessEstimate& estimate) {
-  estimate.parts = {};
+void setScatter(std::vector<JointVector> influences, const JointVector& dof, StiffnessEstimate& estimate) {
+  estimate.parts = CovarianceParts(static_cast<Eigen::Index>(estimate.identifiable.size()));
   estimate.parts.scatter = scatterCovariance(influences, estimate.identifiable);
   estimate.covariance = estimate.parts.scatter;
   estimate.scatter_dof = dof;
@@ -269,15 +278,15 @@ void setScatterOfOneStage(const std::vector<NormalEquations>& normal, const Norm
                           StiffnessEstimate& estimate) {
   const PostureGains gain(sum, estimate.identifiable);
   std::vector<PostureGain> gains(normal.size());
-  std::vector<Vector6d> influences(normal.size());
+  std::vector<JointVector> influences(normal.size());
   numerics::smallWorkOnAllCores(normal.size(), [&](std::size_t p) {
     gains[p] = gain.of(normal[p].matrix);
     influences[p] = gains[p] * (normal[p].right - normal[p].matrix * estimate.compliance);
   });
-  const Matrix6d inverse = inverseNormal(sum, estimate.identifiable);
-  Vector6d dof = Vector6d::Zero();
+  const JointMatrix inverse = inverseNormal(sum, estimate.identifiable);
+  JointVector dof = JointVector::Zero(inverse.rows());
   numerics::onAllCores(
-      6,
+      estimate.identifiable.size(),
       [&](std::size_t j) {
         if (!estimate.identifiable[j]) return;
         const auto joint = static_cast<int>(j);
@@ -333,9 +342,9 @@ double coveringSd(const StiffnessEstimate& estimate, int joint) {
          coverageFactor(estimate, joint, kStatedCoverage) / kNormalFactor;
 }
 
-Matrix6d coveringCovariance(const StiffnessEstimate& estimate) {
-  Vector6d scale = Vector6d::Zero();
-  for (int j = 0; j < 6; ++j) {
+JointMatrix coveringCovariance(const StiffnessEstimate& estimate) {
+  JointVector scale = JointVector::Zero(estimate.joints());
+  for (int j = 0; j < estimate.joints(); ++j) {
     const double sd = std::sqrt(std::max(0.0, estimate.covariance(j, j)));
     if (!estimate.identifiable[static_cast<std::size_t>(j)]) continue;
     const double covering = sd > 0.0 ? coveringSd(estimate, j) / sd : 1.0;
@@ -344,9 +353,9 @@ Matrix6d coveringCovariance(const StiffnessEstimate& estimate) {
   return scale.asDiagonal() * estimate.covariance * scale.asDiagonal();
 }
 
-Matrix6d correlation(const StiffnessEstimate& estimate) {
-  Vector6d scale = Vector6d::Zero();
-  for (int j = 0; j < 6; ++j) {
+JointMatrix correlation(const StiffnessEstimate& estimate) {
+  JointVector scale = JointVector::Zero(estimate.joints());
+  for (int j = 0; j < estimate.joints(); ++j) {
     const double variance = estimate.covariance(j, j);
     if (variance > 0.0) scale[j] = 1.0 / std::sqrt(variance);
   }

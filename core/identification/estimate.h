@@ -18,13 +18,22 @@ namespace stiffscope::identification {
 /// stiffnesses that take the sag off the sweeps they stand on. A load cell's gain, axes and point are taken as
 /// declared: the format has no uncertainty for them.
 struct CovarianceParts {
-  Matrix6d scatter = Matrix6d::Zero();
-  Matrix6d frames = Matrix6d::Zero();    ///< the measured axes: R0, links, the flange's place
-  Matrix6d wrist = Matrix6d::Zero();     ///< radii about the wrist centre
-  Matrix6d geometry = Matrix6d::Zero();  ///< calibrated on the unloaded positions, Partial Pose only
-  Matrix6d effects = Matrix6d::Zero();   ///< fitted to the same data and taken off it; zero without any
+  JointMatrix scatter;
+  JointMatrix frames;    ///< the measured axes: R0, links, the flange's place
+  JointMatrix wrist;     ///< radii about the wrist centre
+  JointMatrix geometry;  ///< calibrated on the unloaded positions, Partial Pose only
+  JointMatrix effects;   ///< fitted to the same data and taken off it; zero without any
 
-  Matrix6d total() const { return scatter + frames + wrist + geometry + effects; }
+  CovarianceParts() = default;  ///< of no joints
+  /// All zero.
+  explicit CovarianceParts(Eigen::Index joints)
+      : scatter(JointMatrix::Zero(joints, joints)),
+        frames(scatter),
+        wrist(scatter),
+        geometry(scatter),
+        effects(scatter) {}
+
+  JointMatrix total() const { return scatter + frames + wrist + geometry + effects; }
 };
 
 /// Between two numbers; infinite where it is open.
@@ -35,19 +44,30 @@ struct CoverageInterval {
 
 /// Joint stiffnesses by one method, from one set of load cases.
 struct StiffnessEstimate {
-  Vector6d compliance = Vector6d::Zero();  ///< c = 1/k, rad/Nm; 0 for a joint that is not identifiable
+  JointVector compliance;  ///< c = 1/k, rad/Nm; 0 for a joint that is not identifiable
   /// Of c: `parts` summed, what scatters between the postures and what they all have in common.
-  Matrix6d covariance = Matrix6d::Zero();
+  JointMatrix covariance;
   CovarianceParts parts;
-  std::vector<Vector6d> influences;         ///< g_p, one a posture
-  Vector6d scatter_dof = Vector6d::Zero();  ///< of the scatter, by matchedDof
+  std::vector<JointVector> influences;  ///< g_p, one a posture
+  JointVector scatter_dof;              ///< of the scatter, by matchedDof
   /// Where effects besides joint springs were weighed (extended_model/hidden_effects.h): for each joint the interval of
   /// c at the stated coverage, which holds what could still hide. Empty without: Student's interval is the stated one.
   std::vector<CoverageInterval> stated;
-  robot::JointMask identifiable{};
+  robot::JointMask identifiable;
   double condition = 0.0;     ///< of the stacked equations, columns scaled to unit length
   double rms_residual = 0.0;  ///< plain, of the positions the method fits, per coordinate, m
   double sigma = 0.0;         ///< the same over degrees of freedom, m
+
+  StiffnessEstimate() = default;  ///< of no joints
+  /// Nothing identifiable, all zero.
+  explicit StiffnessEstimate(int joints)
+      : compliance(JointVector::Zero(joints)),
+        covariance(JointMatrix::Zero(joints, joints)),
+        parts(joints),
+        scatter_dof(JointVector::Zero(joints)),
+        identifiable(static_cast<std::size_t>(joints), false) {}
+
+  int joints() const { return static_cast<int>(compliance.size()); }
 
   /// Effective degrees of freedom of a compliance's uncertainty (Welch and Satterthwaite): the shared parts count as
   /// known exactly.
@@ -64,10 +84,10 @@ struct StiffnessEstimate {
 /// Covariance of least squares from the scatter between postures, which errors shared within a posture (its
 /// unloaded readings, its wrench) do not fool: the sum of g_p g_p^T over the influences g_p of the postures.
 /// Not a number with fewer than two postures beyond those that `unknowns` take up (a posture gives three coordinates).
-Matrix6d scatterCovariance(const std::vector<Vector6d>& influences, const robot::JointMask& unknown);
+JointMatrix scatterCovariance(const std::vector<JointVector>& influences, const robot::JointMask& unknown);
 
 /// Puts influences, scatter covariance and its degrees of freedom into an estimate, and the covariance so far.
-void setScatter(std::vector<Vector6d> influences, const Vector6d& dof, StiffnessEstimate& estimate);
+void setScatter(std::vector<JointVector> influences, const JointVector& dof, StiffnessEstimate& estimate);
 
 /// The same of one least-squares problem, a posture each, solved by `estimate.compliance` over `estimate.identifiable`.
 void setScatterOfOneStage(const std::vector<NormalEquations>& normal, const NormalEquations& sum,
@@ -102,8 +122,8 @@ double matchedDof(const Eigen::MatrixXd& influence_covariance, const EqualWeight
 /// How the residuals of a posture move the compliances, M_p in g_p = M_p A_p^T (b_p - A_p c), g_p its influence:
 /// M_p A_p^T = N^-1 A_p^T (I - H_p)^-1/2, H_p = A_p N^-1 A_p^T. The root makes up for what the posture pulled the fit
 /// towards itself (Bell and McCaffrey 2002, CR2), which matters for few postures. With N = L L^T and G = L^-1 A_p^T A_p
-/// L^-T it acts on six numbers: M_p = L^-T (I - G)^-1/2 L^-1.
-using PostureGain = Matrix6d;
+/// L^-T it acts on one number a joint: M_p = L^-T (I - G)^-1/2 L^-1.
+using PostureGain = JointMatrix;
 
 /// Gains in one least-squares problem.
 class PostureGains {
@@ -111,14 +131,14 @@ class PostureGains {
   PostureGains(const NormalEquations& sum, const robot::JointMask& unknown);
 
   /// Of a posture by its own A_p^T A_p.
-  PostureGain of(const Matrix6d& own) const;
+  PostureGain of(const JointMatrix& own) const;
 
  private:
-  Matrix6d whiten_;  ///< L^-1 with the columns' scales; rows of joints that are no unknowns zero
+  JointMatrix whiten_;  ///< L^-1 with the columns' scales; rows of joints that are no unknowns zero
 };
 
 /// N^-1 over the joints of the mask, the others' rows and columns zero.
-Matrix6d inverseNormal(const NormalEquations& sum, const robot::JointMask& unknown);
+JointMatrix inverseNormal(const NormalEquations& sum, const robot::JointMask& unknown);
 
 /// Degrees of freedom of a sum of squares of numbers with that covariance: tr^2 / tr(square), Satterthwaite's, as
 /// Bell and McCaffrey (2002) give a scatter covariance its Student quantile.
@@ -135,8 +155,8 @@ std::vector<CaseEquations> byPosture(std::vector<CaseEquations> equations);
 std::vector<NormalEquations> normalByPosture(const std::vector<CaseEquations>& equations);
 
 /// Covariance between the influences of n postures on one joint, C = diag(own) + through^T middle through. What ties
-/// postures together is the few parameters they share, so C is a diagonal and a matrix of rank r, 12 at most; as n x n
-/// numbers it would cost n^2 in memory and its eigenvalues n^3.
+/// postures together is the few parameters they share, so C is a diagonal and a matrix of rank r, two a joint at most;
+/// as n x n numbers it would cost n^2 in memory and its eigenvalues n^3.
 struct InfluenceCovariance {
   Eigen::VectorXd own;      ///< n
   Eigen::MatrixXd through;  ///< r x n
@@ -155,7 +175,8 @@ InfluenceCovariance combined(double a, const InfluenceCovariance& first, double 
 /// If all residuals came from errors that are independent and have variance 1: with l_p the row of M_p A_p^T
 /// (PostureGain) and U_p = A_p^T l_p, C_pq = delta_pq |l_p|^2 - U_p^T N^-1 U_q. `normal`: A_p^T A_p.
 InfluenceCovariance influenceCovariance(const std::vector<PostureGain>& gains,
-                                        const std::vector<NormalEquations>& normal, const Matrix6d& inverse, int joint);
+                                        const std::vector<NormalEquations>& normal, const JointMatrix& inverse,
+                                        int joint);
 
 /// Degrees of freedom of Student's t with the same factor at the stated coverage as a sum of squares of influences with
 /// that covariance. Up to 64 postures by the eigenvalues of C. Of more, the 64 with the largest influence are taken so
@@ -187,9 +208,9 @@ double expandedUncertainty(const StiffnessEstimate& estimate, int joint);
 double coveringSd(const StiffnessEstimate& estimate, int joint);
 
 /// The covariance scaled to those; rows and columns of joints that are not identifiable are zero.
-Matrix6d coveringCovariance(const StiffnessEstimate& estimate);
+JointMatrix coveringCovariance(const StiffnessEstimate& estimate);
 
 /// Correlation of the compliances; rows and columns of joints that are not identifiable are zero.
-Matrix6d correlation(const StiffnessEstimate& estimate);
+JointMatrix correlation(const StiffnessEstimate& estimate);
 
 }  // namespace stiffscope::identification

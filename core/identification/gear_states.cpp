@@ -29,9 +29,9 @@ std::vector<LoadCase> EncoderDay::casesIn(const frames::LoadingGeometry& geometr
   return cases;
 }
 
-std::vector<Vector6d> EncoderDay::torquesIn(const frames::LoadingGeometry& geometry, std::vector<LoadCase>& cases,
-                                            const Vector6d& compliance) const {
-  std::vector<Vector6d> torques = jointTorques(cases);
+std::vector<JointVector> EncoderDay::torquesIn(const frames::LoadingGeometry& geometry, std::vector<LoadCase>& cases,
+                                               const JointVector& compliance) const {
+  std::vector<JointVector> torques = jointTorques(cases);
   constexpr int kRounds = 2;
   for (int round = 0; round < kRounds && !compliance.isZero(0.0); ++round) {
     updateLoadedConfiguration(geometry, compliance, cases, torques);
@@ -41,14 +41,16 @@ std::vector<Vector6d> EncoderDay::torquesIn(const frames::LoadingGeometry& geome
 
 WeightTorques EncoderDay::weightTorques(const frames::LoadingGeometry& geometry,
                                         const std::vector<LoadCase>& cases) const {
-  WeightTorques weight{geometry.weight.links_known, {cases.size(), Vector6d::Zero()}};
+  WeightTorques weight{geometry.weight.links_known,
+                       std::vector<JointVector>(cases.size(), JointVector::Zero(geometry.arm.joints()))};
   for (std::size_t i = 0; weight.known && i < cases.size(); ++i) {
     weight.torques[i] = robot::weightTorque(geometry.arm, unloadedPosture(geometry.arm, cases[i]), geometry.weight);
   }
   return weight;
 }
 
-JointStates EncoderDay::statesOf(int joint, const std::vector<Vector6d>& torques, const WeightTorques& weight) const {
+JointStates EncoderDay::statesOf(int joint, const std::vector<JointVector>& torques,
+                                 const WeightTorques& weight) const {
   JointStates all;
   int pose = -1;
   for (std::size_t i = 0; i < states_.size(); ++i) {

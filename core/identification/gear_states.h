@@ -30,7 +30,7 @@ struct JointStates {
 /// load and weight together has.
 struct WeightTorques {
   bool known = false;
-  std::vector<Vector6d> torques;
+  std::vector<JointVector> torques;
 };
 
 /// The load states of a day with motor-side angles, and the torques on the gears in them. See transmission.h.
@@ -45,13 +45,13 @@ class EncoderDay {
   std::vector<LoadCase> casesIn(const frames::LoadingGeometry& geometry) const;
 
   /// Torques of the load in those cases. `compliance`: K_c, and how the load cell turns with the arm, are of it.
-  std::vector<Vector6d> torquesIn(const frames::LoadingGeometry& geometry, std::vector<LoadCase>& cases,
-                                  const Vector6d& compliance) const;
+  std::vector<JointVector> torquesIn(const frames::LoadingGeometry& geometry, std::vector<LoadCase>& cases,
+                                     const JointVector& compliance) const;
 
   WeightTorques weightTorques(const frames::LoadingGeometry& geometry, const std::vector<LoadCase>& cases) const;
 
   /// Of those that have both angles of the joint.
-  JointStates statesOf(int joint, const std::vector<Vector6d>& torques, const WeightTorques& weight) const;
+  JointStates statesOf(int joint, const std::vector<JointVector>& torques, const WeightTorques& weight) const;
 
  private:
   const campaign::Campaign& campaign_;

@@ -6,9 +6,9 @@ std::vector<GeometricStiffnessCost> geometricStiffnessCosts(const Identification
   std::vector<GeometricStiffnessCost> costs;
   const MethodResult& solved = result.of(method);
   if (!solved.available) return costs;
-  const Vector6d& compliance = solved.estimate.compliance;
-  const std::vector<Vector6d> plain = jointTorques(result.cases);
-  const std::vector<Vector6d> full = jointTorquesWithGeometricStiffness(solved.geometry, result.cases, compliance);
+  const JointVector& compliance = solved.estimate.compliance;
+  const std::vector<JointVector> plain = jointTorques(result.cases);
+  const std::vector<JointVector> full = jointTorquesWithGeometricStiffness(solved.geometry, result.cases, compliance);
   for (std::size_t i = 0; i < result.cases.size(); ++i) {
     const LoadCase& load_case = result.cases[i];
     const robot::ArmAxes& axes = jacobianAxes(load_case);

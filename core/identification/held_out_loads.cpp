@@ -142,10 +142,10 @@ class MethodLoads {
     const robot::JointMask seen =
         evaluateIdentifiability(others.geometry, others.cases, cell, reflectorEquations(others), options_.trust).mask();
     if (std::none_of(seen.begin(), seen.end(), [](bool joint) { return joint; })) return std::nullopt;
-    for (std::size_t j = 0; j < 6; ++j) one.not_by_the_others[j] = turned[j] && !seen[j];
+    for (std::size_t j = 0; j < turned.size(); ++j) one.not_by_the_others.push_back(turned[j] && !seen[j]);
     const MethodSolution how{method_, result_.frames.tcp_in_flange, result_.characteristic_length.length, seen,
                              nullptr};
-    const Vector6d compliance = how.solvedCompliance(others, options_.finite_deflection);
+    const JointVector compliance = how.solvedCompliance(others, options_.finite_deflection);
     solveLoadedArm(part, options_.finite_deflection, [&](const LoadedArm&) { return compliance; });
     const auto share = [&](const std::vector<CaseEquations>& rows,
                            const std::map<Key, double>& displaced) -> std::optional<double> {

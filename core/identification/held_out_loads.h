@@ -20,10 +20,10 @@ struct HeldOutLoad {
   std::optional<int> step;                 ///< of a level: the load step
   std::optional<LoadDirection> direction;  ///< else of a direction
   int states = 0;
-  double mean_force = 0.0;           ///< N
-  std::optional<double> at_wrist;    ///< share of the deflection compensated; empty where P_wrist is not measured
-  std::optional<double> at_targets;  ///< the same of the reflectors
-  std::array<bool, 6> not_by_the_others{};  ///< joints that these loads turn and the others do not: taken as stiff
+  double mean_force = 0.0;             ///< N
+  std::optional<double> at_wrist;      ///< share of the deflection compensated; empty where P_wrist is not measured
+  std::optional<double> at_targets;    ///< the same of the reflectors
+  robot::JointMask not_by_the_others;  ///< joints that these loads turn and the others do not: taken as stiff
 };
 
 /// How far stiffnesses of some loads hold under others: shares 1 - sum |left| / sum |displacement|, as on held-out

@@ -24,11 +24,11 @@ robot::Wrench hangingPart(const robot::Wrench& wrench, const Eigen::Vector3d& do
 }
 
 /// Variance of each joint's torque by the uncertainties of wrench, direction and place.
-Vector6d torqueVariance(const robot::ArmAxes& axes, const robot::Wrench& wrench, const campaign::LoadCell& cell,
-                        const TrustLimits& limits) {
-  const Matrix36d levers = robot::pointJacobianAt(axes, wrench.point);
-  Vector6d variance;
-  for (int j = 0; j < 6; ++j) {
+JointVector torqueVariance(const robot::ArmAxes& axes, const robot::Wrench& wrench, const campaign::LoadCell& cell,
+                           const TrustLimits& limits) {
+  const PointJacobian levers = robot::pointJacobianAt(axes, wrench.point);
+  JointVector variance(levers.cols());
+  for (Eigen::Index j = 0; j < levers.cols(); ++j) {
     const Eigen::Vector3d lever = levers.col(j), &axis = axes[static_cast<std::size_t>(j)].direction;
     const Eigen::Vector3d by_turn = wrench.force.cross(lever) + wrench.moment.cross(axis);
     variance[j] = square(cell.force_sigma) * lever.squaredNorm() + square(cell.moment_sigma) +
@@ -57,9 +57,11 @@ void evaluateHanging(const frames::LoadingGeometry& geometry, const std::vector<
 
 /// Of all load cases, joint by joint.
 struct TorqueSquares {
-  Vector6d torque = Vector6d::Zero(), trusted = Vector6d::Zero(), variance = Vector6d::Zero();
+  JointVector torque, trusted, variance;  // none before the first
 
   TorqueSquares& operator+=(const TorqueSquares& other) {
+    if (other.torque.size() == 0) return *this;
+    if (torque.size() == 0) return *this = other;
     torque += other.torque, trusted += other.trusted, variance += other.variance;
     return *this;
   }
@@ -67,9 +69,11 @@ struct TorqueSquares {
 
 /// Of all equations: their columns, and the torque at each point.
 struct LeverSquares {
-  Vector6d columns = Vector6d::Zero(), torques = Vector6d::Zero();
+  JointVector columns, torques;  // none before the first
 
   LeverSquares& operator+=(const LeverSquares& other) {
+    if (other.columns.size() == 0) return *this;
+    if (columns.size() == 0) return *this = other;
     columns += other.columns, torques += other.torques;
     return *this;
   }
@@ -77,13 +81,13 @@ struct LeverSquares {
 
 /// Marks joints about whose axis the measured points hardly move: their distance from it is no more than the
 /// place of the axis is trusted to. A column of the equations is that distance times the torque.
-void evaluateLever(const std::vector<CaseEquations>& equations, const std::vector<Vector6d>& torques,
+void evaluateLever(const std::vector<CaseEquations>& equations, const std::vector<JointVector>& torques,
                    const TrustLimits& limits, Identifiability& result) {
   const auto sum = numerics::sumInBlocks<LeverSquares>(equations.size(), [&](std::size_t i, LeverSquares& all) {
     const auto points = static_cast<double>(equations[i].matrix.rows() / 3);
-    all += {equations[i].matrix.colwise().squaredNorm().transpose(), torques[i].cwiseAbs2() * points};
+    all += LeverSquares{equations[i].matrix.colwise().squaredNorm().transpose(), torques[i].cwiseAbs2() * points};
   });
-  for (int j = 0; j < 6; ++j) {
+  for (int j = 0; j < static_cast<int>(result.joints.size()); ++j) {
     JointIdentifiability& joint = result.joints[static_cast<std::size_t>(j)];
     const double lever = sum.torques[j] > 0.0 ? std::sqrt(sum.columns[j] / sum.torques[j]) : 0.0;
     if (!joint.identifiable || lever > limits.least_ratio * limits.position) continue;
@@ -96,9 +100,9 @@ constexpr double kTakesPart = 0.05;  // share of a joint in an unseen combinatio
 
 /// `unseen`: of the columns at unit length, the combination that moves no measured point; `lengths` of the
 /// columns. Two joints whose columns are parallel: what is seen is c_a + ratio c_b.
-Remark combinationReason(const Vector6d& unseen, const Vector6d& lengths) {
+Remark combinationReason(const JointVector& unseen, const JointVector& lengths) {
   std::vector<int> joints;
-  for (int j = 0; j < 6; ++j) {
+  for (int j = 0; j < static_cast<int>(unseen.size()); ++j) {
     if (std::abs(unseen[j]) > kTakesPart) joints.push_back(j);
   }
   if (joints.size() == 2) {
@@ -119,10 +123,11 @@ Remark combinationReason(const Vector6d& unseen, const Vector6d& lengths) {
 void evaluateRank(const std::vector<CaseEquations>& equations, Identifiability& result) {
   const auto sum = numerics::sumInBlocks<NormalEquations>(
       equations.size(), [&](std::size_t i, NormalEquations& all) { all += normalEquations(equations[i]); });
-  Matrix6d scaled = Matrix6d::Identity();
   const robot::JointMask mask = result.mask();
-  for (int a = 0; a < 6; ++a) {
-    for (int b = 0; b < 6; ++b) {
+  const auto count = static_cast<Eigen::Index>(mask.size());
+  JointMatrix scaled = JointMatrix::Identity(count, count);
+  for (Eigen::Index a = 0; a < count; ++a) {
+    for (Eigen::Index b = 0; b < count; ++b) {
       if (mask[static_cast<std::size_t>(a)] && mask[static_cast<std::size_t>(b)]) {
         scaled(a, b) = sum.matrix(a, b) / std::sqrt(sum.matrix(a, a) * sum.matrix(b, b));
       }
@@ -130,11 +135,11 @@ void evaluateRank(const std::vector<CaseEquations>& equations, Identifiability& 
   }
   const SymmetricEigen eigen = symmetricEigen(scaled);
   constexpr double kUnseen = 1e-8;  // squared singular value of unit columns: a condition number of 1e4
-  for (int k = 0; k < 6; ++k) {
+  for (Eigen::Index k = 0; k < count; ++k) {
     if (eigen.values[k] > kUnseen) break;
-    const Vector6d unseen = eigen.vectors.col(k);
+    const JointVector unseen = eigen.vectors.col(k);
     const Remark reason = combinationReason(unseen, sum.matrix.diagonal().cwiseSqrt());
-    for (int j = 0; j < 6; ++j) {
+    for (Eigen::Index j = 0; j < count; ++j) {
       if (std::abs(unseen[j]) <= kTakesPart) continue;
       JointIdentifiability& joint = result.joints[static_cast<std::size_t>(j)];
       joint.identifiable = false;
@@ -146,26 +151,28 @@ void evaluateRank(const std::vector<CaseEquations>& equations, Identifiability& 
 }  // namespace
 
 robot::JointMask Identifiability::mask() const {
-  robot::JointMask unknown{};
-  for (std::size_t j = 0; j < 6; ++j) unknown[j] = joints[j].identifiable;
+  robot::JointMask unknown;
+  for (const JointIdentifiability& joint : joints) unknown.push_back(joint.identifiable);
   return unknown;
 }
 
 Identifiability evaluateTorques(const frames::LoadingGeometry& geometry, const std::vector<LoadCase>& cases,
                                 const campaign::LoadCell& cell, const TrustLimits& limits) {
   Identifiability result;
+  result.joints.resize(static_cast<std::size_t>(geometry.arm.joints()));
   if (cases.empty()) return result;
   evaluateHanging(geometry, cases, limits, result);
   const Eigen::Vector3d down = geometry.weight.gravity_in_base.normalized();
   const auto sum = numerics::sumInBlocks<TorqueSquares>(cases.size(), [&](std::size_t i, TorqueSquares& all) {
     const LoadCase& load_case = cases[i];
     const robot::ArmAxes& axes = load_case.axes;
-    const Vector6d torque = robot::jointTorque(axes, load_case.wrench);
-    const Vector6d hanging = result.load_hangs ? robot::jointTorque(axes, hangingPart(load_case.wrench, down)) : torque;
-    all += {torque.cwiseAbs2(), hanging.cwiseAbs2(), torqueVariance(axes, load_case.wrench, cell, limits)};
+    const JointVector torque = robot::jointTorque(axes, load_case.wrench);
+    const JointVector hanging =
+        result.load_hangs ? robot::jointTorque(axes, hangingPart(load_case.wrench, down)) : torque;
+    all += TorqueSquares{torque.cwiseAbs2(), hanging.cwiseAbs2(), torqueVariance(axes, load_case.wrench, cell, limits)};
   });
   const double n = static_cast<double>(cases.size());
-  for (int j = 0; j < 6; ++j) {
+  for (int j = 0; j < geometry.arm.joints(); ++j) {
     JointIdentifiability& joint = result.joints[static_cast<std::size_t>(j)];
     joint.torque_rms = std::sqrt(sum.torque[j] / n);
     joint.trusted_rms = std::sqrt(sum.trusted[j] / n);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "core/identification/equations.h"
@@ -26,7 +25,7 @@ struct JointIdentifiability {
 };
 
 struct Identifiability {
-  std::array<JointIdentifiability, 6> joints;
+  PerJoint<JointIdentifiability> joints;
   bool load_hangs = false;
   double gravity_angle_rms = 0.0;  ///< between the forces and gravity, rad
 

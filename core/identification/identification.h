@@ -63,7 +63,7 @@ struct MethodResult {
 struct LengthSensitivity {
   double length = 0.0;     ///< m
   double condition = 0.0;  ///< of the stacked normalised Jacobian
-  Vector6d compliance = Vector6d::Zero();
+  JointVector compliance;
   std::size_t subsets = 0;                 ///< over which it is judged: fewer than a method is
   std::optional<Compensation> at_wrist;    ///< empty where P_wrist is not measured
   std::optional<Compensation> at_targets;  ///< the reflectors
@@ -103,6 +103,13 @@ struct Identification {
   double servo_change = 0.0;                 ///< largest change of a reported joint angle under load, rad
   double geometric_stiffness_share = 0.0;    ///< rms change of the joint torques by K_c, relative
   bool finite_deflection = true;
+
+  Identification() = default;  ///< of no machine yet
+  /// Of so many joints, nothing identified.
+  explicit Identification(int joints) {
+    identifiability.joints.resize(static_cast<std::size_t>(joints));
+    for (MethodResult& method : methods) method.estimate = StiffnessEstimate(joints);
+  }
 
   const MethodResult& of(Method method) const { return methods[static_cast<std::size_t>(method)]; }
 };

@@ -16,7 +16,7 @@
 
 namespace stiffscope::identification {
 
-double geometricStiffnessShare(const LoadedArm& arm, const Vector6d& compliance) {
+double geometricStiffnessShare(const LoadedArm& arm, const JointVector& compliance) {
   const auto plain = jointTorques(arm.cases);
   const auto full = jointTorquesWithGeometricStiffness(arm.geometry, arm.cases, compliance);
   double change = 0.0, whole = 0.0;
@@ -77,7 +77,7 @@ std::vector<OutlyingPosture> outlyingOf(const LoadedArm& arm, const robot::Joint
 void addTransmission(const campaign::Campaign& campaign, Identification& result) {
   if (!campaign.load_cell || !hasSecondEncoders(campaign)) return;
   const MethodResult& best = result.of(bestMethod(result));
-  Vector6d compliance = Vector6d::Zero();
+  JointVector compliance = JointVector::Zero(campaign.robot.joints());
   if (best.available && result.finite_deflection) compliance = best.estimate.compliance;
   GeometryPart by_axes;
   if (campaign.loading && result.geometry.r0_from_loading) {
@@ -90,7 +90,7 @@ void addTransmission(const campaign::Campaign& campaign, Identification& result)
 }
 
 Identification identifyOnce(const campaign::Campaign& campaign, const IdentifyOptions& options) {
-  Identification result;
+  Identification result(campaign.robot.joints());
   result.step = chosenStep(campaign, options.step);
   result.steps = options.all_steps ? loadedSteps(campaign) : std::vector<int>{result.step};
   result.finite_deflection = options.finite_deflection;
@@ -127,14 +127,14 @@ Identification identify(const campaign::Campaign& campaign, const IdentifyOption
 }
 
 Identification framesAlone(const campaign::Campaign& campaign) {
-  Identification result;
+  Identification result(campaign.robot.joints());
   const Remark lacking = whatLoadsLack(campaign);
   result.frames = solvedFrames(campaign);
   for (MethodResult& method : result.methods) method.reason = lacking;
   for (JointIdentifiability& joint : result.identifiability.joints) joint.reason = lacking;
   result.calibration.reason = lacking;
   if (campaign.load_cell && hasSecondEncoders(campaign)) {
-    result.geometry = frames::sweptGeometry(campaign, result.frames, Vector6d::Zero());
+    result.geometry = frames::sweptGeometry(campaign, result.frames, JointVector::Zero(campaign.robot.joints()));
     addTransmission(campaign, result);
   }
   result.cautions = warningsOf(campaign, result);

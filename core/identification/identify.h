@@ -11,7 +11,7 @@ namespace stiffscope::identification {
 void describeLoads(const campaign::Campaign& campaign, LoadedArm shown, Identification& result);
 
 /// Root mean square change of the joint torques by K_c at these compliances, relative to J_w^T W.
-double geometricStiffnessShare(const LoadedArm& arm, const Vector6d& compliance);
+double geometricStiffnessShare(const LoadedArm& arm, const JointVector& compliance);
 
 /// Identifies by all three methods from one load step. Never throws for what the data lacks: a method that
 /// cannot be had says why. Throws InputError where the campaign has no load states at all.

@@ -22,7 +22,7 @@ struct BlockSquares {
 };
 
 /// What the compliances leave of them: b^T b - 2 c^T A^T b + c^T A^T A c.
-double leftOf(double squares, const NormalEquations& normal, const Vector6d& compliance) {
+double leftOf(double squares, const NormalEquations& normal, const JointVector& compliance) {
   return squares + compliance.dot(normal.matrix * compliance - 2.0 * normal.right);
 }
 
@@ -81,7 +81,7 @@ std::optional<double> residualVarianceLength(const std::vector<CaseEquations>& p
   const BlockSquares whole(pose_rows);
   double length = start;
   for (int round = 0; round < kMostRounds; ++round) {
-    const Vector6d compliance = solveNormal(sum.at(length), unknown);
+    const JointVector compliance = solveNormal(sum.at(length), unknown);
     const double next = std::sqrt(leftOf(whole.displacement, sum.displacements, compliance) /
                                   leftOf(whole.rotation, sum.rotations, compliance));
     if (!(next >= kShortestLength && next <= kLongestLength)) return std::nullopt;

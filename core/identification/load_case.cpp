@@ -27,7 +27,7 @@ const robot::LinkFrame& linkNamed(const robot::Robot& arm, const std::string& na
 /// A link's place: with the flange as given for what is fixed to it, by the posture for the rest.
 Eigen::Isometry3d placeOf(const robot::LinkFrame& link, const frames::LoadingGeometry& geometry,
                           const robot::ArmPosture& posture, const std::optional<Eigen::Isometry3d>& flange) {
-  if (link.body == 6 && flange) {
+  if (link.body == geometry.arm.joints() && flange) {
     return *flange * geometry.arm.base_from_flange_at_zero.inverse() * link.base_from_link_at_zero;
   }
   return posture.motion[static_cast<std::size_t>(link.body)] * link.base_from_link_at_zero;
@@ -227,7 +227,7 @@ std::vector<TargetMove> declaredMoves(const frames::LoadingGeometry& geometry, s
     if (!target || differences[k].readings == 0) continue;
     TargetMove& move = moves.emplace_back();
     move.target = static_cast<int>(k);
-    move.unloaded = posture.motion[6] * *target;
+    move.unloaded = posture.motion.back() * *target;
     move.loaded = move.unloaded + r0_from_table * differences[k].sum;
   }
   return moves;
@@ -277,8 +277,8 @@ LoadCase caseOfState(const campaign::Campaign& campaign, const frames::LoadingGe
 
 /// Of the posture of the case before.
 struct LoadCaseMaker::UnloadedArm {
-  std::optional<Vector6d> q;  ///< empty: of none yet
-  Vector6d sagged = Vector6d::Zero();
+  std::optional<JointVector> q;  ///< empty: of none yet
+  JointVector sagged;
   robot::ArmPosture posture;
   robot::ArmAxes axes;
   std::vector<int> targets;  ///< by which the flange is measured
@@ -328,7 +328,7 @@ Remark LoadCaseMaker::fill(std::size_t pose, int step, UnloadedArm& arm, LoadCas
   load_case.wrench = cellWrench(*campaign_.load_cell, geometry_, arm.posture, load_case.flange_unloaded,
                                 load_case.flange_loaded, loaded->wrench_in_cell);
   load_case.wrench_unturned = load_case.wrench;
-  load_case.wrench_turns_with = turns_with_ == 6 && load_case.flange_loaded ? 0 : turns_with_;
+  load_case.wrench_turns_with = turns_with_ == geometry_.arm.joints() && load_case.flange_loaded ? 0 : turns_with_;
   load_case.unturned = arm.posture.motion[static_cast<std::size_t>(load_case.wrench_turns_with)].linear();
   return {};
 }

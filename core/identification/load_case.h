@@ -20,7 +20,7 @@ robot::Wrench cellWrench(const campaign::LoadCell& cell, const frames::LoadingGe
                          const robot::ArmPosture& posture, const std::optional<Eigen::Isometry3d>& flange_unloaded,
                          const std::optional<Eigen::Isometry3d>& flange_loaded, const Vector6d& reading);
 
-/// The body whose turn directs the load cell's axes: 0 where they stand still, 6 where they turn with the
+/// The body whose turn directs the load cell's axes: 0 where they stand still, the last where they turn with the
 /// flange.
 int bodyOfCellAxes(const campaign::LoadCell& cell, const frames::LoadingGeometry& geometry);
 
@@ -76,10 +76,10 @@ struct TargetMove {
 struct LoadCase {
   int pose = 0;
   int step = 0;
-  Vector6d q = Vector6d::Zero();         ///< as the controller reports it unloaded, rad
-  Vector6d servo = Vector6d::Zero();     ///< change of the reported angles under load: apart, not subtracted
-  Vector6d q_sagged = Vector6d::Zero();  ///< q with the own weight's sag in: the unloaded arm
-  robot::ArmAxes axes;                   ///< of the unloaded arm
+  JointVector q;         ///< as the controller reports it unloaded, rad
+  JointVector servo;     ///< change of the reported angles under load: apart, not subtracted
+  JointVector q_sagged;  ///< q with the own weight's sag in: the unloaded arm
+  robot::ArmAxes axes;   ///< of the unloaded arm
   /// Where Jacobians of measured points are taken: empty, at the unloaded arm; else at the middle of the
   /// displacement, which makes J c tau the displacement to third order in the deflection.
   std::optional<robot::ArmAxes> middle;

@@ -120,7 +120,8 @@ StepStudy studySteps(const campaign::Campaign& campaign, const IdentifyOptions& 
     if (solved.size() < 2) continue;
     StepsOfMethod& out = study.methods[static_cast<std::size_t>(method)];
     const robot::JointMask& seen = result.of(method).estimate.identifiable;
-    for (int joint = 0; joint < 6; ++joint) {
+    out.joints.resize(seen.size());
+    for (int joint = 0; joint < static_cast<int>(seen.size()); ++joint) {
       const auto j = static_cast<std::size_t>(joint);
       if (seen[j]) out.joints[j] = dependence(solved, joint);
     }

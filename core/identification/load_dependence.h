@@ -26,7 +26,7 @@ struct LoadDependence {
 /// A method's stiffness step by step.
 struct StepsOfMethod {
   std::vector<StepEstimate> steps;  ///< the lightest first; empty where the method is unavailable
-  std::array<LoadDependence, 6> joints;
+  PerJoint<LoadDependence> joints;
 };
 
 /// Every load step on its own, in the frames and the calibrated geometry that all have in common. The steps of a

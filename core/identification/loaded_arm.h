@@ -14,8 +14,8 @@ namespace stiffscope::identification {
 struct LoadedArm {
   frames::LoadingGeometry geometry;
   std::vector<LoadCase> cases;
-  std::vector<WristMove> wrist;   ///< one a case; empty where P_wrist is not measured
-  std::vector<Vector6d> torques;  ///< one a case: J_w^T W, with K_c's share where a method has put it in
+  std::vector<WristMove> wrist;      ///< one a case; empty where P_wrist is not measured
+  std::vector<JointVector> torques;  ///< one a case: J_w^T W, with K_c's share where a method has put it in
 
   bool hasFlangePoses() const;
 };

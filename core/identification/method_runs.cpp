@@ -46,7 +46,7 @@ Compensation compensationBy(const StiffnessEstimate& estimate, const DeflectionJ
 /// Mean over a case's points of what is left of the displacement; `by_posture` judges the same, which with one load
 /// step is a case each.
 std::vector<double> residualByCase(const std::vector<CaseEquations>& rows, const DeflectionJudge& by_posture,
-                                   const Vector6d& compliance) {
+                                   const JointVector& compliance) {
   std::optional<DeflectionJudge> by_case;
   const DeflectionJudge& judge = by_posture.postures() == rows.size() ? by_posture : by_case.emplace(rows);
   std::vector<double> left = judge.residual(compliance);
@@ -108,12 +108,24 @@ Remark whyNoWristPoint(const campaign::Campaign& campaign, const LoadedArm& arm,
   if (!arm.wrist.empty()) return {};
   const Remark reason = wrist.measured ? Remark(RemarkId::wrist_point_not_everywhere)
                                        : Remark(RemarkId::wrist_centre_not_measured, wrist.reason);
-  return campaign.wrist_sweep ? reason : Remark(RemarkId::wrist_sweep_wanted, reason);
+  const int joints = campaign.robot.joints();
+  return campaign.wrist_sweep ? reason
+                              : Remark(RemarkId::wrist_sweep_wanted, reason, robot::armJointsOf(joints) + 1, joints);
 }
+
+namespace {
+
+std::vector<double> missesOf(const frames::WristCentre& wrist) {
+  std::vector<double> misses;
+  for (const frames::WristAxesMiss& one : wrist.misses) misses.push_back(one.distance);
+  return misses;
+}
+
+}  // namespace
 
 Remark whyNotDecoupled(const frames::WristCentre& wrist, double leak) {
   if (leak <= kWristLeakBorne) return {};
-  return Remark(RemarkId::wrist_axes_apart, wrist.miss_45, wrist.miss_56, leak, kWristLeakBorne);
+  return Remark(RemarkId::wrist_axes_apart, missesOf(wrist), leak, kWristLeakBorne, wrist.misses.front().first + 1);
 }
 
 namespace {
@@ -186,14 +198,15 @@ void runPartialPose(MethodRuns& runs, Identification& result) {
     result.calibration.reason = Remark(RemarkId::displacements_by_model_only);
   }
   // No swept geometry to judge by: judge in this one.
-  if (runs.unknown == robot::JointMask{}) evaluateIdentifiabilityIn(arm, runs, result);
+  if (std::find(runs.unknown.begin(), runs.unknown.end(), true) == runs.unknown.end())
+    evaluateIdentifiabilityIn(arm, runs, result);
   out.reason = whyNoPositions(runs.campaign, arm, runs.unknown);
   if (!out.reason.empty()) return;
   PointEquations equations = solve(Method::partial_pose, arm, runs, result);
   std::vector<NormalEquations> normal = normalByPosture(equations.reflectors);
   evaluateMethod(arm.geometry, std::move(equations), std::move(normal), false, runs.options, out);
   if (!runs.campaign.loading)
-    solveLoadedArm(arm, false, [](const LoadedArm&) { return Vector6d(); });  // unloaded again
+    solveLoadedArm(arm, false, [](const LoadedArm&) { return JointVector(); });  // unloaded again
   if (runs.swept.cases.empty()) runs.calibrated = std::move(arm);
 }
 
@@ -201,7 +214,8 @@ void runDecoupledPartialPose(MethodRuns& runs, Identification& result) {
   MethodResult& out = methodOf(result, Method::decoupled_partial_pose);
   out.reason = whyNoPositions(runs.campaign, runs.swept, runs.unknown);
   if (!out.reason.empty() && !runs.campaign.wrist_sweep) {
-    out.reason = Remark(RemarkId::wrist_sweep_wanted_too, out.reason);
+    const int joints = runs.campaign.robot.joints();
+    out.reason = Remark(RemarkId::wrist_sweep_wanted_too, out.reason, robot::armJointsOf(joints) + 1, joints);
   }
   if (out.reason.empty()) out.reason = whyNoWristPoint(runs.campaign, runs.swept, result.frames.wrist);
   if (!out.reason.empty()) return;

@@ -20,30 +20,30 @@ namespace stiffscope::identification {
 inline constexpr std::size_t kMostShared = 1000;
 
 /// Compliances by one method from a loaded arm.
-using ComplianceOf = std::function<Vector6d(const LoadedArm&)>;
+using ComplianceOf = std::function<JointVector(const LoadedArm&)>;
 
-/// Of the compliances that `solve` gives in the swept geometry: by the six axes as they were measured (AxesCovariance),
+/// Of the compliances that `solve` gives in the swept geometry: by the axes as they were measured (AxesCovariance),
 /// from which R0, links and the flange's place follow, and by the radii of the wrist sweep. The reflectors'
 /// places at zero go along with R0, as if they were not turned back about the measured axes, and P_TCP's place in the
 /// flange is kept: that overstates Complete Pose's part by up to two, of some thousandths of the whole.
 struct SweptParts {
-  Matrix6d frames = Matrix6d::Zero(), wrist = Matrix6d::Zero();
+  JointMatrix frames, wrist;
 };
 std::vector<SweptParts> sweptParts(const campaign::Campaign& campaign, const frames::Frames& frames,
                                    const frames::LoadingGeometry& geometry, const std::vector<int>& steps,
                                    const std::vector<ComplianceOf>& solves);
 
 /// Of the compliances in the calibrated geometry, by its covariance (GeometryCalibration::spread).
-Matrix6d calibratedPart(const campaign::Campaign& campaign, const frames::GeometryCalibration& calibration,
-                        const frames::WristCentre& wrist, const std::vector<int>& steps, const ComplianceOf& solve);
+JointMatrix calibratedPart(const campaign::Campaign& campaign, const frames::GeometryCalibration& calibration,
+                           const frames::WristCentre& wrist, const std::vector<int>& steps, const ComplianceOf& solve);
 
 /// What the methods work on, and what they hand to each other.
 struct MethodRuns {
   const campaign::Campaign& campaign;
   const IdentifyOptions& options;
-  LoadedArm swept;             ///< the arm in the swept geometry; no cases where no sweep places the readings
-  LoadedArm calibrated;        ///< in Partial Pose's geometry, once it has run and where `swept` has no cases
-  robot::JointMask unknown{};  ///< the joints whose compliances are solved for
+  LoadedArm swept;           ///< the arm in the swept geometry; no cases where no sweep places the readings
+  LoadedArm calibrated;      ///< in Partial Pose's geometry, once it has run and where `swept` has no cases
+  robot::JointMask unknown;  ///< the joints whose compliances are solved for
 };
 
 /// Which joints the loads turn enough, judged in this arm's geometry: into `result` and `runs.unknown`.

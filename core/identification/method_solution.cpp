@@ -22,7 +22,7 @@ MethodSolution sagMethod(const campaign::Campaign& campaign, const IdentifyOptio
 }
 
 /// A negative compliance would lift the arm.
-Vector6d liftsNothing(const Vector6d& compliance) { return compliance.cwiseMax(0.0); }
+JointVector liftsNothing(const JointVector& compliance) { return compliance.cwiseMax(0.0); }
 
 }  // namespace
 
@@ -33,7 +33,7 @@ StiffnessEstimate sagStiffness(const campaign::Campaign& campaign, const Identif
   return estimate;
 }
 
-Vector6d sagCompliance(const campaign::Campaign& campaign, const IdentifyOptions& options, LoadedArm& arm) {
+JointVector sagCompliance(const campaign::Campaign& campaign, const IdentifyOptions& options, LoadedArm& arm) {
   const MethodSolution how = sagMethod(campaign, options, arm);
   return liftsNothing(how.solvedCompliance(arm, options.finite_deflection));
 }
@@ -42,7 +42,7 @@ SolvedFrames solveFrames(const campaign::Campaign& campaign, const std::vector<i
                          const IdentifyOptions& options) {
   SolvedFrames settled;
   settled.frames = frames::measureFrames(campaign);
-  Vector6d compliance = Vector6d::Zero();
+  JointVector compliance = JointVector::Zero(campaign.robot.joints());
   const LoadReadings readings(campaign, steps);
   const auto armNow = [&](std::vector<LeftOutPosture>* left_out) {
     return loadedArm(campaign, readings, frames::sweptGeometry(campaign, settled.frames, compliance),
@@ -51,7 +51,7 @@ SolvedFrames solveFrames(const campaign::Campaign& campaign, const std::vector<i
   for (int round = 0; round < kSagRounds && settled.frames.weight.links_known; ++round) {
     LoadedArm arm = armNow(nullptr);
     if (arm.cases.empty()) break;
-    std::optional<Matrix6d> covariance;  // earlier rounds' uncertainties nobody sees
+    std::optional<JointMatrix> covariance;  // earlier rounds' uncertainties nobody sees
     if (round + 1 == kSagRounds) {
       const StiffnessEstimate springs = sagStiffness(campaign, options, arm);
       compliance = springs.compliance, covariance = springs.covariance;
@@ -74,7 +74,7 @@ SolvedDay solveDay(const campaign::Campaign& campaign) {
     return day;
   }
   day.frames = frames::measureFrames(campaign);
-  day.arm.geometry = frames::sweptGeometry(campaign, day.frames, Vector6d::Zero());
+  day.arm.geometry = frames::sweptGeometry(campaign, day.frames, JointVector::Zero(campaign.robot.joints()));
   return day;
 }
 
@@ -97,7 +97,7 @@ StiffnessEstimate MethodSolution::estimate(const LoadedArm& arm, const PointEqua
   return estimate;
 }
 
-Vector6d MethodSolution::compliance(const LoadedArm& arm) const {
+JointVector MethodSolution::compliance(const LoadedArm& arm) const {
   switch (method) {
     case Method::complete_pose:
       return solveNormal(poseNormal(arm, tcp_in_flange).at(length), unknown);
@@ -109,7 +109,7 @@ Vector6d MethodSolution::compliance(const LoadedArm& arm) const {
   return solveNormal(reflectorNormal(arm), unknown);
 }
 
-Vector6d MethodSolution::solvedCompliance(LoadedArm& arm, bool finite_deflection) const {
+JointVector MethodSolution::solvedCompliance(LoadedArm& arm, bool finite_deflection) const {
   solveLoadedArm(arm, finite_deflection, [this](const LoadedArm& now) { return compliance(now); });
   return compliance(arm);
 }

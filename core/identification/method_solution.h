@@ -10,19 +10,19 @@ struct MethodSolution {
   Method method = Method::partial_pose;
   Eigen::Vector3d tcp_in_flange = Eigen::Vector3d::Zero();  ///< Complete Pose
   double length = 1.0;                                      ///< the same: the characteristic length, m
-  robot::JointMask unknown{};
+  robot::JointMask unknown;
   const campaign::Tracker* tracker =
       nullptr;  ///< Partial Pose: whose noise is the working model of the scatter; may be none
 
   StiffnessEstimate estimate(const LoadedArm& arm, const PointEquations& equations) const;
 
   /// The compliances alone, without their covariance and at a twentieth of the time.
-  Vector6d compliance(const LoadedArm& arm) const;
+  JointVector compliance(const LoadedArm& arm) const;
 
   /// The same of the arm settled (solveLoadedArm) by this method's compliances; its `equations` then are given out
   /// where asked.
   StiffnessEstimate solvedEstimate(LoadedArm& arm, bool finite_deflection, PointEquations* equations = nullptr) const;
-  Vector6d solvedCompliance(LoadedArm& arm, bool finite_deflection) const;
+  JointVector solvedCompliance(LoadedArm& arm, bool finite_deflection) const;
 };
 
 /// Frames from which the own weight's sag is taken off, and the loaded arm in them.
@@ -43,7 +43,7 @@ SolvedFrames solveFrames(const campaign::Campaign& campaign, const std::vector<i
 StiffnessEstimate sagStiffness(const campaign::Campaign& campaign, const IdentifyOptions& options, LoadedArm& arm);
 
 /// The compliances of sagStiffness.
-Vector6d sagCompliance(const campaign::Campaign& campaign, const IdentifyOptions& options, LoadedArm& arm);
+JointVector sagCompliance(const campaign::Campaign& campaign, const IdentifyOptions& options, LoadedArm& arm);
 
 /// Rounds in which sag and stiffnesses are found in turns.
 inline constexpr int kSagRounds = 3;

@@ -20,23 +20,24 @@ frames::LoadingGeometry nominalGeometry(const campaign::Campaign& campaign) {
 }
 
 /// Compliances of the gears that the own weight winds up between what is held and what is read; the others zero.
-Vector6d heldGears(const Transmission& transmission) {
-  Vector6d gears = Vector6d::Zero();
-  for (int j = 0; j < 6; ++j) {
+JointVector heldGears(const Transmission& transmission) {
+  const int joints = static_cast<int>(transmission.joints.size());
+  JointVector gears = JointVector::Zero(joints);
+  for (int j = 0; j < joints; ++j) {
     const GearTorsion& joint = transmission.joints[static_cast<std::size_t>(j)];
     if (joint.measured && joint.held == HeldSide::motor) gears[j] = transmission.estimate.compliance[j];
   }
   return gears;
 }
 
-Vector6d weightWindUp(const frames::LoadingGeometry& geometry, const Vector6d& q, const Vector6d& gears) {
-  if (!geometry.weight.links_known) return Vector6d::Zero();
+JointVector weightWindUp(const frames::LoadingGeometry& geometry, const JointVector& q, const JointVector& gears) {
+  if (!geometry.weight.links_known) return JointVector::Zero(q.size());
   return gears.cwiseProduct(robot::weightTorque(geometry.arm, robot::postureAt(geometry.arm, q), geometry.weight));
 }
 
 template <class Row>
 void referSweep(std::optional<campaign::Table<Row>>& table, const frames::LoadingGeometry& geometry,
-                const Vector6d& gears) {
+                const JointVector& gears) {
   if (!table) return;
   for (Row& row : table->rows) row.q -= weightWindUp(geometry, row.q, gears);
 }
@@ -46,14 +47,14 @@ void referSweep(std::optional<campaign::Table<Row>>& table, const frames::Loadin
 campaign::Campaign referredToMotors(campaign::Campaign campaign) {
   if (!campaign.load_cell || !hasSecondEncoders(campaign)) return campaign;
   const frames::LoadingGeometry geometry = nominalGeometry(campaign);
-  Transmission transmission = measureTransmission(campaign, geometry, Vector6d::Zero());
-  const Vector6d gears = heldGears(transmission);
+  Transmission transmission = measureTransmission(campaign, geometry, JointVector::Zero(campaign.robot.joints()));
+  const JointVector gears = heldGears(transmission);
   if (gears.isZero(0.0)) return campaign;
   // Once more with K_c as far as the gears make it.
   transmission = measureTransmission(campaign, geometry, gears);
   for (campaign::State& row : campaign.states->rows) {
-    const Vector6d by_weight = weightWindUp(geometry, row.q, gears);
-    for (int j = 0; j < 6; ++j) {
+    const JointVector by_weight = weightWindUp(geometry, row.q, gears);
+    for (Eigen::Index j = 0; j < gears.size(); ++j) {
       if (gears[j] == 0.0) continue;
       row.link_side[j] = row.q[j];
       const double offset = transmission.joints[static_cast<std::size_t>(j)].offset;

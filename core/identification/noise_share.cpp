@@ -15,35 +15,37 @@ namespace {
 /// Covariance between the influences of the postures on one joint, for errors W: with r = (I - H) e and l_p
 /// the row of M_p A_p^T, l_p^T [(I - H) W (I - H)^T]_pq l_q. `inner`: A^T W A of all.
 InfluenceCovariance covarianceByNoise(const std::vector<PostureGain>& gains, const std::vector<NormalEquations>& normal,
-                                      const std::vector<Matrix6d>& noise, const Matrix6d& inverse,
-                                      const Matrix6d& inner, int joint) {
+                                      const std::vector<JointMatrix>& noise, const JointMatrix& inverse,
+                                      const JointMatrix& inner, int joint) {
   const auto n = static_cast<Eigen::Index>(gains.size());
-  InfluenceCovariance covariance{Eigen::VectorXd(n), Eigen::MatrixXd(12, n), Eigen::MatrixXd::Zero(12, 12)};
+  const Eigen::Index joints = inverse.rows(), rank = 2 * joints;
+  InfluenceCovariance covariance{Eigen::VectorXd(n), Eigen::MatrixXd(rank, n), Eigen::MatrixXd::Zero(rank, rank)};
   for (Eigen::Index p = 0; p < n; ++p) {
     const auto at = static_cast<std::size_t>(p);
-    const Vector6d row = gains[at].row(joint).transpose(), by_noise = noise[at] * row;
+    const JointVector row = gains[at].row(joint).transpose(), by_noise = noise[at] * row;
     covariance.through.col(p) << inverse * (normal[at].matrix * row), by_noise;
     covariance.own[p] = row.dot(by_noise);
   }
-  covariance.middle.topLeftCorner<6, 6>() = inner;
-  covariance.middle.topRightCorner<6, 6>() = -Matrix6d::Identity();
-  covariance.middle.bottomLeftCorner<6, 6>() = -Matrix6d::Identity();
+  covariance.middle.topLeftCorner(joints, joints) = inner;
+  covariance.middle.topRightCorner(joints, joints) = -JointMatrix::Identity(joints, joints);
+  covariance.middle.bottomLeftCorner(joints, joints) = -JointMatrix::Identity(joints, joints);
   return covariance;
 }
 
 }  // namespace
 
-std::vector<Matrix6d> reflectorNoise(const campaign::Tracker& tracker, const LoadedArm& arm,
-                                     const std::vector<CaseEquations>& equations) {
+std::vector<JointMatrix> reflectorNoise(const campaign::Tracker& tracker, const LoadedArm& arm,
+                                        const std::vector<CaseEquations>& equations) {
   if (!arm.geometry.r0_from_loading ||
       std::any_of(arm.cases.begin(), arm.cases.end(), [](const LoadCase& load_case) { return !load_case.absolute; }))
     return {};
-  std::vector<Matrix6d> noise(arm.cases.size());
+  std::vector<JointMatrix> noise(arm.cases.size());
   numerics::smallWorkOnAllCores(arm.cases.size(), [&](std::size_t i) {
     const LoadCase& load_case = arm.cases[i];
-    Matrix6d sum = Matrix6d::Zero();
+    const Eigen::Index joints = equations[i].matrix.cols();
+    JointMatrix sum = JointMatrix::Zero(joints, joints);
     for (std::size_t k = 0; k < load_case.targets.size(); ++k) {
-      const Matrix36d rows = equations[i].matrix.middleRows<3>(static_cast<Eigen::Index>(3 * k));
+      const PointJacobian rows = equations[i].matrix.middleRows<3>(static_cast<Eigen::Index>(3 * k));
       sum += rows.transpose() * displacementCovariance(tracker, *arm.geometry.r0_from_loading, load_case.targets[k]) *
              rows;
     }
@@ -52,23 +54,23 @@ std::vector<Matrix6d> reflectorNoise(const campaign::Tracker& tracker, const Loa
   return noise;
 }
 
-void correctForNoise(const std::vector<NormalEquations>& normal, const std::vector<Matrix6d>& noise,
+void correctForNoise(const std::vector<NormalEquations>& normal, const std::vector<JointMatrix>& noise,
                      StiffnessEstimate& estimate) {
   if (noise.size() != normal.size() || estimate.influences.size() != normal.size()) return;
   const robot::JointMask& unknown = estimate.identifiable;
   const NormalEquations sum = sumOf(normal);
-  Matrix6d inner = Matrix6d::Zero();
-  for (const Matrix6d& one : noise) inner += one;
+  const auto joints = static_cast<Eigen::Index>(unknown.size());
+  JointMatrix inner = JointMatrix::Zero(joints, joints);
+  for (const JointMatrix& one : noise) inner += one;
   const PostureGains gain(sum, unknown);
   std::vector<PostureGain> gains(normal.size());
   numerics::smallWorkOnAllCores(normal.size(), [&](std::size_t p) { gains[p] = gain.of(normal[p].matrix); });
-  const Matrix6d inverse = inverseNormal(sum, unknown);
-  const Matrix6d truth = inverse * inner * inverse;
-  Vector6d factor = Vector6d::Zero(), dof = Vector6d::Zero();
-  std::array<bool, 6> known;
-  known.fill(true);
+  const JointMatrix inverse = inverseNormal(sum, unknown);
+  const JointMatrix truth = inverse * inner * inverse;
+  JointVector factor = JointVector::Zero(joints), dof = factor;
+  robot::JointMask known(unknown.size(), true);
   numerics::onAllCores(
-      6,
+      unknown.size(),
       [&](std::size_t joint) {
         if (!unknown[joint]) return;
         const int j = static_cast<int>(joint);
@@ -80,8 +82,8 @@ void correctForNoise(const std::vector<NormalEquations>& normal, const std::vect
       },
       normal.size() >= numerics::kWorthThreads);
   if (std::find(known.begin(), known.end(), false) != known.end()) return;
-  std::vector<Vector6d> influences = estimate.influences;
-  for (Vector6d& one : influences) one = one.cwiseProduct(factor);
+  std::vector<JointVector> influences = estimate.influences;
+  for (JointVector& one : influences) one = one.cwiseProduct(factor);
   setScatter(std::move(influences), dof, estimate);
 }
 

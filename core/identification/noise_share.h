@@ -31,8 +31,8 @@ std::optional<NoiseShare> noiseShare(const campaign::Campaign& campaign, const f
 
 /// A^T W A of each case's reflector equations, W the covariance of its rows by the tracker's declared noise (R0, m^2).
 /// Reflectors are independent of each other. Empty where positions are not absolute.
-std::vector<Matrix6d> reflectorNoise(const campaign::Tracker& tracker, const LoadedArm& arm,
-                                     const std::vector<CaseEquations>& equations);
+std::vector<JointMatrix> reflectorNoise(const campaign::Tracker& tracker, const LoadedArm& arm,
+                                        const std::vector<CaseEquations>& equations);
 
 /// The scatter covariance of one-stage least squares is right on average, and its degrees of freedom are, for errors
 /// that are alike in all rows (CR2). The tracker's are not: along its beam they are a fifth of those across, and they
@@ -40,7 +40,7 @@ std::vector<Matrix6d> reflectorNoise(const campaign::Tracker& tracker, const Loa
 /// the scatter (Pustejovsky and Tipton 2018, with W as working model): the influences on joint j are multiplied by the
 /// root of [N^-1 A^T W A N^-1]_jj over the expectation of their sum of squares. `normal` and `noise`: A^T A and A^T W
 /// A, one a posture.
-void correctForNoise(const std::vector<NormalEquations>& normal, const std::vector<Matrix6d>& noise,
+void correctForNoise(const std::vector<NormalEquations>& normal, const std::vector<JointMatrix>& noise,
                      StiffnessEstimate& estimate);
 
 }  // namespace stiffscope::identification

@@ -45,13 +45,14 @@ class Sums {
   }
 
   /// Second moments of the other postures' residuals; empty without common coordinates.
-  Eigen::MatrixXd momentsWithout(const Posture& own, const Vector6d& d) const {
-    const Eigen::Index rows = moments_.rows() / 7;
-    Eigen::Matrix<double, 7, 1> mix;
+  Eigen::MatrixXd momentsWithout(const Posture& own, const JointVector& d) const {
+    const Eigen::Index columns = d.size() + 1, rows = moments_.rows() / columns;
+    Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMostJoints + 1, 1> mix(columns);
     mix << -d, 1.0;
     Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(rows, rows);
-    for (Eigen::Index k = 0; k < 7; ++k) {
-      for (Eigen::Index l = 0; l < 7; ++l) sum += mix[k] * mix[l] * moments_.block(k * rows, l * rows, rows, rows);
+    for (Eigen::Index k = 0; k < columns; ++k) {
+      for (Eigen::Index l = 0; l < columns; ++l)
+        sum += mix[k] * mix[l] * moments_.block(k * rows, l * rows, rows, rows);
     }
     const Eigen::VectorXd moved = own.residual - own.equations->matrix * d;
     if (rows > 0) sum -= moved * moved.transpose();
@@ -65,20 +66,20 @@ class Sums {
  private:
   /// Some columns of the sum at a time, each over the postures in their order.
   void addCommonMoments(const std::vector<Posture>& postures) {
-    const Eigen::Index rows = postures.front().residual.size(), size = 7 * rows;
+    const Eigen::Index rows = postures.front().residual.size(), columns = postures.front().equations->matrix.cols() + 1,
+                       size = columns * rows;
     Eigen::MatrixXd entries(size, static_cast<Eigen::Index>(postures.size()));
     numerics::smallWorkOnAllCores(postures.size(), [&](std::size_t p) {
       entries.col(static_cast<Eigen::Index>(p)) << postures[p].equations->matrix.reshaped(), postures[p].residual;
     });
     moments_.setZero(size, size);
-    constexpr Eigen::Index kColumns = 7;
     numerics::onAllCores(
         static_cast<std::size_t>(rows),
         [&](std::size_t block) {
-          const Eigen::Index from = kColumns * static_cast<Eigen::Index>(block);
+          const Eigen::Index from = columns * static_cast<Eigen::Index>(block);
           for (Eigen::Index p = 0; p < entries.cols(); ++p) {
             const auto own = entries.col(p);
-            for (Eigen::Index c = from; c < from + kColumns; ++c)
+            for (Eigen::Index c = from; c < from + columns; ++c)
               moments_.col(c).tail(size - c) += own[c] * own.tail(size - c);
           }
         },
@@ -100,7 +101,7 @@ double dofWithout(const Sums& all, const Posture& own, double unknowns) {
 
 /// All but the p value; f 0 where the others leave nothing to judge by.
 OutlyingPosture judge(const Sums& all, const Posture& own, const robot::JointMask& unknown, double unknowns) {
-  const Vector6d step = solveNormal(without(all.normal, own), unknown);
+  const JointVector step = solveNormal(without(all.normal, own), unknown);
   const Eigen::VectorXd deleted = own.residual - own.equations->matrix * step;
   const double coordinates = static_cast<double>(deleted.size());
   OutlyingPosture result;
@@ -126,7 +127,7 @@ bool canBeOutlying(const Sums& all, const Posture& own, double f, double unknown
 
 double pValue(const Sums& all, const Posture& own, double f, const robot::JointMask& unknown, double unknowns,
               double postures) {
-  const Vector6d step = solveNormal(without(all.normal, own), unknown);
+  const JointVector step = solveNormal(without(all.normal, own), unknown);
   // How many independent numbers a posture's residual is; without common coordinates the least there can be.
   const double per_posture = std::max(1.0, satterthwaite(all.momentsWithout(own, step)));
   const double below = per_posture * dofWithout(all, own, unknowns) / static_cast<double>(own.residual.size());
@@ -142,11 +143,12 @@ std::vector<Posture> fitAll(const std::vector<const CaseEquations*>& equations, 
   });
   const auto sum = numerics::sumInBlocks<NormalEquations>(
       postures.size(), [&](std::size_t p, NormalEquations& all) { all += postures[p].normal; });
-  const Vector6d compliance = solveNormal(sum, unknown);
+  const JointVector compliance = solveNormal(sum, unknown);
   numerics::smallWorkOnAllCores(equations.size(), [&](std::size_t p) {
     const auto& matrix = equations[p]->matrix;
     postures[p].residual = equations[p]->right - matrix * compliance;
-    for (Eigen::Index j = 0; j < 6; ++j) postures[p].normal.right[j] = matrix.col(j).dot(postures[p].residual);
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j)
+      postures[p].normal.right[j] = matrix.col(j).dot(postures[p].residual);
   });
   return postures;
 }

@@ -4,11 +4,11 @@
 
 namespace stiffscope::identification {
 
-CaseEquations partialPoseEquations(const LoadCase& load_case, const Vector6d& torque) {
+CaseEquations partialPoseEquations(const LoadCase& load_case, const JointVector& torque) {
   CaseEquations equations;
   const auto rows = static_cast<Eigen::Index>(3 * load_case.targets.size());
   equations.posture = load_case.pose;
-  equations.matrix.resize(rows, 6);
+  equations.matrix.resize(rows, torque.size());
   equations.right.resize(rows);
   const robot::ArmAxes& axes = jacobianAxes(load_case);
   Eigen::Index row = 0;

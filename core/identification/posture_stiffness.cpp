@@ -10,18 +10,19 @@
 
 namespace stiffscope::identification {
 
-PostureConditioning postureConditioning(const Matrix6d& jacobian, double length) {
-  Matrix6d normalised = jacobian;
+PostureConditioning postureConditioning(const Jacobian& jacobian, double length) {
+  Jacobian normalised = jacobian;
   normalised.topRows<3>() /= length;
-  const Vector6d singular = singularValues(normalised);
+  const Eigen::VectorXd singular = singularValues(normalised);
   constexpr double kRounding = 1e-14;  // of the largest: nothing is left of the least
   PostureConditioning result;
-  if (singular[5] <= kRounding * singular[0]) {
+  const Eigen::Index last = singular.size() - 1;
+  if (singular[last] <= kRounding * singular[0]) {
     result.kappa = result.kappa_two = std::numeric_limits<double>::infinity();
     return result;
   }
-  result.kappa = singular.norm() * singular.cwiseInverse().norm() / 6.0;
-  result.kappa_two = singular[0] / singular[5];
+  result.kappa = singular.norm() * singular.cwiseInverse().norm() / static_cast<double>(singular.size());
+  result.kappa_two = singular[0] / singular[last];
   result.dexterity = 1.0 / result.kappa;
   return result;
 }
@@ -45,15 +46,15 @@ PostureStiffness postureStiffness(const frames::LoadingGeometry& geometry, const
                                   const Eigen::Vector3d& tcp_in_flange, double length) {
   PostureStiffness result;
   const Eigen::Vector3d point = robot::flangeAt(geometry.arm, posture) * tcp_in_flange;
-  const Matrix6d jacobian = robot::jacobianAt(geometry.arm, posture, point);
+  const Jacobian jacobian = robot::jacobianAt(geometry.arm, posture, point);
   const robot::ArmAxes axes = robot::axesAt(geometry.arm, posture);
-  const Matrix6d geometric =
+  const JointMatrix geometric =
       robot::geometricStiffness(axes, wrench) + robot::geometricStiffness(axes, posture, geometry.weight);
   result.conditioning = postureConditioning(jacobian, length);
   result.without_kc = robot::cartesianStiffness(point, jacobian, estimate.compliance);
   result.with_kc = robot::cartesianStiffness(point, jacobian, estimate.compliance, geometric);
   result.kc_share = robot::geometricStiffnessShare(result.with_kc, result.without_kc);
-  for (int joint = 0; joint < 6; ++joint) {
+  for (int joint = 0; joint < estimate.joints(); ++joint) {
     if (!estimate.identifiable[static_cast<std::size_t>(joint)]) result.rigid_joints.push_back(joint);
   }
   return result;

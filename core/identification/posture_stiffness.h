@@ -14,14 +14,15 @@ namespace stiffscope::identification {
 /// How well conditioned the arm is in one posture: what Dumas et al. (paper, [9]) choose postures by, so that
 /// K_c may be neglected and identification not run into a singularity.
 struct PostureConditioning {
-  double kappa = 0.0;      ///< Frobenius, 1/6 sqrt(tr(J_N^T J_N) tr((J_N^T J_N)^-1)); 1 is isotropic
+  double kappa = 0.0;      ///< Frobenius, 1/m sqrt(tr(J_N^T J_N) tr((J_N^T J_N)^-1)) of its m = 6 singular
+                           ///< values (as many as joints, of fewer); 1 is isotropic
   double kappa_two = 0.0;  ///< 2-norm: largest over least singular value of J_N
   double dexterity = 0.0;  ///< 1 / kappa, 0 to 1; 0 in a singularity
 };
 
 /// Of J_N = diag(1/L I, I) J, paper (8) with J (docs/method.md, Slips of the paper), J the Jacobian of a point of the
 /// flange body. `length` is the characteristic length L, m. Infinite kappas in a singularity.
-PostureConditioning postureConditioning(const Matrix6d& jacobian, double length);
+PostureConditioning postureConditioning(const Jacobian& jacobian, double length);
 
 /// The arm's Cartesian stiffness at P_TCP in one posture and under one load, in R0.
 struct PostureStiffness {
@@ -30,7 +31,7 @@ struct PostureStiffness {
   robot::CartesianStiffness without_kc;  ///< paper (6)
   robot::CartesianStiffness with_kc;     ///< paper (4), K_c of the load and of the own weight
   double kc_share = 0.0;                 ///< geometricStiffnessShare of the two
-  std::vector<int> rigid_joints;         ///< 0..5: not identifiable, taken as rigid, so that stiffnesses are too high
+  std::vector<int> rigid_joints;         ///< from 0: not identifiable, taken as rigid, so that stiffnesses are too high
 };
 
 /// One posture: the arm at the joint angles of `posture` under `wrench` (R0), its point `tcp_in_flange`.

@@ -16,10 +16,11 @@ enum class RemarkId {
   flange_pose_not_everywhere,
   flange_pose_by_displacements,  ///< reflectors
   wrist_point_not_everywhere,
-  wrist_centre_not_measured,    ///< why
-  wrist_sweep_wanted,           ///< why there is no P_wrist
-  wrist_sweep_wanted_too,       ///< why there are no positions
-  wrist_axes_apart,             ///< distance of axes 4 and 5 m, of 5 and 6 m, share of P_wrist's motion, most share
+  wrist_centre_not_measured,  ///< why
+  wrist_sweep_wanted,         ///< why there is no P_wrist, first and last of the wrist's axes
+  wrist_sweep_wanted_too,     ///< why there are no positions, first and last of the wrist's axes
+  wrist_axes_apart,  ///< distances of consecutive wrist axes m, share of P_wrist's motion, most share, the first of
+                     ///< those axes
   geometry_not_calibrated,      ///< why
   displacements_by_model_only,  ///< of the calibration: not done
   // why a joint is not identifiable

@@ -48,13 +48,15 @@ class MovedFrames {
 
   const campaign::Campaign& campaign_;
   const frames::Frames& frames_;
-  const Vector6d compliance_;
+  const JointVector compliance_;
   const LoadReadings readings_;
 };
 
 Eigen::VectorXd solveAll(const std::vector<ComplianceOf>& solves, const LoadedArm& arm) {
-  Eigen::VectorXd all(6 * static_cast<Eigen::Index>(solves.size()));
-  for (std::size_t k = 0; k < solves.size(); ++k) all.segment<6>(6 * static_cast<Eigen::Index>(k)) = solves[k](arm);
+  const Eigen::Index joints = arm.geometry.arm.joints();
+  Eigen::VectorXd all(joints * static_cast<Eigen::Index>(solves.size()));
+  for (std::size_t k = 0; k < solves.size(); ++k)
+    all.segment(joints * static_cast<Eigen::Index>(k), joints) = solves[k](arm);
   return all;
 }
 
@@ -63,7 +65,9 @@ Eigen::VectorXd solveAll(const std::vector<ComplianceOf>& solves, const LoadedAr
 std::vector<SweptParts> sweptParts(const campaign::Campaign& campaign, const frames::Frames& frames,
                                    const frames::LoadingGeometry& geometry, const std::vector<int>& steps,
                                    const std::vector<ComplianceOf>& solves) {
-  std::vector<SweptParts> parts(solves.size());
+  const Eigen::Index count = geometry.arm.joints();
+  const JointMatrix none = JointMatrix::Zero(count, count);
+  std::vector<SweptParts> parts(solves.size(), {none, none});
   if (solves.empty() || !frames.arm.points_placed) return parts;
   const MovedFrames moved(campaign, frames, geometry, steps);
   const frames::AxesCovariance all_axes = frames::axesCovariance(frames.axes);
@@ -76,7 +80,7 @@ std::vector<SweptParts> sweptParts(const campaign::Campaign& campaign, const fra
   }
   const frames::WristCentre& wrist = frames.wrist;
   const std::size_t swept = wrist.measured ? wrist.targets.size() : 0;
-  const auto numbers = 6 * static_cast<Eigen::Index>(solves.size());
+  const Eigen::Index joints = geometry.arm.joints(), numbers = joints * static_cast<Eigen::Index>(solves.size());
   Eigen::MatrixXd by_axes(numbers, 4 * static_cast<Eigen::Index>(lines.size()));
   Eigen::MatrixXd with_radii(numbers, static_cast<Eigen::Index>(swept));
   Eigen::VectorXd unmoved;
@@ -103,25 +107,25 @@ std::vector<SweptParts> sweptParts(const campaign::Campaign& campaign, const fra
       swept > 0 ? Eigen::MatrixXd((with_radii.colwise() - unmoved) / kStep) : std::move(with_radii);
   const auto radii = static_cast<Eigen::Index>(swept);
   for (std::size_t k = 0; k < solves.size(); ++k) {
-    const auto at = 6 * static_cast<Eigen::Index>(k);
-    parts[k].frames = by_axes.middleRows<6>(at) * of_axes * by_axes.middleRows<6>(at).transpose();
+    const Eigen::Index at = joints * static_cast<Eigen::Index>(k);
+    parts[k].frames = by_axes.middleRows(at, joints) * of_axes * by_axes.middleRows(at, joints).transpose();
     if (swept == 0) continue;
-    parts[k].wrist = by_radii.middleRows<6>(at) * wrist.spheres.covariance.bottomRightCorner(radii, radii) *
-                     by_radii.middleRows<6>(at).transpose();
+    parts[k].wrist = by_radii.middleRows(at, joints) * wrist.spheres.covariance.bottomRightCorner(radii, radii) *
+                     by_radii.middleRows(at, joints).transpose();
   }
   return parts;
 }
 
-Matrix6d calibratedPart(const campaign::Campaign& campaign, const frames::GeometryCalibration& calibration,
-                        const frames::WristCentre& wrist, const std::vector<int>& steps, const ComplianceOf& solve) {
+JointMatrix calibratedPart(const campaign::Campaign& campaign, const frames::GeometryCalibration& calibration,
+                           const frames::WristCentre& wrist, const std::vector<int>& steps, const ComplianceOf& solve) {
   const LoadReadings readings(campaign, steps);
-  const Vector6d unmoved = solve(loadedArm(campaign, readings, calibration.geometry, wrist, steps));
-  std::vector<Vector6d> changes(calibration.spread.size());
+  const JointVector unmoved = solve(loadedArm(campaign, readings, calibration.geometry, wrist, steps));
+  std::vector<JointVector> changes(calibration.spread.size());
   numerics::onAllCores(changes.size(), [&](std::size_t i) {
     changes[i] = solve(loadedArm(campaign, readings, calibration.spread[i], wrist, steps)) - unmoved;
   });
-  Matrix6d covariance = Matrix6d::Zero();
-  for (const Vector6d& change : changes) covariance += change * change.transpose();
+  JointMatrix covariance = JointMatrix::Zero(unmoved.size(), unmoved.size());
+  for (const JointVector& change : changes) covariance += change * change.transpose();
   return covariance;
 }
 

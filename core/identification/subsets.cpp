@@ -23,7 +23,7 @@ struct SubsetResidual {
 /// One subset, solved and judged.
 struct Subset {
   Eigen::ArrayXd used;  ///< a posture each: 1 where the subset uses it, else 0
-  Vector6d compliance = Vector6d::Zero();
+  JointVector compliance;
   SubsetResidual at_wrist, at_targets;
 };
 
@@ -32,7 +32,7 @@ void evaluateSubsets(const SubsetMethod& method, std::span<Subset> subsets);
 
 /// Results of some subsets, in the order in which they were added.
 struct SubsetSums {
-  std::vector<Vector6d> compliances;
+  std::vector<JointVector> compliances;
   SubsetJudgement at_wrist, at_targets;  ///< sums
   Eigen::ArrayXd held_out;               ///< subsets that leave each posture out
 };
@@ -75,7 +75,7 @@ StiffnessSpread spreadOf(const SubsetStudy& study, int joint) {
   std::vector<double> stiffness;
   stiffness.reserve(study.compliances.size());
   double sum = 0.0, square = 0.0, c_sum = 0.0, c_square = 0.0;
-  for (const Vector6d& compliance : study.compliances) {
+  for (const JointVector& compliance : study.compliances) {
     const double c = compliance[joint], k = 1.0 / c;
     stiffness.push_back(k);
     sum += k;
@@ -86,7 +86,7 @@ StiffnessSpread spreadOf(const SubsetStudy& study, int joint) {
   if (stiffness.size() < 2) return spread;
   spread.mean = sum / n;
   spread.compliance_mean = c_sum / n;
-  for (const Vector6d& compliance : study.compliances) {
+  for (const JointVector& compliance : study.compliances) {
     square += std::pow(1.0 / compliance[joint] - spread.mean, 2);
     c_square += std::pow(compliance[joint] - spread.compliance_mean, 2);
   }
@@ -114,14 +114,20 @@ void drawNext(numerics::SubsetDraws& draws, std::size_t count, std::vector<Postu
   }
 }
 
-/// Normal equations without what the symmetry of the matrix repeats.
+/// How many numbers normal equations have without what the symmetry of the matrix repeats, rounded up to an even one.
+constexpr int packedSize(int joints) { return (joints * (joints + 1) / 2 + joints + 1) / 2 * 2; }
+
+/// Normal equations as these numbers, `Numbers` or fewer; the others are zero.
+template <int Numbers>
 class Packed {
  public:
   Packed() = default;
   explicit Packed(const NormalEquations& normal) {
+    const Eigen::Index joints = normal.right.size();
     Eigen::Index at = 0;
-    for (Eigen::Index j = 0; j < 6; at += 6 - j, ++j) numbers_.segment(at, 6 - j) = normal.matrix.col(j).tail(6 - j);
-    numbers_.segment<6>(at) = normal.right;
+    for (Eigen::Index j = 0; j < joints; at += joints - j, ++j)
+      numbers_.segment(at, joints - j) = normal.matrix.col(j).tail(joints - j);
+    numbers_.segment(at, joints) = normal.right;
   }
 
   Packed& operator+=(const Packed& other) {
@@ -129,33 +135,35 @@ class Packed {
     return *this;
   }
 
-  NormalEquations whole() const {
-    NormalEquations normal;
+  NormalEquations whole(Eigen::Index joints) const {
+    NormalEquations normal(joints);
     Eigen::Index at = 0;
-    for (Eigen::Index j = 0; j < 6; at += 6 - j, ++j) {
-      normal.matrix.col(j).tail(6 - j) = numbers_.segment(at, 6 - j);
-      normal.matrix.row(j).tail(6 - j) = numbers_.segment(at, 6 - j).transpose();
+    for (Eigen::Index j = 0; j < joints; at += joints - j, ++j) {
+      normal.matrix.col(j).tail(joints - j) = numbers_.segment(at, joints - j);
+      normal.matrix.row(j).tail(joints - j) = numbers_.segment(at, joints - j).transpose();
     }
-    normal.right = numbers_.segment<6>(at);
+    normal.right = numbers_.segment(at, joints);
     return normal;
   }
 
  private:
-  Eigen::Matrix<double, 28, 1> numbers_ = Eigen::Matrix<double, 28, 1>::Zero();  // the last is none: an even number
+  Eigen::Matrix<double, Numbers, 1> numbers_ = Eigen::Matrix<double, Numbers, 1>::Zero();
 };
 
-std::vector<Packed> packed(const std::vector<NormalEquations>& normal) {
-  std::vector<Packed> all;
+template <int Numbers>
+std::vector<Packed<Numbers>> packed(const std::vector<NormalEquations>& normal) {
+  std::vector<Packed<Numbers>> all;
   all.reserve(normal.size());
   for (const NormalEquations& one : normal) all.emplace_back(one);
   return all;
 }
 
 /// Solves some subsets together: of each few postures, which then are in the nearest cache, what every subset uses.
+template <int Numbers>
 class Solver {
  public:
   explicit Solver(const SubsetMethod& method)
-      : method_(method), normal_(packed(method.normal)), reflectors_(packed(method.reflectors)) {}
+      : method_(method), normal_(packed<Numbers>(method.normal)), reflectors_(packed<Numbers>(method.reflectors)) {}
 
   std::vector<Subset> solve(std::span<const Postures> drawn) const {
     std::vector<Subset> subsets(drawn.size());
@@ -171,9 +179,9 @@ class Solver {
   }
 
  private:
-  static std::vector<NormalEquations> sums(const std::vector<Packed>& all, const std::vector<Subset>& subsets) {
+  std::vector<NormalEquations> sums(const std::vector<Packed<Numbers>>& all, const std::vector<Subset>& subsets) const {
     constexpr std::size_t kPostures = 128;
-    std::vector<Packed> sums(subsets.size());
+    std::vector<Packed<Numbers>> sums(subsets.size());
     for (std::size_t from = 0; from < all.size(); from += kPostures) {
       const std::size_t size = std::min(kPostures, all.size() - from);
       for (std::size_t k = 0; k < subsets.size(); ++k) {
@@ -185,28 +193,27 @@ class Solver {
           here[count] = from + i;
           count += used[i] != 0.0;
         }
-        Packed sum = sums[k];
+        Packed<Numbers> sum = sums[k];
         for (std::size_t i = 0; i < count; ++i) sum += all[here[i]];
         sums[k] = sum;
       }
     }
     std::vector<NormalEquations> whole;
-    for (const Packed& one : sums) whole.push_back(one.whole());
+    const auto joints = static_cast<Eigen::Index>(method_.unknown.size());
+    for (const Packed<Numbers>& one : sums) whole.push_back(one.whole(joints));
     return whole;
   }
 
   const SubsetMethod& method_;
-  std::vector<Packed> normal_, reflectors_;
+  std::vector<Packed<Numbers>> normal_, reflectors_;
 };
 
-}  // namespace
-
-std::vector<SubsetSums> sampleSubsets(const SubsetMethod& method, std::size_t size, std::size_t count,
-                                      std::uint64_t seed) {
+template <int Numbers>
+std::vector<SubsetSums> sampleBy(const Solver<Numbers>& solver, const SubsetMethod& method, std::size_t size,
+                                 std::size_t count, std::uint64_t seed) {
   // As many groups at the same time as keep many cores busy, and no more than some megabytes of drawn postures.
   constexpr std::size_t kGroup = 8, kDrawn = 500'000;
   const std::size_t at_once = kGroup * std::max<std::size_t>(4, kDrawn / size / kGroup);
-  const Solver solver(method);
   std::vector<SubsetSums> sums((count + kGroup - 1) / kGroup);
   numerics::SubsetDraws draws(method.normal.size(), size, seed);
   std::vector<Postures> drawn, drawn_next;
@@ -226,6 +233,15 @@ std::vector<SubsetSums> sampleSubsets(const SubsetMethod& method, std::size_t si
   return sums;
 }
 
+}  // namespace
+
+std::vector<SubsetSums> sampleSubsets(const SubsetMethod& method, std::size_t size, std::size_t count,
+                                      std::uint64_t seed) {
+  // Of most machines as few numbers as there are.
+  if (method.unknown.size() <= 6) return sampleBy(Solver<packedSize(6)>(method), method, size, count, seed);
+  return sampleBy(Solver<packedSize(kMostJoints)>(method), method, size, count, seed);
+}
+
 namespace {
 
 using PostureArray = Eigen::Map<const Eigen::ArrayXd>;
@@ -236,7 +252,7 @@ PostureArray each(const std::vector<double>& posture) {
 
 void judge(const DeflectionJudge& judge, std::span<Subset> subsets, SubsetResidual Subset::*points) {
   if (judge.postures() == 0) return;
-  std::vector<Vector6d> compliances;
+  std::vector<JointVector> compliances;
   std::vector<std::vector<double>*> left;
   for (Subset& one : subsets) {
     compliances.push_back(one.compliance);
@@ -263,7 +279,7 @@ void add(const SubsetResidual& one, const Eigen::ArrayXd& used, SubsetJudgement&
 
 }  // namespace
 
-Vector6d solveSubset(const SubsetMethod& method, const NormalEquations& normal, const NormalEquations& reflectors) {
+JointVector solveSubset(const SubsetMethod& method, const NormalEquations& normal, const NormalEquations& reflectors) {
   return method.reflectors.empty() ? solveNormal(normal, method.unknown)
                                    : solveDecoupled(normal, reflectors, method.unknown);
 }

@@ -16,12 +16,12 @@ namespace stiffscope::identification {
 /// coordinate of all points stands together. Points that are not there have zeros.
 struct alignas(64) PointBlock {
   static constexpr std::size_t kPoints = 8;
-  double matrix[3][6][kPoints] = {};  ///< A by coordinate, joint and point
-  double right[3][kPoints] = {};      ///< b by coordinate and point, m
+  double matrix[3][kMostJoints][kPoints] = {};  ///< A by coordinate, joint and point
+  double right[3][kPoints] = {};                ///< b by coordinate and point, m
 };
 
 /// |b - A c| of each point, m; `norms`: kPoints a block. The same numbers with wide registers and without.
-void residualNorms(std::span<const PointBlock> blocks, const Vector6d& compliance, std::span<double> norms);
+void residualNorms(std::span<const PointBlock> blocks, const JointVector& compliance, std::span<double> norms);
 
 /// How much of the deflection a model takes away at some points: 1 - sum |residual| / sum |displacement|,
 /// over postures (docs/method.md, What every method reports). Prepared for many evaluations.
@@ -39,12 +39,12 @@ class DeflectionJudge {
   const std::vector<double>& displacement() const { return displacement_; }
 
   /// Per posture: sum over its points of |b - A c|, m.
-  std::vector<double> residual(const Vector6d& compliance) const;
+  std::vector<double> residual(const JointVector& compliance) const;
   /// The same of some compliances, for each into its vector: quicker than one by one.
-  void residuals(std::span<const Vector6d> compliances, std::span<std::vector<double>* const> per_posture) const;
+  void residuals(std::span<const JointVector> compliances, std::span<std::vector<double>* const> per_posture) const;
 
   /// Over all postures.
-  double compensated(const Vector6d& compliance) const;
+  double compensated(const JointVector& compliance) const;
 
   /// Points of a posture, for turning sums into means.
   int pointsOf(std::size_t posture) const { return points_[posture]; }
@@ -52,7 +52,7 @@ class DeflectionJudge {
  private:
   /// `first`: of the equations of each posture, the first.
   DeflectionJudge(const std::vector<CaseEquations>& equations, const std::vector<std::size_t>& first);
-  void addResidual(std::size_t from_block, std::size_t blocks, const Vector6d& compliance,
+  void addResidual(std::size_t from_block, std::size_t blocks, const JointVector& compliance,
                    std::vector<double>& per_posture) const;
 
   std::vector<PointBlock> blocks_;  // its points in the order of the equations
@@ -73,7 +73,7 @@ struct SubsetOptions {
 struct SubsetMethod {
   std::vector<NormalEquations> normal;      ///< a posture each; for the decoupled method those of P_wrist
   std::vector<NormalEquations> reflectors;  ///< only the decoupled method: those of the reflectors
-  robot::JointMask unknown{};
+  robot::JointMask unknown;
   DeflectionJudge at_wrist;  ///< empty where P_wrist is not measured
   DeflectionJudge at_targets;
 };
@@ -94,10 +94,10 @@ struct SubsetJudgement {
 };
 
 struct SubsetStudy {
-  int size = 0;                       ///< m
-  int of = 0;                         ///< n
-  bool every_subset = false;          ///< false: a sample
-  std::vector<Vector6d> compliances;  ///< one a subset, in a fixed order
+  int size = 0;                          ///< m
+  int of = 0;                            ///< n
+  bool every_subset = false;             ///< false: a sample
+  std::vector<JointVector> compliances;  ///< one a subset, in a fixed order
   SubsetJudgement at_wrist, at_targets;
 };
 
@@ -107,7 +107,7 @@ SubsetStudy studySubsets(const SubsetMethod& method, const SubsetOptions& option
 
 /// Solves the method from the sums of the equations of the postures that take part; `reflectors` only for the decoupled
 /// method.
-Vector6d solveSubset(const SubsetMethod& method, const NormalEquations& normal, const NormalEquations& reflectors);
+JointVector solveSubset(const SubsetMethod& method, const NormalEquations& normal, const NormalEquations& reflectors);
 
 /// A mean over subsets with the standard deviation of single subsets about it; NaN of fewer than two subsets. Of
 /// subsets of half the postures the deviation is near the standard uncertainty of the mean by the choice of postures
@@ -133,7 +133,7 @@ StiffnessSpread spreadOf(const SubsetStudy& study, int joint);
 /// Postures drawn with replacement, as many as there are, and the method solved on each draw (Efron): a second way to
 /// the spread of the compliances, which knows no normal distribution, no Student's t and no shared errors.
 struct PostureBootstrap {
-  std::vector<Vector6d> compliances;  ///< one a draw, in the order of the draws
+  std::vector<JointVector> compliances;  ///< one a draw, in the order of the draws
 
   /// Percentile interval of a joint's compliance.
   CoverageInterval compliance(int joint, double coverage = kStatedCoverage) const;

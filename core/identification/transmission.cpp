@@ -151,17 +151,19 @@ namespace {
 
 /// What the joints' readings make once it is settled which of them are used.
 struct GearFit {
-  std::array<JointStates, 6> joints;
-  std::array<JointColumns, 6> columns;
+  PerJoint<JointStates> joints;
+  PerJoint<JointColumns> columns;
   std::vector<NormalEquations> normal;  ///< one a posture
 };
 
 /// With these torques. `used`: null, or a fit that has settled which states are used.
 GearFit fitOf(const EncoderDay& day, std::size_t poses, const robot::JointMask& measured,
-              const std::vector<Vector6d>& torques, const WeightTorques& weight, const GearFit* settled) {
+              const std::vector<JointVector>& torques, const WeightTorques& weight, const GearFit* settled) {
   GearFit fit;
-  fit.normal.resize(poses);
-  for (int j = 0; j < 6; ++j) {
+  fit.joints.resize(measured.size());
+  fit.columns.resize(measured.size());
+  fit.normal.resize(poses, NormalEquations(static_cast<Eigen::Index>(measured.size())));
+  for (int j = 0; j < static_cast<int>(measured.size()); ++j) {
     const auto at = static_cast<std::size_t>(j);
     if (!measured[at]) continue;
     JointStates& joint = fit.joints[at] = day.statesOf(j, torques, weight);
@@ -180,15 +182,16 @@ GearFit fitOf(const EncoderDay& day, std::size_t poses, const robot::JointMask& 
 /// Which joints the loads turn enough, and why the others tell nothing.
 robot::JointMask judgeJoints(const campaign::Campaign& campaign, const EncoderDay& day,
                              const frames::LoadingGeometry& geometry, const std::vector<LoadCase>& cases,
-                             const std::vector<Vector6d>& torques, const WeightTorques& weight, Transmission& result) {
+                             const std::vector<JointVector>& torques, const WeightTorques& weight,
+                             Transmission& result) {
   const std::vector<int> steps = loadedSteps(campaign);
   std::vector<LoadCase> loaded;
   for (const LoadCase& one : cases) {
     if (std::find(steps.begin(), steps.end(), one.step) != steps.end()) loaded.push_back(one);
   }
   const Identifiability judged = evaluateTorques(geometry, loaded, *campaign.load_cell);
-  robot::JointMask measured{};
-  for (int j = 0; j < 6; ++j) {
+  robot::JointMask measured(result.joints.size(), false);
+  for (int j = 0; j < static_cast<int>(measured.size()); ++j) {
     const auto at = static_cast<std::size_t>(j);
     GearTorsion& out = result.joints[at];
     const JointStates joint = day.statesOf(j, torques, weight);
@@ -211,7 +214,7 @@ void addSharedParts(const campaign::Campaign& campaign, const EncoderDay& day, c
   const double gain = campaign.load_cell->gain_sigma;
   estimate.parts.effects = gain * gain * estimate.compliance * estimate.compliance.transpose();
   if (by_axes) {
-    estimate.parts.frames = by_axes([&](const frames::LoadingGeometry& geometry) -> Vector6d {
+    estimate.parts.frames = by_axes([&](const frames::LoadingGeometry& geometry) -> JointVector {
       const std::vector<LoadCase> cases = day.casesIn(geometry);
       const GearFit fit = fitOf(day, campaign.pose_ids.size(), estimate.identifiable, jointTorques(cases),
                                 day.weightTorques(geometry, cases), &settled);
@@ -224,11 +227,14 @@ void addSharedParts(const campaign::Campaign& campaign, const EncoderDay& day, c
 }  // namespace
 
 Transmission measureTransmission(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,
-                                 const Vector6d& compliance, const GeometryPart& by_axes) {
+                                 const JointVector& compliance, const GeometryPart& by_axes) {
   Transmission result;
+  const int joints = campaign.robot.joints();
+  result.joints.resize(static_cast<std::size_t>(joints));
+  result.estimate = StiffnessEstimate(joints);
   const EncoderDay day(campaign);
   std::vector<LoadCase> cases = day.casesIn(geometry);
-  const std::vector<Vector6d> torques = day.torquesIn(geometry, cases, compliance);
+  const std::vector<JointVector> torques = day.torquesIn(geometry, cases, compliance);
   const WeightTorques weight = day.weightTorques(geometry, cases);
   StiffnessEstimate& estimate = result.estimate;
   estimate.identifiable = judgeJoints(campaign, day, geometry, cases, torques, weight, result);
@@ -238,7 +244,7 @@ Transmission measureTransmission(const campaign::Campaign& campaign, const frame
   estimate.compliance = solveNormal(sum, estimate.identifiable);
   setScatterOfOneStage(fit.normal, sum, estimate);
   addSharedParts(campaign, day, by_axes, fit, estimate);
-  for (int j = 0; j < 6; ++j) {
+  for (int j = 0; j < joints; ++j) {
     const auto at = static_cast<std::size_t>(j);
     GearTorsion& out = result.joints[at];
     if (!out.measured) continue;

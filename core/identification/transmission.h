@@ -74,7 +74,7 @@ struct GearTorsion {
 struct TorsionPoint {
   int pose = 0;
   int step = 0;
-  int joint = 0;          ///< 0..5
+  int joint = 0;          ///< from 0
   double torque = 0.0;    ///< of the load, Nm
   double torsion = 0.0;   ///< q - m less a_p, rad
   double residual = 0.0;  ///< of it, rad
@@ -85,7 +85,7 @@ struct TorsionPoint {
 /// covariance has the scatter between postures, the measured axes, and in `parts.effects` the declared scale of the
 /// load cell.
 struct Transmission {
-  std::array<GearTorsion, 6> joints;
+  PerJoint<GearTorsion> joints;
   StiffnessEstimate estimate;
   std::vector<TorsionPoint> points;  ///< by joint, pose, step
 
@@ -97,14 +97,14 @@ struct Transmission {
 bool hasSecondEncoders(const campaign::Campaign& campaign);
 
 /// Compliances of the gears in a geometry, and their covariance where what the geometry was measured by is uncertain.
-using GearsIn = std::function<Vector6d(const frames::LoadingGeometry&)>;
-using GeometryPart = std::function<Matrix6d(const GearsIn&)>;
+using GearsIn = std::function<JointVector(const frames::LoadingGeometry&)>;
+using GeometryPart = std::function<JointMatrix(const GearsIn&)>;
 
 /// The gears of a campaign that has second encoders, states and a load cell; `compliance`: of the joints as the tracker
 /// sees them, for K_c; zero where it is not known. `by_axes`: what the measured axes share with all postures; empty:
 /// they count as known. Joints that cannot be measured say why; it never throws for what the data lacks.
 Transmission measureTransmission(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,
-                                 const Vector6d& compliance, const GeometryPart& by_axes = {});
+                                 const JointVector& compliance, const GeometryPart& by_axes = {});
 
 /// How the gear by its encoders and the joint by the tracker go together.
 enum class GearAgreement {

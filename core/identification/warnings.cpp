@@ -34,7 +34,7 @@ constexpr double kAboveNoise = 3.0;
 constexpr double kMostNoise = 0.5;
 
 bool hasPositive(const StiffnessEstimate& estimate) {
-  for (int joint = 0; joint < 6; ++joint) {
+  for (int joint = 0; joint < estimate.joints(); ++joint) {
     if (estimate.identifiable[static_cast<std::size_t>(joint)] && estimate.compliance[joint] > 0.0) return true;
   }
   return false;

@@ -19,7 +19,7 @@ struct ApparentStiffness {
 /// Empty without load cases, or where nothing pushes or nothing moves. Moments alone say nothing here.
 std::optional<ApparentStiffness> apparentStiffness(const std::vector<LoadCase>& cases);
 
-/// What six-axis arms give at the tool, N/m. Articulated robots are usually below 1e6 (Pan et al., J. Mater.
+/// What arms give at the tool, N/m. Articulated robots are usually below 1e6 (Pan et al., J. Mater.
 /// Process. Technol. 173, 2006, against more than 5e7 of machine tools), heavy ones come to a few times that,
 /// light collaborative arms to about 1e4. A unit wrong by a thousand leaves the range from half of the
 /// softest to the machine tools at one end or the other, but for the lightest arms given too large and the
@@ -27,7 +27,7 @@ std::optional<ApparentStiffness> apparentStiffness(const std::vector<LoadCase>& 
 inline constexpr double kSoftArm = 5e3;
 inline constexpr double kStiffArm = 5e7;
 
-/// What no six-axis arm gives: 10 kg would sink it by 10 cm; a solid steel column, 0.1 m square and 2 m high.
+/// What no arm gives: 10 kg would sink it by 10 cm; a solid steel column, 0.1 m square and 2 m high.
 inline constexpr double kSofterThanAnyArm = 1e3;
 inline constexpr double kStifferThanAnyArm = 1e9;
 

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -28,12 +27,8 @@ struct ReflectorPlaces {
 
 /// Postures that differ; load steps repeat one.
 std::size_t posturesOf(const std::vector<const PlacedReading*>& readings) {
-  std::set<std::array<double, 6>> postures;
-  for (const PlacedReading* reading : readings) {
-    std::array<double, 6> figures{};
-    Vector6d::Map(figures.data()) = reading->figures;
-    postures.insert(figures);
-  }
+  std::set<PerJoint<double>> postures;
+  for (const PlacedReading* reading : readings) postures.emplace(reading->figures.begin(), reading->figures.end());
   return postures.size();
 }
 
@@ -144,15 +139,15 @@ struct Trial {
   double scale = 1.0;
 };
 
-std::vector<Trial> trialsOf(const std::vector<campaign::JointReading>& convention) {
+std::vector<Trial> trialsOf(const std::vector<campaign::JointReading>& convention, int joints) {
   using Kind = OtherMeaning::Kind;
   std::vector<Trial> trials;
   const auto add = [&](OtherMeaning meaning, const auto& change) {
     Trial trial{meaning, convention};
     change(readingOf(trial.convention, meaning.joint));
-    if (campaign::JointConvention(trial.convention).invertible()) trials.push_back(std::move(trial));
+    if (campaign::JointConvention(trial.convention, joints).invertible()) trials.push_back(std::move(trial));
   };
-  for (int joint = 0; joint < 6; ++joint) {
+  for (int joint = 0; joint < joints; ++joint) {
     auto now = convention;
     const campaign::JointReading current = readingOf(now, joint);
     add({Kind::sign, joint, -1, -current.sign}, [](auto& reading) { reading.sign = -reading.sign; });
@@ -174,7 +169,8 @@ std::vector<Trial> trialsOf(const std::vector<campaign::JointReading>& conventio
 
 std::optional<double> chordMisfit(const robot::Robot& robot, const std::vector<campaign::JointReading>& convention,
                                   const std::vector<PlacedReading>& readings, double scale) {
-  const std::vector<ReflectorPlaces> places = placesOf(robot, campaign::JointConvention(convention), readings);
+  const std::vector<ReflectorPlaces> places =
+      placesOf(robot, campaign::JointConvention(convention, robot.joints()), readings);
   if (places.empty()) return std::nullopt;
   return misfitOf(places, scale);
 }
@@ -183,7 +179,7 @@ std::vector<OtherMeaning> otherMeanings(const robot::Robot& robot,
                                         const std::vector<campaign::JointReading>& convention,
                                         const std::vector<PlacedReading>& readings) {
   std::vector<OtherMeaning> meanings;
-  for (const Trial& trial : trialsOf(convention)) {
+  for (const Trial& trial : trialsOf(convention, robot.joints())) {
     const auto misfit = chordMisfit(robot, trial.convention, readings, trial.scale);
     if (!misfit) return {};
     meanings.push_back(trial.meaning);

@@ -56,7 +56,7 @@ const std::map<std::string, Quantity>& numberColumns() {
     }
     for (const char* turn : {"pw", "pp", "pr"}) add(turn, kAngleUnits);
     for (const char kind : {'q', 'c', 'm'}) {
-      for (char joint = '1'; joint <= '6'; ++joint) add({kind, joint}, kAngleUnits);
+      for (int joint = 0; joint < kMostJoints; ++joint) add({kind, static_cast<char>('1' + joint)}, kAngleUnits);
     }
     add("time", kTimeUnits);
     add("temperature", kTemperatureUnits);

@@ -100,7 +100,8 @@ PointsSource readPointsSource(const io::XmlNode& node, JoinBy by, std::vector<st
     node.refuse("axis", node.requiredAttribute("axis"), "expected no axis: only in circle_sweeps does one axis turn");
   if (node.has("axis")) {
     const std::size_t axis = wholeNumber(node, "axis");
-    if (axis < 1 || axis > 6) node.refuse("axis", node.requiredAttribute("axis"), "expected an axis, 1 to 6");
+    // How many there are is known when the URDF has been read (readDayFiles).
+    if (axis < 1) node.refuse("axis", node.requiredAttribute("axis"), "expected an axis, from 1 on");
     source.axis = static_cast<int>(axis) - 1;
   }
   if (const auto only = node.attribute("only"))

@@ -31,7 +31,7 @@ struct StandstillOptions {
 std::vector<Standstill> standstillsOf(const std::vector<JointSample>& samples, const StandstillOptions& options);
 
 /// Mean of the figures of samples first..last; where all are equal, that value to the last digit.
-Vector6d meanFigures(const std::vector<JointSample>& samples, std::size_t first, std::size_t last);
+JointVector meanFigures(const std::vector<JointSample>& samples, std::size_t first, std::size_t last);
 
 /// Mean of the poses that the controller states in samples first..last, turns as rotations; where all are equal, that
 /// pose to the last digit. Without what one of them lacks.
@@ -97,7 +97,7 @@ struct PointsSource {
   FileOptions options;
   NamePattern names;
   std::string target, pose, step;  ///< of all rows, where given
-  int axis = -1;                   ///< 0..5: the axis that turns; -1: names say it
+  int axis = -1;                   ///< from 0: the axis that turns; -1: names say it
   std::vector<std::string> only;   ///< names that are kept; empty: those of the role
   campaign::PointFrame frame = campaign::PointFrame::tracker;
 };

@@ -57,6 +57,11 @@ class DayReader {
     result_.urdf = day_.folder / urdf.name;
     result_.robot = robot::parseUrdf(bytes.text(), day_.pathOf(urdf.name), campaign.base_link, campaign.flange_link);
     campaign::requireJoints(day_.xml.joint_numbers, result_.robot.joints());
+    for (const PointsSource& source : day_.points) {
+      if (source.axis < result_.robot.joints()) continue;
+      throw io::InputError({day_.file, source.line, "axis"}, std::to_string(source.axis + 1),
+                           fmt::format("expected an axis, 1 to {}", result_.robot.joints()));
+    }
   }
 
   void readPoints(const PointsSource& source) {
@@ -84,7 +89,9 @@ class DayReader {
 
   void readLog(const LogSource& source) {
     const io::TextFile bytes = bytesOf(source.file, source.line, "log");
-    RobotLog log = parseRobotLog(day_.pathOf(source.file), bytes.text(), source.options);
+    LogOptions options = source.options;
+    options.joints = result_.robot.joints();
+    RobotLog log = parseRobotLog(day_.pathOf(source.file), bytes.text(), options);
     result_.files.back().format = nameOf(log.format);
     result_.files.back().encoding = nameOf(log.encoding);
     keep(log.warnings);

@@ -48,8 +48,8 @@ struct DayFiles {
 };
 
 /// Reads them. Times of a calendar become seconds since the first whole second of the day, which is `start`. Throws
-/// InputError for a file that is not there or cannot be read, points in two frames, times with and without dates, and
-/// two loads of one pose and step.
+/// InputError for a file that is not there or cannot be read, an axis that the robot has not, points in two frames,
+/// times with and without dates, and two loads of one pose and step.
 DayFiles readDayFiles(const DayDescription& day, std::vector<std::string>& warnings);
 
 /// A load step as a name or cell states it; 0 where it is empty. Throws InputError where it is no whole number, 0 or

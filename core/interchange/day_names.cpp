@@ -59,9 +59,11 @@ std::optional<DayReading> DayNames::readingOf(std::size_t source_index, const Po
   reading.axis = source.axis;
   if (source.axis >= 0) return reading;
   const std::optional<int> axis = io::parseInteger(field("axis"));
-  if (!axis || *axis < 1 || *axis > 6)
+  if (!axis || *axis < 1 || *axis > joints_)
     throw io::InputError({day_.pathOf(source.file), point.line, "axis"}, field("axis"),
-                         "expected an axis, 1 to 6, by the attribute axis, {axis} in names, or a column axis");
+                         fmt::format("expected an axis, 1 to {}, by the attribute axis, {{axis}} in names, or a column "
+                                     "axis",
+                                     joints_));
   reading.axis = *axis - 1;
   return reading;
 }

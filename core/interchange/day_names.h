@@ -11,8 +11,8 @@ namespace stiffscope::interchange {
 /// What the names of points say by DAY.xml: reflector, pose, step, repeat, axis, or nest.
 class DayNames {
  public:
-  /// `day` has to live as long.
-  explicit DayNames(const DayDescription& day) : day_(day) {}
+  /// Of a machine of so many joints. `day` has to live as long.
+  DayNames(const DayDescription& day, int joints) : day_(day), joints_(joints) {}
 
   /// A point of the file of that place in DayDescription::points as a reading of a reflector; nullopt where its name is
   /// none of the role's. Throws InputError for a step or an axis that is none.
@@ -31,6 +31,7 @@ class DayNames {
   int targetNamed(const std::string& name) const;
 
   const DayDescription& day_;
+  int joints_;
 };
 
 }  // namespace stiffscope::interchange

@@ -21,9 +21,9 @@ namespace {
 /// Everything of a day while it becomes a campaign.
 class DayImport {
  public:
-  explicit DayImport(const std::filesystem::path& day_xml) : day_(described(day_xml)), names_(day_) {
+  explicit DayImport(const std::filesystem::path& day_xml)
+      : day_(described(day_xml)), files_(readDayFiles(day_, result_.warnings)), names_(day_, files_.robot.joints()) {
     std::string sha256 = std::move(result_.files.front().sha256);
-    files_ = readDayFiles(day_, result_.warnings);
     result_.campaign = day_.xml.campaign;
     result_.campaign.robot = files_.robot;
     result_.urdf = files_.urdf;
@@ -37,8 +37,9 @@ class DayImport {
   ImportedDay made() {
     findUncertainties();
     for (const Role role : {Role::circle_sweeps, Role::wrist_sweep, Role::loading}) importRole(role);
-    requireNew(Role::circle_sweeps, campaign::circleSweepsLayout(), result_.campaign.circle_sweeps);
-    requireNew(Role::wrist_sweep, campaign::wristSweepLayout(), result_.campaign.wrist_sweep);
+    requireNew(Role::circle_sweeps, campaign::circleSweepsLayout(files_.robot.joints()),
+               result_.campaign.circle_sweeps);
+    requireNew(Role::wrist_sweep, campaign::wristSweepLayout(files_.robot.joints()), result_.campaign.wrist_sweep);
     requireNew(Role::loading, campaign::loadingLayout(), result_.campaign.loading);
     importNests();
     importLogsAlone();
@@ -202,11 +203,11 @@ class DayImport {
   }
 
   void addRows(Role role, std::size_t log, const StateJoin& join, const std::vector<DayReading>& readings) {
-    const campaign::JointConvention convention(day_.xml.campaign.joint_readings);
+    const campaign::JointConvention convention(day_.xml.campaign.joint_readings, files_.robot.joints());
     reserve(role, readings);
     if (role == Role::loading && log != kNoLog && !join.states.empty()) reserveStates(join.states.size());
     for (const JoinedState& state : join.states) {
-      const Vector6d q = convention.angles(state.figures);
+      const JointVector q = log == kNoLog ? JointVector() : convention.angles(state.figures);
       if (role == Role::loading && log != kNoLog) addState(state, log, q, readings);
       std::map<int, int> counts;
       for (const std::size_t i : state.readings) {
@@ -247,10 +248,11 @@ class DayImport {
     return place->second;
   }
 
-  void addState(const JoinedState& state, std::size_t log, const Vector6d& q, const std::vector<DayReading>& readings) {
+  void addState(const JoinedState& state, std::size_t log, const JointVector& q,
+                const std::vector<DayReading>& readings) {
     const JointSample& sample = files_.logs[log].content.samples[state.first];
     auto& table = result_.campaign.states;
-    campaign::State row;
+    campaign::State row(files_.robot.joints());
     row.pose = poseNumber(state.pose);
     row.step = state.step;
     row.q = q;
@@ -290,7 +292,7 @@ class DayImport {
     addOrigin(Role::loading, reading);
   }
 
-  void addSwept(Role role, const JoinedState& state, const DayReading& reading, const Vector6d& q, int count) {
+  void addSwept(Role role, const JoinedState& state, const DayReading& reading, const JointVector& q, int count) {
     // A second reading of a reflector at one stop has a row of its own.
     const std::string index = count == 1 ? state.pose : fmt::format("{}.{}", state.pose, count);
     const PointsSource& source = day_.points[reading.source];
@@ -416,8 +418,8 @@ class DayImport {
 
   ImportedDay result_;
   const DayDescription day_;
-  const DayNames names_;
   DayFiles files_;
+  const DayNames names_;
   std::map<std::string, int> poses_;
   std::vector<std::set<std::size_t>> used_samples_;                       ///< by log, the first of each state
   std::vector<std::set<std::pair<std::size_t, std::size_t>>> stretches_;  ///< by log, what could be joined

@@ -20,11 +20,13 @@ inline const char* nameOf(LogFormat format) { return kLogFormatNames[static_cast
 
 /// The joints at one moment, or one taught target.
 struct JointSample {
-  std::string name;                     ///< of a taught target, or the row's pose; empty of a log by time
-  int step = -1;                        ///< where the table names load steps; else -1
-  int axis = -1;                        ///< where the table names the axis that turns, from 1; else -1
-  std::optional<double> time_s;         ///< by the robot's clock
-  Vector6d figures = Vector6d::Zero();  ///< as the controller states them, rad
+  explicit JointSample(int joints) : figures(JointVector::Zero(joints)) {}
+
+  std::string name;              ///< of a taught target, or the row's pose; empty of a log by time
+  int step = -1;                 ///< where the table names load steps; else -1
+  int axis = -1;                 ///< where the table names the axis that turns, from 1; else -1
+  std::optional<double> time_s;  ///< by the robot's clock
+  JointVector figures;           ///< as the controller states them, rad
   Vector6d wrench = Vector6d::Constant(campaign::kNotGiven);  ///< force (N), moment (Nm), where the table has them
   double temperature_c = campaign::kNotGiven;
   campaign::StatedPose tool_pose = {};  ///< as the controller states it
@@ -41,13 +43,14 @@ struct RobotLog {
   Encoding encoding = Encoding::utf8;
   std::vector<JointSample> samples;
   /// Of a program: where the figures of each sample stand in the text, joint by joint.
-  std::vector<std::array<TextSpan, 6>> places;
+  std::vector<PerJoint<TextSpan>> places;
   std::vector<SkippedRow> skipped;
   std::vector<std::string> warnings;
 };
 
 /// What the user says of a log beside its bytes.
 struct LogOptions {
+  int joints = 6;  ///< of the machine; a log states as many
   std::optional<LogFormat> format;
   FileOptions table;              ///< of `columns`, and the encoding of all
   std::optional<double> rate_hz;  ///< of a log without times: samples a second

@@ -14,12 +14,13 @@ namespace stiffscope::interchange {
 
 namespace {
 
-/// Where a table has six joints and perhaps the time.
+/// Where a table has the joints and perhaps the time.
 struct JointHeader {
   std::size_t line = 0;  ///< 0: there is none
   char separator = ';';
   std::size_t cells = 0;
-  std::array<std::size_t, 6> joints{};
+  PerJoint<std::size_t> joints;
+  std::string beyond;  ///< the column of a joint that the machine has not; empty: there is none
   std::optional<std::array<std::size_t, 6>> pose;  ///< X Y Z W P R
   std::optional<std::size_t> time;
   double seconds_per_unit = 1.0;
@@ -31,20 +32,33 @@ std::vector<std::string_view> logCells(std::string_view line, char separator) {
   return cells;
 }
 
-/// The six names a format's header has for joints, in several ways of writing.
-std::vector<std::array<std::string, 6>> jointNames(LogFormat format) {
-  if (format == LogFormat::fanuc_karel) return {{"j1", "j2", "j3", "j4", "j5", "j6"}};
-  std::vector<std::array<std::string, 6>> all{
-      {"shoulder_pan_joint", "shoulder_lift_joint", "elbow_joint", "wrist_1_joint", "wrist_2_joint", "wrist_3_joint"},
-      {"base", "shoulder", "elbow", "wrist1", "wrist2", "wrist3"},
-      {"base", "shoulder", "elbow", "wrist 1", "wrist 2", "wrist 3"}};
+/// The names a format's header has for so many joints, and for one more.
+struct JointNames {
+  std::vector<std::string> names;
+  std::string beyond;  ///< empty: there is no such name
+};
+
+JointNames numberedNames(const char* pattern, int joints, int first) {
+  JointNames all;
+  for (int j = 0; j < joints; ++j) all.names.push_back(fmt::format(fmt::runtime(pattern), j + first));
+  all.beyond = fmt::format(fmt::runtime(pattern), joints + first);
+  return all;
+}
+
+/// In several ways of writing.
+std::vector<JointNames> jointNames(LogFormat format, int joints) {
+  if (format == LogFormat::fanuc_karel) return {numberedNames("j{}", joints, 1)};
+  std::vector<JointNames> all;
+  if (joints == 6) {
+    all = {{{"shoulder_pan_joint", "shoulder_lift_joint", "elbow_joint", "wrist_1_joint", "wrist_2_joint",
+             "wrist_3_joint"},
+            {}},
+           {{"base", "shoulder", "elbow", "wrist1", "wrist2", "wrist3"}, {}},
+           {{"base", "shoulder", "elbow", "wrist 1", "wrist 2", "wrist 3"}, {}}};
+  }
   for (const char* pattern : {"joint{}", "joint_{}", "actual_q_{}", "actual_q{}", "actual_q[{}]", "q{}", "q_{}",
                               "q[{}]", "joint_position_{}", "joint_positions_{}"}) {
-    for (const int first : {0, 1}) {
-      std::array<std::string, 6> names;
-      for (int j = 0; j < 6; ++j) names[static_cast<std::size_t>(j)] = fmt::format(fmt::runtime(pattern), j + first);
-      all.push_back(names);
-    }
+    for (const int first : {0, 1}) all.push_back(numberedNames(pattern, joints, first));
   }
   return all;
 }
@@ -72,7 +86,7 @@ std::optional<std::array<std::size_t, 6>> poseColumns(const std::vector<std::str
   return places;
 }
 
-JointHeader jointHeaderOf(const LogText& text, LogFormat format) {
+JointHeader jointHeaderOf(const LogText& text, LogFormat format, int joints) {
   for (const TextLine& line : linesOf(text.text)) {
     if (line.number <= text.options.table.skip || trimmed(line.text).empty()) continue;
     for (const char separator : {';', ',', '\t', ' '}) {
@@ -89,15 +103,17 @@ JointHeader jointHeaderOf(const LogText& text, LogFormat format) {
         header.time = k;
         header.seconds_per_unit = *unit;
       }
-      for (const auto& names : jointNames(format)) {
+      for (const auto& [names, beyond] : jointNames(format, joints)) {
         bool all = true;
-        for (std::size_t j = 0; j < names.size(); ++j) {
-          const auto found = std::find(cells.begin(), cells.end(), names[j]);
+        header.joints.clear();
+        for (const std::string& name : names) {
+          const auto found = std::find(cells.begin(), cells.end(), name);
           all = all && found != cells.end();
-          header.joints[j] = static_cast<std::size_t>(found - cells.begin());
+          header.joints.push_back(static_cast<std::size_t>(found - cells.begin()));
         }
         if (!all || (format == LogFormat::fanuc_karel && !header.time)) continue;
         if (format == LogFormat::fanuc_karel) header.pose = poseColumns(cells);
+        if (std::find(cells.begin(), cells.end(), beyond) != cells.end()) header.beyond = beyond;
         return header;
       }
     }
@@ -120,22 +136,41 @@ campaign::StatedPose poseOf(const LogText& text, const std::vector<std::string_v
   return pose;
 }
 
+/// The warning of a joint that the machine has not.
+std::string leftOut(const LogText& text, std::size_t line, const std::string& column) {
+  return io::inputMessage({text.file, line, ""}, "",
+                          fmt::format("columns that are not read: {} and what is behind it; the machine has {} joints",
+                                      column, countedJoints(text.options.joints)));
+}
+
 }  // namespace
 
-bool looksLikeJointTable(const LogText& text, LogFormat format) { return jointHeaderOf(text, format).line > 0; }
+std::string countedJoints(int joints) {
+  constexpr std::array<const char*, kMostJoints - kFewestJoints + 1> kCounts{"four", "five", "six", "seven", "eight"};
+  return kCounts.at(static_cast<std::size_t>(joints - kFewestJoints));
+}
+
+// A table of six joints is recognised whatever the machine has, and then refused by their number.
+bool looksLikeJointTable(const LogText& text, LogFormat format) {
+  constexpr int kUsual = 6;
+  return jointHeaderOf(text, format, text.options.joints).line > 0 || jointHeaderOf(text, format, kUsual).line > 0;
+}
 
 RobotLog readJointTable(const LogText& text, LogFormat format) {
-  const JointHeader header = jointHeaderOf(text, format);
+  const int joints = text.options.joints;
+  const JointHeader header = jointHeaderOf(text, format, joints);
   if (header.line == 0) {
-    throw io::InputError({text.file, 1, ""}, std::string(text.text.substr(0, text.text.find_first_of("\r\n"))),
-                         format == LogFormat::fanuc_karel
-                             ? "expected a header line as Time [ms];...;J1;...;J6;"
-                             : "expected a header line that names six joints, as actual_q_0");
+    throw io::InputError(
+        {text.file, 1, ""}, std::string(text.text.substr(0, text.text.find_first_of("\r\n"))),
+        format == LogFormat::fanuc_karel
+            ? fmt::format("expected a header line as Time [ms];...;J1;...;J{};", joints)
+            : fmt::format("expected a header line that names {} joints, as actual_q_0", countedJoints(joints)));
   }
   const DecimalSign sign = text.options.table.decimal_comma ? DecimalSign::comma : DecimalSign::point;
   const double angle = format == LogFormat::fanuc_karel ? io::kDegree : 1.0;
   RobotLog log;
   log.format = format;
+  if (!header.beyond.empty()) log.warnings.push_back(leftOut(text, header.line, header.beyond));
   // A cell and what parts it from the next are a byte each at least.
   log.samples.reserve(std::min(io::linesIn(text.text), text.text.size() / (2 * header.cells - 1) + 1));
   for (const TextLine& line : linesOf(text.text)) {
@@ -145,9 +180,9 @@ RobotLog readJointTable(const LogText& text, LogFormat format) {
       throw io::InputError({text.file, line.number, ""}, fmt::format("{} cells", cells.size()),
                            fmt::format("expected {} cells, as the header has{}", header.cells,
                                        line.ended ? "" : "; the file ends in the middle of this line"));
-    JointSample sample;
+    JointSample sample(joints);
     sample.line = line.number;
-    for (std::size_t j = 0; j < 6; ++j)
+    for (std::size_t j = 0; j < header.joints.size(); ++j)
       sample.figures[static_cast<Eigen::Index>(j)] =
           decimal(cells[header.joints[j]], sign, text.file, line.number, fmt::format("joint {}", j + 1)) * angle;
     if (header.pose) sample.tool_pose = poseOf(text, cells, line.number, *header.pose, sign);
@@ -164,9 +199,11 @@ RobotLog readJointColumns(const LogText& text) {
     throw io::InputError({text.file, text.options.table.skip + 1, "columns"}, "",
                          "expected the names of its columns (columns), or a header line that has them");
   const ColumnTable table(file);
-  if (!table.hasNumbers({"q1", "q2", "q3", "q4", "q5", "q6"}))
+  const int joints = text.options.joints;
+  const JointNames columns = numberedNames("q{}", joints, 1);
+  if (!table.hasNumbers(columns.names))
     throw io::InputError({text.file, 0, "columns"}, text.options.table.columns,
-                         "expected q1 to q6 with their unit, as q1_deg");
+                         fmt::format("expected q1 to q{} with their unit, as q1_deg", joints));
   const bool wrench = table.hasAllOrNone({"fx", "fy", "fz", "mx", "my", "mz"});
   const bool position = table.hasAllOrNone({"px", "py", "pz"}), turn = table.hasAllOrNone({"pw", "pp", "pr"});
   if (turn && !position)
@@ -175,16 +212,19 @@ RobotLog readJointColumns(const LogText& text) {
   RobotLog log;
   log.format = LogFormat::columns;
   log.warnings = table.warnings();
+  if (table.hasNumber(columns.beyond))
+    log.warnings.push_back(leftOut(text, text.options.table.skip + 1, columns.beyond));
   log.samples.reserve(table.mostRows());
   table.forEachRow([&](const ColumnTable::Row& row) {
-    JointSample sample;
+    JointSample sample(joints);
     sample.line = row.line;
     sample.name = table.text(row, table.has("pose") ? "pose" : table.has("index") ? "index" : "name");
     if (const std::string step = table.text(row, "step"); !step.empty())
       sample.step = wholeStep(text.file, row.line, step);
     if (const std::string axis = table.text(row, "axis"); !axis.empty())
       sample.axis = wholeStep(text.file, row.line, axis);
-    for (int j = 0; j < 6; ++j) sample.figures[j] = table.number(row, fmt::format("q{}", j + 1));
+    for (Eigen::Index j = 0; j < joints; ++j)
+      sample.figures[j] = table.number(row, columns.names[static_cast<std::size_t>(j)]);
     if (const auto time = table.time(row)) sample.time_s = time->seconds;
     if (position)
       sample.tool_pose.position = {table.number(row, "px"), table.number(row, "py"), table.number(row, "pz")};

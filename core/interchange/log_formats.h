@@ -18,6 +18,9 @@ struct LogText {
   const LogOptions& options;
 };
 
+/// "six": how many joints a machine has.
+std::string countedJoints(int joints);
+
 bool looksLikeJointTable(const LogText& text, LogFormat format);
 
 /// A log by time whose header line names its columns: KAREL's and UR's.

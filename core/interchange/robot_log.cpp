@@ -80,7 +80,7 @@ void requireOrder(const std::string& file, const RobotLog& log) {
 void requirePlausible(const std::string& file, const RobotLog& log) {
   constexpr double kMost = 720.0 * io::kDegree;
   for (const JointSample& sample : log.samples) {
-    for (int j = 0; j < 6; ++j) {
+    for (Eigen::Index j = 0; j < sample.figures.size(); ++j) {
       if (std::abs(sample.figures[j]) <= kMost) continue;
       throw io::InputError({file, sample.line, fmt::format("joint {}", j + 1)},
                            fmt::format("{:.6g} deg", sample.figures[j] / io::kDegree),

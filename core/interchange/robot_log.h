@@ -18,8 +18,13 @@ LogFormat logFormatNamed(const std::string& name, const std::string& option);
 /// - rapid: `jointtarget NAME := [[q1,...,q6],[...]]`, degrees; robtargets are left out; also Rokae's `jointtarget j1 =
 /// j:{...}`;
 /// - ur: a header line that names six joints (actual_q_0, Joint0, shoulder_pan_joint, ...), radians, perhaps a
-/// timestamp. Throws InputError, with line, where nothing fits, the file is not of the format wanted, a value is none,
-/// or no joint angles are in it.
+/// timestamp;
+/// - columns: q1_deg and so on, as the user or the header line names them.
+/// Of a machine with another number of joints (LogOptions::joints) tables by time, columns, FANUC's programs and
+/// Rokae's targets have as many; KRL and ABB's RAPID state six axes and external ones, not which joint of such a
+/// machine each is, and are refused. Joints of a table beyond the machine's are left out with a warning. Throws
+/// InputError, with line, where nothing fits, the file is not of the format wanted, a value is none, or no joint angles
+/// are in it.
 RobotLog readRobotLog(const std::filesystem::path& path, const LogOptions& options = {});
 
 /// The same of bytes; `file` is their name for messages.

@@ -2,7 +2,6 @@
 
 #include <Eigen/SVD>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <deque>
 #include <limits>
@@ -16,10 +15,13 @@ namespace {
 /// Largest and smallest figure of each joint in a window of samples that only moves forwards.
 class Band {
  public:
-  explicit Band(const std::vector<JointSample>& samples) : samples_(samples) {}
+  explicit Band(const std::vector<JointSample>& samples)
+      : samples_(samples),
+        largest_(samples.empty() ? 0 : static_cast<std::size_t>(samples.front().figures.size())),
+        smallest_(largest_.size()) {}
 
   void add(std::size_t sample) {
-    for (std::size_t j = 0; j < 6; ++j) {
+    for (std::size_t j = 0; j < largest_.size(); ++j) {
       const auto figure = [&](std::size_t s) { return samples_[s].figures[static_cast<Eigen::Index>(j)]; };
       while (!largest_[j].empty() && figure(largest_[j].back()) <= figure(sample)) largest_[j].pop_back();
       while (!smallest_[j].empty() && figure(smallest_[j].back()) >= figure(sample)) smallest_[j].pop_back();
@@ -29,7 +31,7 @@ class Band {
   }
 
   void removeBefore(std::size_t sample) {
-    for (std::size_t j = 0; j < 6; ++j) {
+    for (std::size_t j = 0; j < largest_.size(); ++j) {
       while (!largest_[j].empty() && largest_[j].front() < sample) largest_[j].pop_front();
       while (!smallest_[j].empty() && smallest_[j].front() < sample) smallest_[j].pop_front();
     }
@@ -37,7 +39,7 @@ class Band {
 
   double width() const {
     double widest = 0.0;
-    for (std::size_t j = 0; j < 6; ++j) {
+    for (std::size_t j = 0; j < largest_.size(); ++j) {
       if (largest_[j].empty()) continue;
       const auto joint = static_cast<Eigen::Index>(j);
       widest = std::max(widest,
@@ -48,7 +50,7 @@ class Band {
 
  private:
   const std::vector<JointSample>& samples_;
-  std::array<std::deque<std::size_t>, 6> largest_, smallest_;
+  PerJoint<std::deque<std::size_t>> largest_, smallest_;
 };
 
 /// Cuts off what the band lets in of the motions before and behind: samples at the ends that are farther from the
@@ -56,7 +58,7 @@ class Band {
 void trimMotion(const std::vector<JointSample>& samples, std::size_t& first, std::size_t& last) {
   constexpr double kScatters = 3.0, kSigmaPerMad = 1.4826;
   const std::size_t count = last - first + 1;
-  Vector6d median, allowed;
+  JointVector median(samples[first].figures.size()), allowed(median.size());
   std::vector<double> values(count);
   const auto medianOf = [&values] {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -224,9 +226,9 @@ std::vector<Standstill> standstillsOf(const std::vector<JointSample>& samples, c
   return found;
 }
 
-Vector6d meanFigures(const std::vector<JointSample>& samples, std::size_t first, std::size_t last) {
-  const Vector6d start = samples[first].figures;
-  Vector6d sum = Vector6d::Zero();
+JointVector meanFigures(const std::vector<JointSample>& samples, std::size_t first, std::size_t last) {
+  const JointVector start = samples[first].figures;
+  JointVector sum = JointVector::Zero(start.size());
   for (std::size_t i = first; i <= last; ++i) sum += samples[i].figures - start;
   return start + sum / static_cast<double>(last - first + 1);
 }

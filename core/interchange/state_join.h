@@ -16,7 +16,7 @@ namespace stiffscope::interchange {
 
 /// Where a reflector was read while the controller stated these figures.
 struct PlacedReading {
-  Vector6d figures = Vector6d::Zero();  ///< rad, as the controller states them
+  JointVector figures;  ///< rad, as the controller states them
   int target = 0;
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< m
 };
@@ -32,16 +32,16 @@ std::optional<double> chordMisfit(const robot::Robot& robot, const std::vector<c
 struct OtherMeaning {
   enum class Kind { sign, coupling, offset, unit };
   Kind kind = Kind::sign;
-  int joint = 0;        ///< 0..5, of the first three kinds
-  int plus = -1;        ///< 0..5, of a coupling
+  int joint = 0;        ///< from 0, of the first three kinds
+  int plus = -1;        ///< from 0, of a coupling
   double value = 0.0;   ///< sign; offset, rad; or the factor that points are to be multiplied by
   double misfit = 0.0;  ///< m
 };
 
 /// Tries each joint's other sign, each joint plus or without the one before it, offsets of a quarter and half a turn,
 /// and other units of length, one at a time. Returns the one that fits best and those that fit as well (up to twice its
-/// misfit), best first: of a spherical wrist the other sign of joint 5 is half a turn of joint 4. Empty where no
-/// reflector was read in six postures.
+/// misfit), best first: of six joints with a spherical wrist the other sign of joint 5 is half a turn of joint 4. Empty
+/// where no reflector was read in six postures.
 std::vector<OtherMeaning> otherMeanings(const robot::Robot& robot,
                                         const std::vector<campaign::JointReading>& convention,
                                         const std::vector<PlacedReading>& readings);
@@ -65,7 +65,7 @@ struct JoinedState {
   int step = 0;
   int axis = -1;
   std::size_t first = 0, last = 0;  ///< samples of the log that its figures are the mean of
-  Vector6d figures = Vector6d::Zero();
+  JointVector figures;              ///< rad, as the controller states them; empty of a day that has no log
   std::vector<std::size_t> readings;
 };
 

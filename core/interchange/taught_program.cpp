@@ -41,10 +41,11 @@ std::string writtenFigure(double degrees, int decimals) {
 
 }  // namespace
 
-TaughtProgram parseTaughtProgram(const std::string& file, std::string_view bytes) {
+TaughtProgram parseTaughtProgram(const std::string& file, std::string_view bytes, int joints) {
   TaughtProgram program{file, std::string(bytes), {}, 3};
   const std::string text = asciiOf(file, bytes);
   LogOptions options;
+  options.joints = joints;
   options.in_instructions = true;
   options.joints_needed = false;
   program.log = parseRobotLog(file, text, options);
@@ -68,8 +69,8 @@ TaughtProgram parseTaughtProgram(const std::string& file, std::string_view bytes
   return program;
 }
 
-TaughtProgram readTaughtProgram(const std::filesystem::path& path) {
-  return parseTaughtProgram(path.string(), io::readBytesWithStamp(path).text());
+TaughtProgram readTaughtProgram(const std::filesystem::path& path, int joints) {
+  return parseTaughtProgram(path.string(), io::readBytesWithStamp(path).text(), joints);
 }
 
 int decimalsOfTarget(const TaughtProgram& program, std::size_t target) {
@@ -79,7 +80,7 @@ int decimalsOfTarget(const TaughtProgram& program, std::size_t target) {
   return decimals;
 }
 
-std::string withFigures(const TaughtProgram& program, const std::vector<std::optional<Vector6d>>& figures) {
+std::string withFigures(const TaughtProgram& program, const std::vector<std::optional<JointVector>>& figures) {
   struct Edit {
     TextSpan place;
     std::string text;
@@ -88,11 +89,10 @@ std::string withFigures(const TaughtProgram& program, const std::vector<std::opt
   for (std::size_t i = 0; i < program.log.samples.size(); ++i) {
     if (!figures[i]) continue;
     const int decimals = decimalsOfTarget(program, i);
-    for (std::size_t j = 0; j < 6; ++j) {
-      const auto joint = static_cast<Eigen::Index>(j);
+    for (Eigen::Index joint = 0; joint < figures[i]->size(); ++joint) {
       std::string text = writtenFigure((*figures[i])[joint] / io::kDegree, decimals);
       if (text == writtenFigure(program.log.samples[i].figures[joint] / io::kDegree, decimals)) continue;
-      edits.push_back({program.log.places[i][j], std::move(text)});
+      edits.push_back({program.log.places[i][static_cast<std::size_t>(joint)], std::move(text)});
     }
   }
   std::sort(edits.begin(), edits.end(), [](const Edit& a, const Edit& b) { return a.place.from < b.place.from; });

@@ -148,6 +148,15 @@ std::string withoutComments(std::string_view text, char mark) {
   return code;
 }
 
+/// KRL and RAPID state six axes and external ones; which joint of another machine each is they do not say.
+void requireSixJoints(const LogText& text, std::size_t line, const char* stated) {
+  if (text.options.joints == 6) return;
+  throw io::InputError(
+      {text.file, line, "format"}, "",
+      fmt::format("expected joints of a machine that has {}, state them as columns; {} are those of a machine of six",
+                  countedJoints(text.options.joints), stated));
+}
+
 void requireUniqueNames(const LogText& text, const RobotLog& log) {
   std::map<std::string, std::size_t> lines;
   for (const JointSample& sample : log.samples) {
@@ -176,7 +185,8 @@ RobotLog readFanucProgram(const LogText& text) {
     const std::string_view start = program.next();
     if (start == "/") return requireUniqueNames(text, log), log;  // /END
     if (lowered(start) != "p") program.refuse(start, "expected P[NUMBER]{ or /END");
-    JointSample sample;
+    const auto wanted = static_cast<std::size_t>(text.options.joints);
+    JointSample sample(text.options.joints);
     sample.line = program.line();
     program.require("[", "behind P");
     sample.name = fmt::format("P[{}]", program.next());
@@ -184,15 +194,18 @@ RobotLog readFanucProgram(const LogText& text) {
     for (std::string_view token = program.next(); token != "{"; token = program.next()) {
       if (token.empty()) program.refuse(token, "expected '{' behind P[NUMBER]");
     }
-    std::array<bool, 6> given{};
-    std::array<TextSpan, 6> places;
+    PerJoint<bool> given(wanted, false);
+    PerJoint<TextSpan> places(wanted);
+    bool beyond = false;  // a joint that the machine has not
     int group = 1;
     for (std::string_view token = program.next(); token != "}"; token = program.next()) {
       if (token.empty()) program.refuse(token, "expected '}' at the end of this target");
       const std::string word = lowered(token);
       if (word.size() == 3 && word.starts_with("gp")) group = word[2] - '0';
-      if (group != 1 || word.size() != 2 || word[0] != 'j' || word[1] < '1' || word[1] > '6') continue;
+      if (group != 1 || word.size() != 2 || word[0] != 'j' || word[1] < '1' || word[1] > '9') continue;
       const auto joint = static_cast<std::size_t>(word[1] - '1');
+      beyond = beyond || joint >= wanted;
+      if (joint >= wanted) continue;
       program.require("=", "behind a joint");
       sample.figures[static_cast<Eigen::Index>(joint)] = program.number("a joint's angle") * io::kDegree;
       places[joint] = program.numberPlace();
@@ -200,12 +213,14 @@ RobotLog readFanucProgram(const LogText& text) {
       given[joint] = true;
     }
     program.require(";", "behind a target");
-    const auto joints = std::count(given.begin(), given.end(), true);
-    if (joints == 0) {
+    const auto joints = static_cast<std::size_t>(std::count(given.begin(), given.end(), true));
+    if (joints == 0 && !beyond) {
       log.skipped.push_back({sample.line, Skip::joints_not_given});
-    } else if (joints != 6) {
-      throw io::InputError({text.file, sample.line, ""}, sample.name,
-                           "expected all six joints of group 1, or a target in space");
+    } else if (joints != wanted || beyond) {
+      throw io::InputError(
+          {text.file, sample.line, ""}, sample.name,
+          fmt::format("expected all {} joints of group 1, or a target in space{}", countedJoints(text.options.joints),
+                      beyond ? "; this one has more joints than the machine" : ""));
     } else {
       log.samples.push_back(std::move(sample));
       log.places.push_back(places);
@@ -225,8 +240,8 @@ namespace {
 
 /// What stands in the braces of a KRL aggregate, behind '{'.
 struct KrlAggregate {
-  Vector6d figures = Vector6d::Zero();  ///< rad
-  std::array<TextSpan, 6> places;
+  JointVector figures = JointVector::Zero(6);  ///< rad
+  PerJoint<TextSpan> places = PerJoint<TextSpan>(6);
   std::array<bool, 6> given{};
   bool in_space = false;  ///< X, Y, Z, A, B, C
 
@@ -263,13 +278,14 @@ KrlAggregate readKrlAggregate(ProgramText& program, bool space_too) {
 void readKrlDeclaration(const LogText& text, ProgramText& program, RobotLog& log) {
   std::string type = lowered(program.next());
   if (type == "global" || type == "const") type = lowered(program.next());
-  JointSample sample;
+  JointSample sample(6);
   sample.line = program.line();
   if (type == "e6pos" || type == "pos" || type == "frame") log.skipped.push_back({sample.line, Skip::joints_not_given});
   if (type != "axis" && type != "e6axis") return;
   sample.name = program.next();
   if (program.next() != "=") return;  // declared without a value
   program.require("{", "behind the name of a target");
+  requireSixJoints(text, sample.line, "A1 to A6");
   const KrlAggregate found = readKrlAggregate(program, false);
   if (!found.whole()) throw io::InputError({text.file, sample.line, ""}, sample.name, "expected A1 to A6");
   sample.figures = found.figures;
@@ -279,8 +295,8 @@ void readKrlDeclaration(const LogText& text, ProgramText& program, RobotLog& log
 
 /// A target that stands in the instruction, PTP {A1 ...}, called by its line. One that gives some axes alone leaves the
 /// others where they are, so that its posture is not known here.
-void readKrlMotion(ProgramText& program, RobotLog& log) {
-  JointSample sample;
+void readKrlMotion(const LogText& text, ProgramText& program, RobotLog& log) {
+  JointSample sample(6);
   sample.line = program.line();
   const std::size_t behind = program.place();
   if (program.next() != "{") {
@@ -292,6 +308,7 @@ void readKrlMotion(ProgramText& program, RobotLog& log) {
     log.skipped.push_back({sample.line, Skip::joints_not_given});
     return;
   }
+  requireSixJoints(text, sample.line, "A1 to A6");
   sample.name = fmt::format("line {}", sample.line);
   sample.figures = found.figures;
   log.samples.push_back(std::move(sample));
@@ -314,7 +331,7 @@ RobotLog readKukaData(const LogText& text) {
     if (found.word == "decl") {
       readKrlDeclaration(text, program, log);
     } else {
-      readKrlMotion(program, log);
+      readKrlMotion(text, program, log);
     }
   }
   requireUniqueNames(text, log);
@@ -329,21 +346,27 @@ bool looksLikeRapid(const LogText& text) {
 
 namespace {
 
-/// Six angles behind '[[', or of Rokae behind 'j:{'.
-void readSixAngles(ProgramText& program, JointSample& sample, RobotLog& log) {
-  std::array<TextSpan, 6> places;
-  for (int j = 0; j < 6; ++j) {
+/// The angles behind '[[', or of Rokae behind 'j:{', as many as the sample has.
+void readAngles(ProgramText& program, JointSample& sample, RobotLog& log) {
+  PerJoint<TextSpan> places(static_cast<std::size_t>(sample.figures.size()));
+  for (int j = 0; j < sample.figures.size(); ++j) {
     if (j > 0) program.require(",", "between angles");
     sample.figures[j] = program.number("a joint's angle") * io::kDegree;
     places[static_cast<std::size_t>(j)] = program.numberPlace();
+  }
+  if (sample.figures.size() != 6) {
+    const std::size_t behind = program.place();
+    if (const std::string_view more = program.next(); more == ",")
+      program.refuse(more, fmt::format("expected {} angles", countedJoints(static_cast<int>(sample.figures.size()))));
+    program.returnTo(behind);
   }
   log.samples.push_back(std::move(sample));
   log.places.push_back(places);
 }
 
 /// A jointtarget with its value: ABB's [[q1,...,q6],[...]], Rokae's j:{q1,...,q6,...}{EJ ...}.
-void readRapidDeclaration(ProgramText& program, RobotLog& log) {
-  JointSample sample;
+void readRapidDeclaration(const LogText& text, ProgramText& program, RobotLog& log) {
+  JointSample sample(text.options.joints);
   sample.line = program.line();
   sample.name = program.next();
   std::string_view token = program.next();
@@ -355,15 +378,16 @@ void readRapidDeclaration(ProgramText& program, RobotLog& log) {
     program.require("{", "behind j:");
   } else {
     if (token != "[") program.refuse(token, "expected [[q1, ..., q6], [...]]");
+    requireSixJoints(text, sample.line, "the robot axes of a jointtarget");
     program.require("[", "before six angles");
   }
-  readSixAngles(program, sample, log);
+  readAngles(program, sample, log);
 }
 
 /// A target that stands in the instruction, called by its line: MoveAbsJ [[q1,...],[...]], or of the others one in
 /// space.
-void readRapidMotion(std::string_view word, ProgramText& program, RobotLog& log) {
-  JointSample sample;
+void readRapidMotion(const LogText& text, std::string_view word, ProgramText& program, RobotLog& log) {
+  JointSample sample(text.options.joints);
   sample.line = program.line();
   const std::size_t behind = program.place();
   if (program.next() != "[") {
@@ -374,9 +398,10 @@ void readRapidMotion(std::string_view word, ProgramText& program, RobotLog& log)
     log.skipped.push_back({sample.line, Skip::joints_not_given});
     return;
   }
+  requireSixJoints(text, sample.line, "the robot axes of a jointtarget");
   program.require("[", "before six angles");
   sample.name = fmt::format("line {}", sample.line);
-  readSixAngles(program, sample, log);
+  readAngles(program, sample, log);
 }
 
 }  // namespace
@@ -393,11 +418,11 @@ RobotLog readRapid(const LogText& text) {
     program.goTo(found.at);
     program.next();
     if (found.word == "jointtarget") {
-      readRapidDeclaration(program, log);
+      readRapidDeclaration(text, program, log);
     } else if (found.word == "robtarget") {
       log.skipped.push_back({program.line(), Skip::joints_not_given});
     } else {
-      readRapidMotion(found.word, program, log);
+      readRapidMotion(text, found.word, program, log);
     }
   }
   requireUniqueNames(text, log);

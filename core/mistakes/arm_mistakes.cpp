@@ -30,17 +30,17 @@ std::vector<SignedPermutation> signedPermutations() {
 
 namespace {
 
-void addSigns(std::vector<ArmMistake>& all) {
-  for (int set = 1; set < 64; ++set) {
+void addSigns(int count, std::vector<ArmMistake>& all) {
+  for (int set = 1; set < 1 << count; ++set) {
     std::vector<int> joints;
-    for (int j = 0; j < 6; ++j) {
+    for (int j = 0; j < count; ++j) {
       if ((set >> j & 1) != 0) joints.push_back(j + 1);
     }
     ArmMistake mistake;
     mistake.id = "joint_sign";
     // All of them is one thing: another convention.
-    mistake.things = joints.size() == 6 ? 1 : static_cast<int>(joints.size());
-    mistake.angles = [joints](Vector6d& q) {
+    mistake.things = static_cast<int>(joints.size()) == count ? 1 : static_cast<int>(joints.size());
+    mistake.angles = [joints](JointVector& q) {
       for (const int j : joints) q[j - 1] *= -1.0;
     };
     mistake.remedy = [joints](bool everywhere) { return Remark(RemarkId::turn_signs, joints, everywhere); };
@@ -49,12 +49,13 @@ void addSigns(std::vector<ArmMistake>& all) {
 }
 
 /// `stands`: the joint whose angle stands in each column.
-ArmMistake orderOf(const std::array<int, 6>& stands) {
+ArmMistake orderOf(const PerJoint<int>& stands) {
   ArmMistake mistake;
   mistake.id = "joint_order";
-  mistake.angles = [stands](Vector6d& q) {
-    const Vector6d read = q;
-    for (std::size_t column = 0; column < 6; ++column) q[stands[column] - 1] = read[static_cast<Eigen::Index>(column)];
+  mistake.angles = [stands](JointVector& q) {
+    const JointVector read = q;
+    for (std::size_t column = 0; column < stands.size(); ++column)
+      q[stands[column] - 1] = read[static_cast<Eigen::Index>(column)];
   };
   mistake.remedy = [stands](bool) {
     return Remark(RemarkId::order_of_joints, std::vector<int>(stands.begin(), stands.end()));
@@ -62,32 +63,36 @@ ArmMistake orderOf(const std::array<int, 6>& stands) {
   return mistake;
 }
 
-void addOrders(std::vector<ArmMistake>& all) {
-  constexpr std::array<int, 6> kAsWritten{1, 2, 3, 4, 5, 6};
-  std::array<int, 6> order = kAsWritten;
+void addOrders(int count, std::vector<ArmMistake>& all) {
+  const auto joints = static_cast<std::size_t>(count);
+  PerJoint<int> as_written(joints);
+  std::iota(as_written.begin(), as_written.end(), 1);
+  PerJoint<int> order = as_written;
   std::reverse(order.begin(), order.end());
   all.push_back(orderOf(order));
-  for (std::size_t a = 0; a < 6; ++a) {
-    for (std::size_t b = a + 1; b < 6; ++b) {
-      order = kAsWritten;
+  for (std::size_t a = 0; a < joints; ++a) {
+    for (std::size_t b = a + 1; b < joints; ++b) {
+      order = as_written;
       std::swap(order[a], order[b]);
       all.push_back(orderOf(order));
     }
   }
-  for (const int shift : {1, 5}) {
-    order = kAsWritten;
+  for (const int shift : {1, count - 1}) {
+    order = as_written;
     std::rotate(order.begin(), order.begin() + shift, order.end());
     all.push_back(orderOf(order));
   }
 }
 
-void addCouplings(std::vector<ArmMistake>& all) {
-  constexpr std::array<std::array<int, 2>, 3> kPairs{{{3, 2}, {5, 4}, {6, 5}}};
-  for (const auto& [joint, other] : kPairs) {
+void addCouplings(int count, std::vector<ArmMistake>& all) {
+  // The elbow with the shoulder, and neighbours within the wrist, whose motors sit on one arm.
+  std::vector<std::pair<int, int>> pairs{{3, 2}};
+  for (int joint = robot::armJointsOf(count) + 2; joint <= count; ++joint) pairs.emplace_back(joint, joint - 1);
+  for (const auto& [joint, other] : pairs) {
     for (const int sign : {1, -1}) {
       ArmMistake mistake;
       mistake.id = "joint_coupling";
-      mistake.angles = [joint = joint, other = other, sign](Vector6d& q) { q[joint - 1] += sign * q[other - 1]; };
+      mistake.angles = [joint = joint, other = other, sign](JointVector& q) { q[joint - 1] += sign * q[other - 1]; };
       mistake.remedy = [joint = joint, other = other, sign](bool) {
         return Remark(RemarkId::add_joint, joint, other, sign);
       };
@@ -129,7 +134,7 @@ void addUnits(const robot::Robot& robot, std::vector<ArmMistake>& all) {
   for (const Unit unit : {Unit{"radians", 1.0 / io::kDegree}, Unit{"gon", 0.9}, Unit{"turns", 360.0}}) {
     ArmMistake mistake;
     mistake.id = "angle_unit";
-    mistake.angles = [unit](Vector6d& q) { q *= unit.factor; };
+    mistake.angles = [unit](JointVector& q) { q *= unit.factor; };
     mistake.remedy = [unit](bool) { return Remark(RemarkId::angles_in, std::string(unit.name)); };
     all.push_back(std::move(mistake));
   }
@@ -196,9 +201,9 @@ void addRenamings(const std::vector<std::string>& names, std::vector<ArmMistake>
 
 std::vector<ArmMistake> armMistakes(const ReadingsOfDay& day, const std::vector<std::string>& target_names) {
   std::vector<ArmMistake> all;
-  addSigns(all);
-  addOrders(all);
-  addCouplings(all);
+  addSigns(day.robot.joints(), all);
+  addOrders(day.robot.joints(), all);
+  addCouplings(day.robot.joints(), all);
   addUnits(day.robot, all);
   addRows(all);
   addAxesOfPoints(all);
@@ -222,7 +227,7 @@ ReadingsOfDay takenBack(const ReadingsOfDay& day, const ArmMistake& mistake, con
     if (mistake.row == AnglesRow::before) reading.q = reading.q_before;
     if (mistake.row == AnglesRow::after) reading.q = reading.q_after;
     if (mistake.angles) {
-      for (Vector6d* q : {&reading.q, &reading.q_before, &reading.q_after}) mistake.angles(*q);
+      for (JointVector* q : {&reading.q, &reading.q_before, &reading.q_after}) mistake.angles(*q);
     }
     if (mistake.points) reading.point = *mistake.points * reading.point;
     reading.target = renamed(reading.target);

@@ -19,7 +19,7 @@ struct ArmMistake {
   MistakeId id;
   /// How many things it asks to be wrong: of cures that mend as well the one with the fewest is believed.
   int things = 1;
-  std::function<void(Vector6d&)> angles;
+  std::function<void(JointVector&)> angles;
   AnglesRow row = AnglesRow::own;
   std::optional<Eigen::Matrix3d> points;
   std::vector<int> targets;                                               ///< what each is; empty: as they are called

@@ -59,7 +59,7 @@ campaign::Campaign asReadings(const campaign::Campaign& campaign, const std::vec
   for (std::size_t i = 0; i < states.size(); ++i) {
     const campaign::State& state = *states[i];
     day.pose_ids.push_back(campaign.pose_ids[static_cast<std::size_t>(state.pose)]);
-    campaign::State row;
+    campaign::State row(static_cast<int>(state.q.size()));
     row.pose = static_cast<int>(i);
     row.q = state.q;
     row.line = state.line;
@@ -80,7 +80,7 @@ campaign::Campaign asReadings(const campaign::Campaign& campaign, const std::vec
 std::vector<int> stillJoints(const std::vector<const campaign::State*>& states) {
   constexpr double kMoves = 1.0 * io::kDegree;
   std::vector<int> still;
-  for (Eigen::Index j = 0; j < 6; ++j) {
+  for (Eigen::Index j = 0; j < states.front()->q.size(); ++j) {
     double least = states.front()->q[j], most = least;
     for (const campaign::State* state : states) {
       least = std::min(least, state->q[j]);
@@ -119,7 +119,8 @@ void describe(const NominalFit& fit, const robot::Robot& robot, const campaign::
 
 /// What the axes fitted to the poses leave, and with them the joints' compliances under the own weight.
 void fitModels(const campaign::Campaign& day, ControllerAgreement& agreement) {
-  constexpr std::size_t kEnough = 12;  // six coordinates each, for thirty axis and frame parameters
+  constexpr std::size_t kEnough =
+      12;  // six coordinates each, for the axes' and the frame's parameters, thirty of six joints
   const calibration::UnloadedDay unloaded = calibration::unloadedDay(day);
   const std::vector<double> weights(unloaded.readings(), 1.0);
   if (unloaded.postures.size() < kEnough) return;

@@ -12,7 +12,7 @@ namespace stiffscope::mistakes {
 
 namespace {
 
-Eigen::Vector3d gravityInCell(const campaign::Campaign& campaign, const ReadingsOfDay& day, const Vector6d& q) {
+Eigen::Vector3d gravityInCell(const campaign::Campaign& campaign, const ReadingsOfDay& day, const JointVector& q) {
   const CellReading declared = asDeclared(*campaign.load_cell);
   const robot::ArmPosture posture = robot::postureAt(day.robot, q);
   const std::string& link = declared.axes_link ? *declared.axes_link : declared.parent;

@@ -19,7 +19,7 @@ constexpr int kLeastReadings = 12;
 struct Pose {
   Eigen::Isometry3d flange;
   robot::ArmAxes axes;
-  Vector6d torque = Vector6d::Zero();  ///< of the own weight
+  JointVector torque;  ///< of the own weight
 };
 
 std::vector<Pose> posesOf(const ReadingsOfDay& day, bool sag) {
@@ -32,7 +32,7 @@ std::vector<Pose> posesOf(const ReadingsOfDay& day, bool sag) {
       continue;
     }
     const robot::ArmPosture posture = robot::postureAt(day.robot, reading.q);
-    Pose pose{robot::flangeAt(day.robot, posture), {}, Vector6d::Zero()};
+    Pose pose{robot::flangeAt(day.robot, posture), {}, JointVector::Zero(reading.q.size())};
     if (sag) {
       pose.axes = robot::axesAt(day.robot, posture);
       pose.torque = robot::weightTorque(day.robot, posture, day.weight);
@@ -90,7 +90,9 @@ class GaussNewton {
         sag_(options.sag && day.weight.links_known && day.weight.any()),
         scale_(options.scale),
         springs_(options.springs),
-        poses_(posesOf(day, sag_)) {
+        poses_(posesOf(day, sag_)),
+        largest_torque_(JointVector::Zero(day.robot.joints())) {
+    fit_.compliance = largest_torque_;
     for (const Pose& pose : poses_) largest_torque_ = largest_torque_.cwiseMax(pose.torque.cwiseAbs());
   }
 
@@ -113,13 +115,13 @@ class GaussNewton {
   }
 
  private:
-  Eigen::Index sagCount() const { return !sag_ ? 0 : springs_ ? 1 : 6; }
+  Eigen::Index sagCount() const { return !sag_ ? 0 : springs_ ? 1 : day_.robot.joints(); }
 
   Eigen::Vector3d measured(std::size_t i) const {
     return fit_.scale * (fit_.base_from_points.linear() * day_.unloaded[i].point) + fit_.base_from_points.translation();
   }
 
-  Matrix36d sagColumns(std::size_t i, const Eigen::Vector3d& at) const {
+  PointJacobian sagColumns(std::size_t i, const Eigen::Vector3d& at) const {
     return robot::pointJacobianAt(poses_[i].axes, at) * poses_[i].torque.asDiagonal();
   }
 
@@ -168,7 +170,7 @@ class GaussNewton {
       if (sag_ && springs_) {
         rows.col(sags) = sagColumns(i, at) * *springs_;
       } else if (sag_) {
-        rows.middleCols<6>(sags) = sagColumns(i, at);
+        rows.middleCols(sags, sagCount()) = sagColumns(i, at);
       }
       if (scale_) rows.col(scale) = -(x - fit_.base_from_points.translation());
       normal.selfadjointView<Eigen::Lower>().rankUpdate(rows.transpose(), weight);
@@ -191,7 +193,7 @@ class GaussNewton {
       fit_.sag_factor += found[sags];
       fit_.compliance = fit_.sag_factor * *springs_;
     } else if (sag_) {
-      fit_.compliance += found.segment<6>(sags);
+      fit_.compliance += found.segment(sags, sagCount());
     }
     if (scale_) fit_.scale *= std::exp(std::clamp(found[scale], -0.5, 0.5));
   }
@@ -199,7 +201,7 @@ class GaussNewton {
   /// A sag of more than half a degree of a joint is none; of joints that the weight does not turn nothing is known.
   void holdSag(Eigen::Index at, Eigen::MatrixXd& normal, Eigen::VectorXd& right) const {
     constexpr double kMostTurn = 0.01, kMisfit = 2e-3;  // rad, m
-    for (Eigen::Index j = 0; j < 6; ++j) {
+    for (Eigen::Index j = 0; j < largest_torque_.size(); ++j) {
       const double hold = std::pow(std::max(largest_torque_[j], 1.0) * kMisfit / kMostTurn, 2);
       normal(at + j, at + j) += hold;
       right[at + j] -= hold * fit_.compliance[j];
@@ -235,9 +237,9 @@ class GaussNewton {
 
   const ReadingsOfDay& day_;
   bool sag_, scale_;
-  std::optional<Vector6d> springs_;
+  std::optional<JointVector> springs_;
   std::vector<Pose> poses_;
-  Vector6d largest_torque_ = Vector6d::Zero();
+  JointVector largest_torque_;
   std::vector<double> weights_;
   NominalFit fit_;
 };

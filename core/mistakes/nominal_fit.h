@@ -21,11 +21,11 @@ struct NominalFit {
   Eigen::Isometry3d base_from_points = Eigen::Isometry3d::Identity();
   double scale = 1.0;
   std::vector<Eigen::Vector3d> reflectors_in_flange;
-  Vector6d compliance = Vector6d::Zero();  ///< by the own weight; rad/Nm
-  double sag_factor = 1.0;                 ///< of the sag by `NominalFitOptions::springs`
-  double rms = 0.0;                        ///< of all readings, distances, m
-  std::vector<double> group_rms;           ///< by group, m; 0 for one without readings
-  double typical = 0.0;                    ///< median over the groups, m
+  JointVector compliance;         ///< by the own weight; rad/Nm; none: rigid
+  double sag_factor = 1.0;        ///< of the sag by `NominalFitOptions::springs`
+  double rms = 0.0;               ///< of all readings, distances, m
+  std::vector<double> group_rms;  ///< by group, m; 0 for one without readings
+  double typical = 0.0;           ///< median over the groups, m
 
   /// Root mean square over the groups but for the worst twentieth, at least one, m: a table whose rows are shifted has
   /// one at its end that fits nowhere.
@@ -40,7 +40,7 @@ struct NominalFit {
 struct NominalFitOptions {
   bool sag = true;
   bool scale = false;
-  std::optional<Vector6d> springs;  ///< compliances that sag by one factor, instead of six of their own; rad/Nm
+  std::optional<JointVector> springs;  ///< compliances that sag by one factor, instead of each by its own; rad/Nm
 };
 
 NominalFit fitNominal(const ReadingsOfDay& day, const NominalFitOptions& options = {});

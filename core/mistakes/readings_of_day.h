@@ -23,8 +23,8 @@ struct UnloadedReading {
   int axis = -1;  ///< of a circle sweep
   int pose = -1;  ///< of the loading
   int target = 0;
-  Vector6d q = Vector6d::Zero();
-  Vector6d q_before = Vector6d::Zero(), q_after = Vector6d::Zero();  ///< of the rows before and after in its table
+  JointVector q;
+  JointVector q_before, q_after;  ///< of the rows before and after in its table
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   std::size_t line = 0;
 };
@@ -38,7 +38,7 @@ struct ReflectorMove {
 /// One loaded state of one posture.
 struct LoadedReading {
   int pose = 0, step = 0;
-  Vector6d q = Vector6d::Zero();       ///< unloaded
+  JointVector q;                       ///< unloaded
   Vector6d wrench = Vector6d::Zero();  ///< as the load cell's row says, force then moment
   std::vector<ReflectorMove> moves;
   std::size_t line = 0;  ///< in the states

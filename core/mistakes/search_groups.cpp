@@ -318,8 +318,9 @@ bool searchReadTwice(SearchedArm& arm) {
 }
 
 void searchExchangedSweeps(SearchedArm& arm) {
-  for (int a = 0; a < 6; ++a) {
-    for (int b = a + 1; b < 6; ++b) {
+  const int joints = arm.campaign.robot.joints();
+  for (int a = 0; a < joints; ++a) {
+    for (int b = a + 1; b < joints; ++b) {
       ReadingsOfDay day = arm.day;
       std::map<int, std::array<std::vector<UnloadedReading*>, 2>> by_target;
       for (UnloadedReading& reading : day.unloaded) {
@@ -350,10 +351,11 @@ void searchExchangedSweeps(SearchedArm& arm) {
 
 bool searchLabels(SearchedArm& arm) {
   if (!arm.campaign.circle_sweeps) return true;
-  std::array<Vector6d, 6> least, most;
-  std::array<bool, 6> swept{};
-  for (std::size_t k = 0; k < 6; ++k) least[k].setConstant(INFINITY), most[k].setConstant(-INFINITY);
-  std::array<std::size_t, 6> lines{};
+  const auto joints = static_cast<std::size_t>(arm.campaign.robot.joints());
+  const JointVector infinite = JointVector::Constant(arm.campaign.robot.joints(), INFINITY);
+  PerJoint<JointVector> least(joints, infinite), most(joints, -infinite);
+  PerJoint<bool> swept(joints, false);
+  PerJoint<std::size_t> lines(joints);
   for (const campaign::CircleReading& row : arm.campaign.circle_sweeps->rows) {
     const auto axis = static_cast<std::size_t>(row.axis);
     if (!swept[axis]) lines[axis] = row.line;
@@ -363,10 +365,10 @@ bool searchLabels(SearchedArm& arm) {
   }
   std::vector<int> labels;
   std::size_t line = 0;
-  for (std::size_t axis = 0; axis < 6; ++axis) {
+  for (std::size_t axis = 0; axis < joints; ++axis) {
     if (!swept[axis]) continue;
     Eigen::Index turns = 0;
-    const Vector6d range = most[axis] - least[axis];
+    const JointVector range = most[axis] - least[axis];
     const double largest = range.maxCoeff(&turns);
     // A joint that is told with its neighbour turns as far as that.
     constexpr double kStill = 0.1;

@@ -79,7 +79,7 @@ bool searchLostRow(SearchedArm& arm) {
     const UnloadedReading& first = firstOf(arm.day, g);
     if (first.pose < 0) continue;
     ReadingsOfDay shifted = arm.day;
-    const auto with = [&](const Vector6d UnloadedReading::*row) {
+    const auto with = [&](const JointVector UnloadedReading::*row) {
       for (std::size_t i = 0; i < shifted.unloaded.size(); ++i) shifted.unloaded[i].q = arm.day.unloaded[i].*row;
       return missOfGroup(arm.found.fit, shifted, g);
     };
@@ -113,7 +113,7 @@ bool searchLostRow(SearchedArm& arm) {
                       {}};
     cure.rms = postures[from].before;
     cure.day = arm.day;
-    std::map<int, Vector6d> q;
+    std::map<int, JointVector> q;
     for (UnloadedReading& reading : cure.day.unloaded) {
       if (reading.pose < postures[from].pose) continue;
       reading.q = next ? reading.q_before : reading.q_after;

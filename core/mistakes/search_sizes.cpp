@@ -47,7 +47,7 @@ void moveFrom(std::size_t joint, const Eigen::Vector3d& shift, const Eigen::Matr
     frame.linear() = turn * frame.linear();
     frame.translation() = place;
   };
-  for (std::size_t j = joint; j < 6; ++j) {
+  for (std::size_t j = joint; j < robot.axes_in_base_at_zero.size(); ++j) {
     robot.axes_in_base_at_zero[j].point = moved(robot.axes_in_base_at_zero[j].point);
     robot.axes_in_base_at_zero[j].direction = turn * robot.axes_in_base_at_zero[j].direction;
   }
@@ -125,10 +125,10 @@ void searchZeros(SearchedArm& arm) {
   std::optional<ArmCure> best;
   for (const Tables& tables : arm.sets) {
     if (tables.size() > 1 && tables.size() < arm.tables.size()) continue;
-    for (int joint = 0; joint < 6; ++joint) {
+    for (int joint = 0; joint < arm.campaign.robot.joints(); ++joint) {
       const auto shifted = [&](double by) {
         ArmMistake mistake;
-        mistake.angles = [joint, by](Vector6d& q) { q[joint] += by; };
+        mistake.angles = [joint, by](JointVector& q) { q[joint] += by; };
         return arm.with(mistake, tables);
       };
       const auto misfit = [&](double by) { return affineMisfit(shifted(by)); };
@@ -140,7 +140,7 @@ void searchZeros(SearchedArm& arm) {
       if (!arm.mends(rms) || (best && rms >= best->rms)) continue;
       best.emplace();
       ArmMistake angles;
-      angles.angles = [](Vector6d&) {};
+      angles.angles = [](JointVector&) {};
       best->suspected = {"joint_zero",
                          arm.whereOf(angles, tables),
                          Remark(RemarkId::shift_zero, joint + 1, by, tables.size() == arm.tables.size()),
@@ -154,7 +154,7 @@ void searchZeros(SearchedArm& arm) {
 
 void searchOrigins(SearchedArm& arm) {
   std::vector<ArmCure> cures;
-  for (std::size_t joint = 1; joint < 6; ++joint) {
+  for (std::size_t joint = 1; joint < arm.campaign.robot.axes_in_base_at_zero.size(); ++joint) {
     for (int axis = 0; axis < 3; ++axis) {
       for (const double degrees : {90.0, -90.0, 180.0}) {
         ReadingsOfDay day = arm.day;

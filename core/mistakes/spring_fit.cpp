@@ -65,9 +65,9 @@ Eigen::Isometry3d LoadsOfDay::parentOf(const State& state, const CellReading& ce
   return linkOf(state, cell.parent);
 }
 
-Vector6d LoadsOfDay::torqueOf(const State& state, const Applied& load) {
-  Vector6d torque;
-  for (std::size_t j = 0; j < 6; ++j) {
+JointVector LoadsOfDay::torqueOf(const State& state, const Applied& load) {
+  JointVector torque(static_cast<Eigen::Index>(state.axes.size()));
+  for (std::size_t j = 0; j < state.axes.size(); ++j) {
     const metrology::Line& axis = state.axes[j];
     torque[static_cast<Eigen::Index>(j)] =
         axis.direction.dot(load.moment + (load.point - axis.point).cross(load.force));
@@ -101,31 +101,38 @@ std::optional<Eigen::Matrix3d> LoadsOfDay::turnToGravity(const CellReading& cell
 
 /// Bilinear in springs and three parameters of the cell: Gauss-Newton in both. `by_parameters(state, load)` are the
 /// torques' derivatives, 6x3; `take` takes a step up.
+/// Torque of the joints by three parameters.
+using ByThree = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::ColMajor, kMostJoints, 3>;
+
 template <class ByParameters, class Take>
 void LoadsOfDay::fitCell(CellReading& cell, const ByParameters& by_parameters, const Take& take) const {
-  Vector6d c = fit(cell).compliance;
+  JointVector c = fit(cell).compliance;
+  const Eigen::Index joints = c.size(), size = joints + 3;
+  using Normal =
+      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMostJoints + 3, kMostJoints + 3>;
+  using Right = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMostJoints + 3, 1>;
   constexpr int kRounds = 12;
   for (int round = 0; round < kRounds; ++round) {
-    Eigen::Matrix<double, 9, 9> normal = Eigen::Matrix<double, 9, 9>::Zero();
-    Eigen::Matrix<double, 9, 1> right = Eigen::Matrix<double, 9, 1>::Zero();
+    Normal normal = Normal::Zero(size, size);
+    Right right = Right::Zero(size);
     for (const State& state : states_) {
       const Applied load = applied(state, cell, state.wrench);
-      const Vector6d torque = torqueOf(state, load);
-      const Eigen::Matrix<double, 6, 3> columns = by_parameters(state, load);
+      const JointVector torque = torqueOf(state, load);
+      const ByThree columns = by_parameters(state, load);
       for (const Move& move : state.moves) {
-        Eigen::Matrix<double, 3, 9> rows;
+        Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, kMostJoints + 3> rows(3, size);
         rows << move.jacobian * torque.asDiagonal(), move.jacobian * c.asDiagonal() * columns;
-        const Eigen::Vector3d left = move.displacement - rows.leftCols<6>() * c;
+        const Eigen::Vector3d left = move.displacement - rows.leftCols(joints) * c;
         normal += rows.transpose() * rows;
         right += rows.transpose() * left;
       }
     }
     // Compliances are a millionth of lengths: held each in parts of its own column.
-    const Eigen::Matrix<double, 9, 1> scale = normal.diagonal().cwiseMax(1e-30).cwiseSqrt();
+    const Right scale = normal.diagonal().cwiseMax(1e-30).cwiseSqrt();
     normal = scale.cwiseInverse().asDiagonal() * normal * scale.cwiseInverse().asDiagonal();
     normal.diagonal().array() += 1e-6;
-    const Eigen::Matrix<double, 9, 1> step = normal.ldlt().solve(right.cwiseQuotient(scale)).cwiseQuotient(scale);
-    c += step.head<6>();
+    const Right step = normal.ldlt().solve(right.cwiseQuotient(scale)).cwiseQuotient(scale);
+    c += step.head(joints);
     take(Eigen::Vector3d(step.tail<3>()));
   }
 }
@@ -134,8 +141,8 @@ Eigen::Vector3d LoadsOfDay::bestPoint(const CellReading& cell) const {
   CellReading moved = cell;
   const auto columns = [&](const State& state, const Applied& load) {
     const Eigen::Matrix3d parent = parentOf(state, moved).linear();
-    Eigen::Matrix<double, 6, 3> by_point;
-    for (std::size_t j = 0; j < 6; ++j) {
+    ByThree by_point(static_cast<Eigen::Index>(state.axes.size()), 3);
+    for (std::size_t j = 0; j < state.axes.size(); ++j) {
       // z . (d x F) = d . (F x z)
       by_point.row(static_cast<Eigen::Index>(j)) = load.force.cross(state.axes[j].direction).transpose() * parent;
     }
@@ -151,8 +158,8 @@ Eigen::Matrix3d LoadsOfDay::bestTurn(const CellReading& cell) const {
     // A small turn d in the cell's axes: z . (A d x M + r x (A d x F)) = d . A^T (M x z + F x (z x r)), r from the
     // axis.
     const Eigen::Matrix3d axes = axesOf(state, turned);
-    Eigen::Matrix<double, 6, 3> by_turn;
-    for (std::size_t j = 0; j < 6; ++j) {
+    ByThree by_turn(static_cast<Eigen::Index>(state.axes.size()), 3);
+    for (std::size_t j = 0; j < state.axes.size(); ++j) {
       const Eigen::Vector3d z = state.axes[j].direction, r = load.point - state.axes[j].point;
       by_turn.row(static_cast<Eigen::Index>(j)) =
           (load.moment.cross(z) + load.force.cross(z.cross(r))).transpose() * axes;
@@ -173,11 +180,13 @@ Eigen::Matrix3d LoadsOfDay::bestTurn(const CellReading& cell) const {
 namespace {
 
 struct Sums {
-  Matrix6d normal = Matrix6d::Zero();
-  Vector6d right = Vector6d::Zero();
+  JointMatrix normal;  // none before the first
+  JointVector right;
   double squares = 0.0;
 
   Sums& operator+=(const Sums& other) {
+    if (other.right.size() == 0) return *this;
+    if (right.size() == 0) return *this = other;
     normal += other.normal;
     right += other.right;
     squares += other.squares;
@@ -186,13 +195,13 @@ struct Sums {
 };
 
 /// min |A c - d| over c >= 0: joints whose compliance comes out negative are left out, the most negative first.
-Vector6d positiveSolution(const Sums& sums) {
-  std::array<bool, 6> used;
-  used.fill(true);
-  for (int round = 0; round < 6; ++round) {
-    Matrix6d normal = sums.normal;
-    Vector6d right = sums.right;
-    for (Eigen::Index j = 0; j < 6; ++j) {
+JointVector positiveSolution(const Sums& sums) {
+  const Eigen::Index joints = sums.right.size();
+  robot::JointMask used(static_cast<std::size_t>(joints), true);
+  for (Eigen::Index round = 0; round < joints; ++round) {
+    JointMatrix normal = sums.normal;
+    JointVector right = sums.right;
+    for (Eigen::Index j = 0; j < joints; ++j) {
       // A column of a thousandth of the others' weight is what tilt and noise put there: it explains nothing.
       normal(j, j) += 1e-6 * sums.normal.diagonal().maxCoeff();
       if (used[static_cast<std::size_t>(j)]) continue;
@@ -201,16 +210,17 @@ Vector6d positiveSolution(const Sums& sums) {
       normal(j, j) = 1.0;
       right[j] = 0.0;
     }
-    const Vector6d found = solveSymmetric6(normal, right);
+    const JointVector found = solveSymmetric(normal, right);
     Eigen::Index worst = 0;
     const double least = (found.array() * sums.normal.diagonal().array().sqrt()).minCoeff(&worst);
     if (least >= 0.0) return found;
     used[static_cast<std::size_t>(worst)] = false;
   }
-  return Vector6d::Zero();
+  return JointVector::Zero(joints);
 }
 
-double leftOf(const Sums& sums, const Vector6d& c) {
+double leftOf(const Sums& sums, const JointVector& c) {
+  if (sums.right.size() == 0) return 0.0;
   return std::max(0.0, sums.squares - 2.0 * c.dot(sums.right) + c.dot(sums.normal * c));
 }
 
@@ -219,6 +229,7 @@ double leftOf(const Sums& sums, const Vector6d& c) {
 template <class WrenchOf>
 SpringFit LoadsOfDay::fitBy(const WrenchOf& wrench_of) const {
   SpringFit fit;
+  fit.compliance = JointVector::Zero(robot_.joints());
   std::vector<Sums> by_pose(poses_.size());
   std::map<int, Sums> by_step;
   std::vector<std::size_t> pose_of;
@@ -234,10 +245,10 @@ SpringFit LoadsOfDay::fitBy(const WrenchOf& wrench_of) const {
     largest = std::max(largest, load->force.norm());
     const Eigen::Matrix3d to_tool = state.flange.linear().transpose();
     loads.push_back({to_tool * load->force, to_tool * load->moment});
-    const Vector6d torque = torqueOf(state, *load);
-    Sums sums;
+    const JointVector torque = torqueOf(state, *load);
+    Sums sums{JointMatrix::Zero(torque.size(), torque.size()), JointVector::Zero(torque.size())};
     for (const Move& move : state.moves) {
-      const Matrix36d rows = move.jacobian * torque.asDiagonal();
+      const PointJacobian rows = move.jacobian * torque.asDiagonal();
       sums.normal += rows.transpose() * rows;
       sums.right += rows.transpose() * move.displacement;
       sums.squares += move.displacement.squaredNorm();

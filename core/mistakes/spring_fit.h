@@ -29,7 +29,7 @@ CellReading asDeclared(const campaign::LoadCell& cell);
 ///   d = J_m(q, x) diag(J_w^T W) c,  c >= 0.
 struct SpringFit {
   double left = 1.0;  ///< share of the displacements that is left, root mean square
-  Vector6d compliance = Vector6d::Zero();
+  JointVector compliance;
   double off_gravity = 0.0;  ///< between force and gravity, rms, rad
   double along_lever = 0.0;  ///< share of the moments that no one lever on the tool gives, root mean square
   double lever = 0.0;        ///< its length, m
@@ -63,7 +63,7 @@ class LoadsOfDay {
 
  private:
   struct Move {
-    Matrix36d jacobian;
+    PointJacobian jacobian;
     Eigen::Vector3d displacement;
   };
   struct State {
@@ -86,7 +86,7 @@ class LoadsOfDay {
   Eigen::Matrix3d axesOf(const State& state, const CellReading& cell) const;
   template <class ByParameters, class Take>
   void fitCell(CellReading& cell, const ByParameters& by_parameters, const Take& take) const;
-  static Vector6d torqueOf(const State& state, const Applied& load);
+  static JointVector torqueOf(const State& state, const Applied& load);
   Applied applied(const State& state, const CellReading& cell, const Vector6d& wrench) const;
   template <class WrenchOf>
   SpringFit fitBy(const WrenchOf& wrench_of) const;

@@ -20,20 +20,22 @@ namespace {
 
 frames::LoadingGeometry geometryFor(const campaign::Campaign& campaign,
                                     const identification::Identification* identified) {
-  if (identified == nullptr) return frames::sweptGeometry(campaign, frames::measureFrames(campaign), Vector6d::Zero());
+  const JointVector rigid = JointVector::Zero(campaign.robot.joints());
+  if (identified == nullptr) return frames::sweptGeometry(campaign, frames::measureFrames(campaign), rigid);
   for (const identification::Method method :
        {identification::Method::decoupled_partial_pose, identification::Method::partial_pose,
         identification::Method::complete_pose}) {
     if (identified->of(method).available) return identified->of(method).geometry;
   }
-  return frames::sweptGeometry(campaign, identified->frames, Vector6d::Zero());
+  return frames::sweptGeometry(campaign, identified->frames, rigid);
 }
 
-/// Along axis 6, away from axis 5: out of the flange.
+/// Along the last axis, away from the one before: out of the flange.
 Eigen::Vector3d outwardInFlange(const robot::Robot& arm) {
-  const metrology::Line& last = arm.axes_in_base_at_zero[5];
+  const robot::ArmAxes& axes = arm.axes_in_base_at_zero;
+  const metrology::Line& last = axes.back();
   const Eigen::Isometry3d& flange = arm.base_from_flange_at_zero;
-  const double along = (flange.translation() - arm.axes_in_base_at_zero[4].point).dot(last.direction);
+  const double along = (flange.translation() - axes[axes.size() - 2].point).dot(last.direction);
   const Eigen::Vector3d outward = flange.linear().transpose() * last.direction;
   return along < 0.0 ? Eigen::Vector3d(-outward) : outward;
 }
@@ -115,7 +117,7 @@ void placeLoad(const campaign::Campaign& campaign, const identification::Identif
     arm.assumed.emplace_back(RemarkId::load_where_measured,
                              std::vector<double>(arm.hook_in_flange.begin(), arm.hook_in_flange.end()));
   } else {
-    const robot::ArmPosture zero = robot::postureAt(arm.geometry.arm, Vector6d::Zero());
+    const robot::ArmPosture zero = robot::postureAt(arm.geometry.arm, JointVector::Zero(arm.geometry.arm.joints()));
     const robot::Wrench at_cell = identification::cellWrench(arm.cell, arm.geometry, zero, {}, {}, Vector6d::Zero());
     arm.hook_in_flange = arm.geometry.arm.base_from_flange_at_zero.inverse() * at_cell.point;
     arm.assumed.emplace_back(RemarkId::load_at_cell);
@@ -197,17 +199,19 @@ namespace {
 
 struct Skeleton {
   std::vector<Eigen::Vector3d> points;  // sampled every few centimetres
-  std::size_t forearm = 0;              // the first point beyond axis 3
+  std::size_t forearm = 0;              // the first point beyond the last axis before the wrist
 };
 
 Skeleton skeletonOf(const PlanningArm& arm, const robot::ArmPosture& posture) {
   std::vector<Eigen::Vector3d> corners{arm.geometry.r0_from_base_link.translation()};
-  for (int joint = 0; joint < 6; ++joint) corners.push_back(robot::axisAt(arm.geometry.arm, posture, joint).point);
+  const int joints = arm.geometry.arm.joints();
+  for (int joint = 0; joint < joints; ++joint) corners.push_back(robot::axisAt(arm.geometry.arm, posture, joint).point);
   corners.push_back(robot::flangeAt(arm.geometry.arm, posture).translation());
   Skeleton skeleton;
   constexpr int kSamples = 20;
+  const auto elbow = static_cast<std::size_t>(robot::armJointsOf(joints));
   for (std::size_t k = 0; k + 1 < corners.size(); ++k) {
-    if (k == 3) skeleton.forearm = skeleton.points.size();  // corners: base, axes 1, 2, 3, ...
+    if (k == elbow) skeleton.forearm = skeleton.points.size();  // corners: base, axes 1, 2, 3, ...
     for (int s = 0; s <= kSamples; ++s) {
       const double t = static_cast<double>(s) / kSamples;
       skeleton.points.push_back((1.0 - t) * corners[k] + t * corners[k + 1]);
@@ -280,7 +284,7 @@ const char* wordsFor(PostureRule rule) {
 PostureRule brokenRule(const PlanningArm& arm, const PostureRules& rules, const robot::ArmPosture& posture,
                        const Eigen::Vector3d& direction) {
   const Eigen::Isometry3d flange = robot::flangeAt(arm.geometry.arm, posture);
-  const Matrix6d jacobian = robot::jacobianAt(arm.geometry.arm, posture, flange.translation());
+  const Jacobian jacobian = robot::jacobianAt(arm.geometry.arm, posture, flange.translation());
   if (identification::postureConditioning(jacobian, 1.0).dexterity < rules.least_dexterity)
     return PostureRule::singularity;
 
@@ -311,9 +315,9 @@ PostureRule brokenRule(const PlanningArm& arm, const PostureRules& rules, const 
   return brokenBySight(arm, rules, skeleton, targets);
 }
 
-std::array<robot::JointLimits, 6> postureBox(const robot::Robot& arm, const PostureRules& rules) {
-  std::array<robot::JointLimits, 6> box;
-  for (std::size_t j = 0; j < 6; ++j) {
+PerJoint<robot::JointLimits> postureBox(const robot::Robot& arm, const PostureRules& rules) {
+  PerJoint<robot::JointLimits> box(arm.limits.size());
+  for (std::size_t j = 0; j < box.size(); ++j) {
     const auto joint = static_cast<Eigen::Index>(j);
     box[j].lower = std::max(arm.limits[j].lower + rules.limit_margin, rules.low[joint]);
     box[j].upper = std::min(arm.limits[j].upper - rules.limit_margin, rules.high[joint]);
@@ -369,10 +373,8 @@ std::vector<Eigen::Vector3d> loadDirections(const PlanningArm& arm) {
   return directions;
 }
 
-Candidate candidateAt(const PlanningArm& arm, const Vector6d& q, const Eigen::Vector3d& direction) {
-  Candidate candidate;
-  candidate.q = q;
-  candidate.direction = direction;
+Candidate candidateAt(const PlanningArm& arm, const JointVector& q, const Eigen::Vector3d& direction) {
+  Candidate candidate(q, direction);
   identification::LoadCase& load_case = candidate.load_case;
   load_case.q = q;
   load_case.q_sagged = arm.geometry.sagged(q);
@@ -380,16 +382,16 @@ Candidate candidateAt(const PlanningArm& arm, const Vector6d& q, const Eigen::Ve
   load_case.axes = robot::axesAt(arm.geometry.arm, posture);
   const Eigen::Isometry3d flange = robot::flangeAt(arm.geometry.arm, posture);
   load_case.wrench = {flange * arm.hook_in_flange, arm.load * direction, Eigen::Vector3d::Zero()};
-  const Vector6d torque = robot::jointTorque(load_case.axes, load_case.wrench);
+  const JointVector torque = robot::jointTorque(load_case.axes, load_case.wrench);
   Eigen::MatrixXd moves;
   if (arm.effects) moves = arm.effects.moves(q, load_case.wrench.force, arm.hook_in_flange, arm.targets_in_flange);
   Eigen::MatrixXd among = Eigen::MatrixXd::Identity(moves.cols(), moves.cols());  // I + E^T S^-1 E, S noise alone
-  Eigen::MatrixXd across = Eigen::MatrixXd::Zero(moves.cols(), 6);                // E^T S^-1 A
+  Eigen::MatrixXd across = Eigen::MatrixXd::Zero(moves.cols(), q.size());         // E^T S^-1 A
   for (std::size_t k = 0; k < arm.targets_in_flange.size(); ++k) {
     const Eigen::Vector3d point = flange * arm.targets_in_flange[k];
-    const Matrix36d rows = identification::pointRows(load_case.axes, point, torque);
+    const PointJacobian rows = identification::pointRows(load_case.axes, point, torque);
     const Eigen::LLT<Eigen::Matrix3d> noise(arm.displacementCovariance(point));
-    const Matrix36d weighed = noise.solve(rows);
+    const PointJacobian weighed = noise.solve(rows);
     candidate.information += rows.transpose() * weighed;
     if (moves.cols() == 0) continue;
     const Eigen::MatrixXd own = moves.middleRows<3>(static_cast<Eigen::Index>(3 * k));
@@ -402,14 +404,15 @@ Candidate candidateAt(const PlanningArm& arm, const Vector6d& q, const Eigen::Ve
 }
 
 CandidateDraw drawCandidates(const PlanningArm& arm, const PostureRules& rules, int count, std::uint64_t seed) {
-  const std::array<robot::JointLimits, 6> box = postureBox(arm.geometry.arm, rules);
+  const PerJoint<robot::JointLimits> box = postureBox(arm.geometry.arm, rules);
   const std::vector<Eigen::Vector3d> directions = loadDirections(arm);
   std::mt19937_64 random(seed);
   CandidateDraw draw;
   constexpr int kTriesEach = 400;
   while (static_cast<int>(draw.kept.size()) < count && draw.drawn < kTriesEach * count) {
-    Vector6d q;
-    for (std::size_t j = 0; j < 6; ++j) q[static_cast<Eigen::Index>(j)] = uniform(random, box[j].lower, box[j].upper);
+    JointVector q(static_cast<Eigen::Index>(box.size()));
+    for (std::size_t j = 0; j < box.size(); ++j)
+      q[static_cast<Eigen::Index>(j)] = uniform(random, box[j].lower, box[j].upper);
     const Eigen::Vector3d& direction = directions[random() % directions.size()];
     ++draw.drawn;
     const PostureRule broken =

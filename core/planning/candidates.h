@@ -18,10 +18,11 @@ namespace stiffscope::planning {
 struct EffectDoubt {
   /// How reflectors (places in the flange, m) move at joint angles q under a load (force R0, N; point in the flange, m)
   /// by one standard uncertainty of each independent direction of it: 3 rows a reflector, R0, m. Empty: no effects.
-  std::function<Eigen::MatrixXd(const Vector6d& q, const Eigen::Vector3d& force, const Eigen::Vector3d& point_in_flange,
+  std::function<Eigen::MatrixXd(const JointVector& q, const Eigen::Vector3d& force,
+                                const Eigen::Vector3d& point_in_flange,
                                 const std::vector<Eigen::Vector3d>& targets_in_flange)>
       moves;
-  std::array<Matrix6d, 3> covariance;  ///< by Method: what it brings to the identified compliances, (rad/Nm)^2
+  std::array<JointMatrix, 3> covariance;  ///< by Method: what it brings to the identified compliances, (rad/Nm)^2
 
   explicit operator bool() const { return static_cast<bool>(moves); }
 };
@@ -43,7 +44,7 @@ struct PlanningArm {
   frames::LoadingGeometry geometry;
   campaign::LoadCell cell;
   std::vector<Eigen::Vector3d> targets_in_flange;                ///< m
-  Eigen::Vector3d outward_in_flange = Eigen::Vector3d::UnitZ();  ///< along axis 6, away from the arm
+  Eigen::Vector3d outward_in_flange = Eigen::Vector3d::UnitZ();  ///< along the last axis, away from the arm
   Eigen::Vector3d hook_in_flange = Eigen::Vector3d::Zero();
   double load = 0.0;  ///< N; 0: a day without a load, whose postures keep no rules of one
   bool pull = false;
@@ -73,15 +74,17 @@ PlanningArm unloadedPlanningArm(const campaign::Campaign& campaign, const Planni
 
 /// What a person at the robot would keep to. Lengths m, angles rad.
 struct PostureRules {
-  Vector6d low = Vector6d::Constant(-3.14159265358979);  ///< the box that postures are drawn from, cut by
-  Vector6d high = Vector6d::Constant(3.14159265358979);  ///< the URDF's limits less `limit_margin`
+  /// The box that postures are drawn from, cut by the URDF's limits less `limit_margin`; beyond the machine's last
+  /// joint its numbers play no part.
+  JointVector low = JointVector::Constant(kMostJoints, -3.14159265358979);
+  JointVector high = JointVector::Constant(kMostJoints, 3.14159265358979);
   double limit_margin = 0.0873;    ///< 5 deg: room for compensation, and URDFs differ from controllers
   double least_dexterity = 0.15;   ///< 1 / kappa of Dumas et al., lengths over 1 m
   double most_outward_up = 0.349;  ///< 20 deg: a hanging load stays clear of the flange (not asked of a pull)
   double least_hook_height = 0.8;  ///< above base_link's origin: weights hang below (not asked of a pull)
-  double least_height = 0.2;       ///< of reflectors and arm beyond axis 3, above base_link's origin
+  double least_height = 0.2;       ///< of reflectors and forearm, above base_link's origin
   double line_clearance = 0.2;     ///< between the load's line beyond the hook and the arm's skeleton
-  double body_clearance = 0.35;    ///< between hook or reflectors and the skeleton from the base to axis 3
+  double body_clearance = 0.35;    ///< between hook or reflectors and the skeleton from the base to the forearm
   double sight_clearance = 0.1;    ///< between a line of sight and the skeleton
   double least_distance = 1.0, most_distance = 15.0;  ///< between tracker and reflectors
 };
@@ -94,23 +97,27 @@ inline constexpr std::size_t kPostureRules = 8;
 const char* wordsFor(PostureRule rule);
 
 /// The first rule that a posture breaks under a load along `direction` (unit, R0); none where it keeps all.
-/// The arm is taken as straight lines from base_link's origin over the points of axes 1-6 to the flange; it
-/// is rigid here.
+/// The arm is taken as straight lines from base_link's origin over the points of its axes to the flange; it is
+/// rigid here. Its forearm begins at the last axis before the wrist (robot::armJointsOf; axis 3 of six).
 PostureRule brokenRule(const PlanningArm& arm, const PostureRules& rules, const robot::ArmPosture& posture,
                        const Eigen::Vector3d& direction);
 
 /// The box of `rules` within the arm's limits. Throws InputError, naming the joint, where it is empty.
-std::array<robot::JointLimits, 6> postureBox(const robot::Robot& arm, const PostureRules& rules);
+PerJoint<robot::JointLimits> postureBox(const robot::Robot& arm, const PostureRules& rules);
 
 /// A posture that keeps the rules, a load on it, and what measuring it would tell.
 struct Candidate {
-  Vector6d q = Vector6d::Zero();                        ///< rad
-  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< of the load, unit, R0
-  identification::LoadCase load_case;                   ///< posture and wrench, R0; no readings
+  JointVector q;                       ///< rad
+  Eigen::Vector3d direction;           ///< of the load, unit, R0
+  identification::LoadCase load_case;  ///< posture and wrench, R0; no readings
   /// Information on the compliances c: A^T S^-1 A over the posture's reflectors, A = J_m diag(J_w^T W) as in paper
   /// (12), S the covariance of their displacements: noise and misfit, and E E^T with E the moves by the effects'
   /// uncertainty (EffectDoubt), as if a new draw of them in every posture. (Nm/rad)^2.
-  Matrix6d information = Matrix6d::Zero();
+  JointMatrix information;
+
+  /// Of which nothing is known yet.
+  Candidate(const JointVector& at, const Eigen::Vector3d& along)
+      : q(at), direction(along), information(JointMatrix::Zero(at.size(), at.size())) {}
 };
 
 struct CandidateDraw {
@@ -126,7 +133,7 @@ struct CandidateDraw {
 CandidateDraw drawCandidates(const PlanningArm& arm, const PostureRules& rules, int count, std::uint64_t seed);
 
 /// The candidate of a given posture.
-Candidate candidateAt(const PlanningArm& arm, const Vector6d& q, const Eigen::Vector3d& direction);
+Candidate candidateAt(const PlanningArm& arm, const JointVector& q, const Eigen::Vector3d& direction);
 
 /// Unit directions in R0 that a load may have.
 std::vector<Eigen::Vector3d> loadDirections(const PlanningArm& arm);

@@ -2,7 +2,6 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -14,19 +13,38 @@ namespace {
 
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 
-}  // namespace
-
-double choleskyLogDeterminant(const Matrix6d& matrix) {
-  const Eigen::LLT<Matrix6d> cholesky(matrix);
+/// Exchanges try millions of sums: most machines have six joints, and Matrix is of fixed size for them.
+template <class Matrix>
+double logDeterminantOf(const Matrix& matrix) {
+  const Eigen::LLT<Matrix> cholesky(matrix);
   if (cholesky.info() != Eigen::Success) return kNever;
   double sum = 0.0;
-  for (int j = 0; j < 6; ++j) sum += std::log(cholesky.matrixLLT()(j, j));
+  for (Eigen::Index j = 0; j < matrix.rows(); ++j) sum += std::log(cholesky.matrixLLT()(j, j));
   return 2.0 * sum;
 }
 
-double balanceOf(const Vector6d& sd, const Vector6d& reference, const robot::JointMask& unknown) {
+/// Diagonal of the inverse of a positive definite matrix; empty where it is none.
+template <class Matrix>
+JointVector inverseDiagonalOf(const Matrix& matrix) {
+  const Eigen::LLT<Matrix> cholesky(matrix);
+  if (cholesky.info() != Eigen::Success) return {};
+  const Matrix inverse = cholesky.solve(Matrix::Identity(matrix.rows(), matrix.cols()));
+  return inverse.diagonal();
+}
+
+JointVector inverseDiagonal(const JointMatrix& matrix) {
+  return matrix.rows() == 6 ? inverseDiagonalOf<Matrix6d>(matrix) : inverseDiagonalOf<JointMatrix>(matrix);
+}
+
+}  // namespace
+
+double choleskyLogDeterminant(const JointMatrix& matrix) {
+  return matrix.rows() == 6 ? logDeterminantOf<Matrix6d>(matrix) : logDeterminantOf<JointMatrix>(matrix);
+}
+
+double balanceOf(const JointVector& sd, const JointVector& reference, const robot::JointMask& unknown) {
   double sum = 0.0;
-  for (int j = 0; j < 6; ++j) {
+  for (Eigen::Index j = 0; j < sd.size(); ++j) {
     if (!unknown[static_cast<std::size_t>(j)]) continue;
     const double square = sd[j] * sd[j] / (reference[j] * reference[j]);
     sum += square * square * square * square;
@@ -34,10 +52,10 @@ double balanceOf(const Vector6d& sd, const Vector6d& reference, const robot::Joi
   return -std::log(sum) / 8.0;
 }
 
-double logDeterminant(const Matrix6d& information, const robot::JointMask& unknown) {
+double logDeterminant(const JointMatrix& information, const robot::JointMask& unknown) {
   const identification::ScaledNormal normal = identification::scaledNormal(information, unknown);
   double logarithm = choleskyLogDeterminant(normal.matrix);
-  for (std::size_t j = 0; j < 6; ++j) {
+  for (std::size_t j = 0; j < unknown.size(); ++j) {
     if (!unknown[j]) continue;
     const double scale = normal.scale[static_cast<Eigen::Index>(j)];
     if (scale == 0.0) return kNever;
@@ -46,22 +64,22 @@ double logDeterminant(const Matrix6d& information, const robot::JointMask& unkno
   return logarithm;
 }
 
-Vector6d standardDeviations(const Matrix6d& information, const robot::JointMask& unknown) {
+JointVector standardDeviations(const JointMatrix& information, const robot::JointMask& unknown) {
   const identification::ScaledNormal normal = identification::scaledNormal(information, unknown);
-  const Eigen::LLT<Matrix6d> cholesky(normal.matrix);
-  Vector6d sd = Vector6d::Constant(std::numeric_limits<double>::quiet_NaN());
-  const bool determined = cholesky.info() == Eigen::Success;
-  const Matrix6d inverse = determined ? Matrix6d(cholesky.solve(Matrix6d::Identity())) : Matrix6d::Zero().eval();
-  for (int j = 0; j < 6; ++j) {
+  const JointVector inverse = inverseDiagonal(normal.matrix);
+  JointVector sd =
+      JointVector::Constant(static_cast<Eigen::Index>(unknown.size()), std::numeric_limits<double>::quiet_NaN());
+  const bool determined = inverse.size() > 0;
+  for (Eigen::Index j = 0; j < sd.size(); ++j) {
     if (!unknown[static_cast<std::size_t>(j)]) continue;
     const bool seen = determined && normal.scale[j] > 0.0;
-    sd[j] = seen ? normal.scale[j] * std::sqrt(inverse(j, j)) : std::numeric_limits<double>::infinity();
+    sd[j] = seen ? normal.scale[j] * std::sqrt(inverse[j]) : std::numeric_limits<double>::infinity();
   }
   return sd;
 }
 
-double designValue(const Matrix6d& information, const robot::JointMask& unknown,
-                   const std::optional<Vector6d>& reference) {
+double designValue(const JointMatrix& information, const robot::JointMask& unknown,
+                   const std::optional<JointVector>& reference) {
   if (!reference) return logDeterminant(information, unknown);
   return balanceOf(standardDeviations(information, unknown), *reference, unknown);
 }
@@ -71,37 +89,39 @@ namespace {
 class Exchange {
  public:
   explicit Exchange(const DesignProblem& problem) : problem_(problem) {
-    Vector6d mean = problem.known.diagonal();
-    for (const Matrix6d& one : problem.information)
+    const Eigen::Index joints = problem.known.rows();
+    scale_ = JointVector::Zero(joints);
+    base_ = JointMatrix::Zero(joints, joints);
+    JointVector mean = problem.known.diagonal();
+    for (const JointMatrix& one : problem.information)
       mean += one.diagonal() / static_cast<double>(problem.information.size());
-    for (int j = 0; j < 6; ++j) {
+    for (Eigen::Index j = 0; j < joints; ++j) {
       const bool counts = problem.unknown[static_cast<std::size_t>(j)] && mean[j] > 0.0;
       scale_[j] = counts ? 1.0 / std::sqrt(mean[j]) : 0.0;
       base_(j, j) = counts ? 0.0 : 1.0;
     }
     // A ridge so small that it decides nothing keeps the first choices of a design comparable.
     constexpr double kRidge = 1e-10;
-    base_ += scaled(problem.known) + kRidge * Matrix6d::Identity();
-    for (const Matrix6d& one : problem.information) information_.push_back(scaled(one));
+    base_ += scaled(problem.known) + kRidge * JointMatrix::Identity(joints, joints);
+    for (const JointMatrix& one : problem.information) information_.push_back(scaled(one));
   }
 
-  Matrix6d sumOf(const std::vector<std::size_t>& chosen) const {
-    Matrix6d sum = base_;
+  JointMatrix sumOf(const std::vector<std::size_t>& chosen) const {
+    JointMatrix sum = base_;
     for (const std::size_t one : chosen) sum += information_[one];
     return sum;
   }
 
   /// designValue, on scaled sums.
-  double valueOf(const Matrix6d& sum) const {
+  double valueOf(const JointMatrix& sum) const {
     if (!problem_.reference) return choleskyLogDeterminant(sum);
-    const Eigen::LLT<Matrix6d> cholesky(sum);
-    if (cholesky.info() != Eigen::Success) return kNever;
-    const Matrix6d inverse = cholesky.solve(Matrix6d::Identity());
-    return balanceOf(scale_.cwiseProduct(inverse.diagonal().cwiseSqrt()), *problem_.reference, problem_.unknown);
+    const JointVector inverse = inverseDiagonal(sum);
+    if (inverse.size() == 0) return kNever;
+    return balanceOf(scale_.cwiseProduct(inverse.cwiseSqrt()), *problem_.reference, problem_.unknown);
   }
 
   /// The best candidate to join `others`; the candidate count where none may.
-  std::pair<std::size_t, double> bestWith(const Matrix6d& sum, const std::vector<std::size_t>& others) const {
+  std::pair<std::size_t, double> bestWith(const JointMatrix& sum, const std::vector<std::size_t>& others) const {
     std::pair<std::size_t, double> best{information_.size(), kNever};
     for (std::size_t j = 0; j < information_.size(); ++j) {
       if (!mayJoin(j, others)) continue;
@@ -138,7 +158,7 @@ class Exchange {
   /// Ordered so that each next one adds most.
   std::vector<std::size_t> ordered(std::vector<std::size_t> chosen) const {
     std::vector<std::size_t> order;
-    Matrix6d sum = base_;
+    JointMatrix sum = base_;
     while (!chosen.empty()) {
       const auto best = std::max_element(chosen.begin(), chosen.end(), [&](std::size_t a, std::size_t b) {
         return choleskyLogDeterminant(sum + information_[a]) < choleskyLogDeterminant(sum + information_[b]);
@@ -151,12 +171,12 @@ class Exchange {
   }
 
  private:
-  Matrix6d scaled(const Matrix6d& matrix) const { return scale_.asDiagonal() * matrix * scale_.asDiagonal(); }
+  JointMatrix scaled(const JointMatrix& matrix) const { return scale_.asDiagonal() * matrix * scale_.asDiagonal(); }
 
   const DesignProblem& problem_;
-  Vector6d scale_ = Vector6d::Zero();
-  Matrix6d base_ = Matrix6d::Zero();
-  std::vector<Matrix6d> information_;
+  JointVector scale_;
+  JointMatrix base_;
+  std::vector<JointMatrix> information_;
 };
 
 std::vector<std::size_t> randomChoice(const Exchange& exchange, std::size_t candidates, int count,
@@ -173,8 +193,8 @@ std::vector<std::size_t> randomChoice(const Exchange& exchange, std::size_t cand
 
 }  // namespace
 
-Matrix6d informationOf(const DesignProblem& problem, const std::vector<std::size_t>& chosen) {
-  Matrix6d sum = problem.known;
+JointMatrix informationOf(const DesignProblem& problem, const std::vector<std::size_t>& chosen) {
+  JointMatrix sum = problem.known;
   for (const std::size_t one : chosen) sum += problem.information[one];
   return sum;
 }
@@ -209,17 +229,17 @@ Design exchangeDesign(const DesignProblem& problem, int count, const ExchangeOpt
 bool alike(const PlanningArm& arm, const Candidate& a, const Candidate& b, double separation) {
   constexpr double kSameWay = 0.9;  // cosine
   if (arm.pull && a.direction.dot(b.direction) < kSameWay) return false;
-  for (int joint = arm.pull ? 0 : 1; joint < 6; ++joint) {
+  for (Eigen::Index joint = arm.pull ? 0 : 1; joint < a.q.size(); ++joint) {
     if (std::abs(std::remainder(a.q[joint] - b.q[joint], 2.0 * EIGEN_PI)) >= separation) return false;
   }
   return true;
 }
 
-void refineDesign(const PlanningArm& arm, const PostureRules& rules, const Matrix6d& known,
+void refineDesign(const PlanningArm& arm, const PostureRules& rules, const JointMatrix& known,
                   const robot::JointMask& unknown, const std::vector<Candidate>& measured, const RefineOptions& options,
                   std::vector<Candidate>& chosen) {
-  const std::array<robot::JointLimits, 6> box = postureBox(arm.geometry.arm, rules);
-  Matrix6d sum = known;
+  const PerJoint<robot::JointLimits> box = postureBox(arm.geometry.arm, rules);
+  JointMatrix sum = known;
   for (const Candidate& one : chosen) sum += one.information;
   double value = designValue(sum, unknown, options.reference);
   if (!std::isfinite(value)) return;
@@ -231,12 +251,12 @@ void refineDesign(const PlanningArm& arm, const PostureRules& rules, const Matri
                         [&](const Candidate& one) { return alike(arm, moved, one, options.least_separation); });
   };
   const auto tryMove = [&](std::size_t place, int joint, double step) {
-    Vector6d q = chosen[place].q;
+    JointVector q = chosen[place].q;
     const robot::JointLimits& limits = box[static_cast<std::size_t>(joint)];
     q[joint] = std::clamp(q[joint] + step, limits.lower, limits.upper);
     if (q[joint] == chosen[place].q[joint]) return false;
     const Candidate moved = candidateAt(arm, q, chosen[place].direction);
-    const Matrix6d with = sum - chosen[place].information + moved.information;
+    const JointMatrix with = sum - chosen[place].information + moved.information;
     const double found = designValue(with, unknown, options.reference);
     constexpr double kWorthwhile = 1e-6;  // of the logarithm
     if (!(found > value + kWorthwhile) || !apart(moved, place)) return false;
@@ -251,7 +271,7 @@ void refineDesign(const PlanningArm& arm, const PostureRules& rules, const Matri
     for (int pass = 0; moved && pass < kMostPasses; ++pass) {
       moved = false;
       for (std::size_t place = 0; place < chosen.size(); ++place) {
-        for (int joint = 0; joint < 6; ++joint) {
+        for (int joint = 0; joint < arm.geometry.arm.joints(); ++joint) {
           moved |= tryMove(place, joint, step) || tryMove(place, joint, -step);
         }
       }
@@ -261,19 +281,20 @@ void refineDesign(const PlanningArm& arm, const PostureRules& rules, const Matri
 
 RandomPostures randomPostures(const DesignProblem& problem, int count, int sets, std::uint64_t seed) {
   RandomPostures result;
-  std::array<std::vector<double>, 6> sds;
+  PerJoint<std::vector<double>> sds(problem.unknown.size());
+  result.sd = JointVector::Constant(problem.known.rows(), std::numeric_limits<double>::quiet_NaN());
   double sum = 0.0;
   for (int set = 0; set < sets; ++set) {
     const auto chosen = randomDesign(problem, count, seed + static_cast<std::uint64_t>(set));
     result.postures = static_cast<int>(chosen.size());
-    const Matrix6d information = informationOf(problem, chosen);
+    const JointMatrix information = informationOf(problem, chosen);
     sum += logDeterminant(information, problem.unknown);
-    const Vector6d sd = standardDeviations(information, problem.unknown);
-    for (std::size_t j = 0; j < 6; ++j) sds[j].push_back(sd[static_cast<Eigen::Index>(j)]);
+    const JointVector sd = standardDeviations(information, problem.unknown);
+    for (std::size_t j = 0; j < sds.size(); ++j) sds[j].push_back(sd[static_cast<Eigen::Index>(j)]);
   }
   if (sets < 1) return result;
   result.log_determinant = sum / sets;
-  for (std::size_t j = 0; j < 6; ++j) {
+  for (std::size_t j = 0; j < sds.size(); ++j) {
     const auto middle = sds[j].begin() + static_cast<std::ptrdiff_t>(sds[j].size() / 2);
     if (problem.unknown[j]) std::nth_element(sds[j].begin(), middle, sds[j].end());
     result.sd[static_cast<Eigen::Index>(j)] = *middle;

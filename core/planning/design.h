@@ -11,32 +11,36 @@ namespace stiffscope::planning {
 
 /// Natural logarithm of the determinant of an information matrix over the joints of the mask; minus infinity
 /// where it is singular.
-double logDeterminant(const Matrix6d& information, const robot::JointMask& unknown);
+double logDeterminant(const JointMatrix& information, const robot::JointMask& unknown);
 
 /// Standard deviations of the compliances, rad/Nm: roots of the inverse's diagonal; infinite where it is
 /// singular, not a number for a joint that is no unknown.
-Vector6d standardDeviations(const Matrix6d& information, const robot::JointMask& unknown);
+JointVector standardDeviations(const JointMatrix& information, const robot::JointMask& unknown);
 
 /// What a design is judged by; larger is better. Without `reference`: logDeterminant (D-optimal). With it,
 /// standard deviations s_j of the compliances that would be welcome: minus the logarithm of the 8-norm of
 /// sd_j / s_j, nearly their largest, so that no joint pays for another (D-optimal designs trade a joint that
 /// is hard to see for easy ones).
-double designValue(const Matrix6d& information, const robot::JointMask& unknown,
-                   const std::optional<Vector6d>& reference);
+double designValue(const JointMatrix& information, const robot::JointMask& unknown,
+                   const std::optional<JointVector>& reference);
 
 /// The same from what a designer of many has at hand: logarithm of the determinant by Cholesky, and minus the
 /// logarithm of the 8-norm of sd_j / s_j over the joints of the mask.
-double choleskyLogDeterminant(const Matrix6d& matrix);
-double balanceOf(const Vector6d& sd, const Vector6d& reference, const robot::JointMask& unknown);
+double choleskyLogDeterminant(const JointMatrix& matrix);
+double balanceOf(const JointVector& sd, const JointVector& reference, const robot::JointMask& unknown);
 
 struct DesignProblem {
-  std::vector<Matrix6d> information;  ///< of each candidate
-  Matrix6d known = Matrix6d::Zero();  ///< of what is measured already
-  robot::JointMask unknown{};
+  std::vector<JointMatrix> information;  ///< of each candidate
+  JointMatrix known;                     ///< of what is measured already
+  robot::JointMask unknown;
   /// Which candidates may not be chosen together (too near each other), by rows; and which not at all.
   std::vector<std::vector<char>> excludes;
   std::vector<char> barred;
-  std::optional<Vector6d> reference;  ///< as in designValue, rad/Nm
+  std::optional<JointVector> reference;  ///< as in designValue, rad/Nm
+
+  /// Of so many joints: nothing measured, none of them an unknown yet.
+  explicit DesignProblem(int joints)
+      : known(JointMatrix::Zero(joints, joints)), unknown(static_cast<std::size_t>(joints), false) {}
 };
 
 struct ExchangeOptions {
@@ -62,13 +66,13 @@ Design exchangeDesign(const DesignProblem& problem, int count, const ExchangeOpt
 std::vector<std::size_t> randomDesign(const DesignProblem& problem, int count, std::uint64_t seed);
 
 /// Sum of `known` and of those chosen.
-Matrix6d informationOf(const DesignProblem& problem, const std::vector<std::size_t>& chosen);
+JointMatrix informationOf(const DesignProblem& problem, const std::vector<std::size_t>& chosen);
 
 struct RefineOptions {
-  double first_step = 0.35;           ///< rad (20 deg), halved until it is below `last_step`
-  double last_step = 0.02;            ///< rad (1 deg): the optimum is flat below
-  double least_separation = 0.0;      ///< rad, as in PlanOptions
-  std::optional<Vector6d> reference;  ///< as in designValue
+  double first_step = 0.35;              ///< rad (20 deg), halved until it is below `last_step`
+  double last_step = 0.02;               ///< rad (1 deg): the optimum is flat below
+  double least_separation = 0.0;         ///< rad, as in PlanOptions
+  std::optional<JointVector> reference;  ///< as in designValue
 };
 
 /// Whether two postures are as good as one: no joint apart by `separation` (rad, whole turns aside), pulls
@@ -77,17 +81,17 @@ bool alike(const PlanningArm& arm, const Candidate& a, const Candidate& b, doubl
 
 /// Moves one joint of one posture at a time, a step forth or back, wherever that raises designValue, keeps
 /// the rules and keeps the postures apart, from each other and from `measured`: coordinate exchange, R. K.
-/// Meyer and C. J. Nachtsheim, Technometrics 37 (1995) 60. What a finite list of candidates in six joints
-/// leaves open.
-void refineDesign(const PlanningArm& arm, const PostureRules& rules, const Matrix6d& known,
+/// Meyer and C. J. Nachtsheim, Technometrics 37 (1995) 60. What a finite list of candidates in that
+/// many joints leaves open.
+void refineDesign(const PlanningArm& arm, const PostureRules& rules, const JointMatrix& known,
                   const robot::JointMask& unknown, const std::vector<Candidate>& measured, const RefineOptions& options,
                   std::vector<Candidate>& chosen);
 
 /// What random postures give, by the same rules and loads.
 struct RandomPostures {
   int postures = 0;
-  double log_determinant = 0.0;    ///< mean
-  Vector6d sd = Vector6d::Zero();  ///< median, rad/Nm
+  double log_determinant = 0.0;  ///< mean
+  JointVector sd;                ///< median, rad/Nm; not a number where there are no sets
   /// D-efficiency of the plan against them, exp((log det plan - log det random) / unknowns).
   double efficiency = 0.0;
 };

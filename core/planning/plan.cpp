@@ -28,11 +28,11 @@ const identification::MethodResult* referenceOf(const identification::Identifica
 
 identification::CaseEquations equationsOf(const PlanningArm& arm, const Candidate& candidate) {
   const identification::LoadCase& load_case = candidate.load_case;
-  const Vector6d torque = robot::jointTorque(load_case.axes, load_case.wrench);
+  const JointVector torque = robot::jointTorque(load_case.axes, load_case.wrench);
   const Eigen::Isometry3d flange =
       robot::flangeAt(arm.geometry.arm, identification::unloadedPosture(arm.geometry.arm, load_case));
   identification::CaseEquations equations;
-  equations.matrix.resize(static_cast<Eigen::Index>(3 * arm.targets_in_flange.size()), 6);
+  equations.matrix.resize(static_cast<Eigen::Index>(3 * arm.targets_in_flange.size()), torque.size());
   for (std::size_t k = 0; k < arm.targets_in_flange.size(); ++k) {
     equations.matrix.middleRows<3>(static_cast<Eigen::Index>(3 * k)) =
         identification::pointRows(load_case.axes, flange * arm.targets_in_flange[k], torque);
@@ -45,7 +45,11 @@ class Planner {
  public:
   Planner(const campaign::Campaign& campaign, const identification::Identification* identified,
           const PlanOptions& options)
-      : campaign_(campaign), identified_(identified), reference_(referenceOf(identified)), options_(options) {}
+      : campaign_(campaign),
+        identified_(identified),
+        reference_(referenceOf(identified)),
+        options_(options),
+        problem_(campaign.robot.joints()) {}
 
   Plan run() {
     checkOptions();
@@ -93,7 +97,7 @@ class Planner {
     const identification::Identifiability judged =
         identification::evaluateIdentifiability(plan_.arm.geometry, cases, plan_.arm.cell, equations);
     plan_.unknown = judged.mask();
-    for (std::size_t j = 0; j < 6; ++j) plan_.not_seen[j] = judged.joints[j].reason;
+    for (const auto& joint : judged.joints) plan_.not_seen.push_back(joint.reason);
     plan_.usable = std::any_of(plan_.unknown.begin(), plan_.unknown.end(), [](bool one) { return one; });
     if (!plan_.usable) plan_.reason = Remark(RemarkId::no_joint_seen);
   }
@@ -121,13 +125,11 @@ class Planner {
 
   void addMeasured(const identification::LoadCase& load_case, const identification::CaseEquations& rows) {
     for (std::size_t k = 0; k < load_case.targets.size(); ++k) {
-      const Matrix36d own = rows.matrix.middleRows<3>(static_cast<Eigen::Index>(3 * k));
+      const PointJacobian own = rows.matrix.middleRows<3>(static_cast<Eigen::Index>(3 * k));
       problem_.known +=
           own.transpose() * plan_.arm.displacementCovariance(load_case.targets[k].unloaded).llt().solve(own);
     }
-    Candidate measured;
-    measured.q = load_case.q;
-    measured.direction = load_case.wrench.force.normalized();
+    Candidate measured(load_case.q, load_case.wrench.force.normalized());
     for (std::size_t a = 0; a < candidates_.size(); ++a) {
       if (alike(plan_.arm, candidates_[a], measured, options_.least_separation)) problem_.barred[a] = 1;
     }
@@ -139,9 +141,9 @@ class Planner {
   }
 
   /// What is measured, with the covariance that the model's effects bring to the compliances: all postures share it.
-  void loosenBy(const Matrix6d& covariance) {
+  void loosenBy(const JointMatrix& covariance) {
     std::vector<Eigen::Index> joints;
-    for (Eigen::Index j = 0; j < 6; ++j) {
+    for (Eigen::Index j = 0; j < problem_.known.rows(); ++j) {
       if (plan_.unknown[static_cast<std::size_t>(j)] && problem_.known(j, j) > 0.0) joints.push_back(j);
     }
     const Eigen::MatrixXd known = problem_.known(joints, joints), more = covariance(joints, joints);
@@ -192,8 +194,8 @@ class Planner {
     describe(ordered);
   }
 
-  bool allFinite(const Vector6d& sd) const {
-    for (std::size_t j = 0; j < 6; ++j) {
+  bool allFinite(const JointVector& sd) const {
+    for (std::size_t j = 0; j < plan_.unknown.size(); ++j) {
       if (plan_.unknown[j] && !std::isfinite(sd[static_cast<Eigen::Index>(j)])) return false;
     }
     return true;
@@ -205,13 +207,11 @@ class Planner {
   }
 
   void describe(const std::vector<Candidate>& chosen) {
-    Matrix6d sum = problem_.known;
+    JointMatrix sum = problem_.known;
     double before = logDeterminant(sum, plan_.unknown);
     int number = 0;
     for (const Candidate& one : chosen) {
-      PlannedPosture posture;
-      posture.id = freeId(number);
-      posture.candidate = one;
+      PlannedPosture posture(freeId(number), one);
       posture.reading = expectedReading(plan_.arm, posture.candidate);
       posture.pull_in_base = plan_.arm.geometry.r0_from_base_link.linear().transpose() * posture.candidate.direction;
       const robot::ArmPosture at = identification::unloadedPosture(plan_.arm.geometry.arm, posture.candidate.load_case);

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/planning/candidates.h"
@@ -37,24 +38,26 @@ struct PlannedPosture {
   double dexterity = 0.0;                                  ///< 1 / kappa at the flange, lengths over 1 m
   std::optional<double> tracker_distance;                  ///< from the station to the flange, m
   double log_det_gain = 0.0;  ///< by which this one raises log det of the information; infinite while that is singular
-  Vector6d sd = Vector6d::Zero();  ///< of the compliances with it and all before it, rad/Nm (standardDeviations)
+  JointVector sd;             ///< of the compliances with it and all before it, rad/Nm (standardDeviations)
   std::vector<std::vector<std::string>> separates;  ///< groups of effects that it tells apart
+
+  PlannedPosture(std::string called, Candidate at) : id(std::move(called)), candidate(std::move(at)) {}
 };
 
 struct Plan {
   PlanningArm arm;
   bool usable = false;  ///< some joint's stiffness would be seen
   Remark reason;        ///< why not
-  robot::JointMask unknown{};
-  std::array<Remark, 6> not_seen;           ///< why a joint would not be
-  int measured = 0;                         ///< postures that are counted in already
-  int asked = 0;                            ///< postures asked for: `postures` may be fewer, where no more keep apart
-  Vector6d sd_measured = Vector6d::Zero();  ///< by those alone, rad/Nm; only meant where there are some
+  robot::JointMask unknown;
+  PerJoint<Remark> not_seen;  ///< why a joint would not be
+  int measured = 0;           ///< postures that are counted in already
+  int asked = 0;              ///< postures asked for: `postures` may be fewer, where no more keep apart
+  JointVector sd_measured;    ///< by those alone, rad/Nm; empty where there are none
   std::vector<PlannedPosture> postures;
   double log_determinant = 0.0;
   RandomPostures random_same, random_double;  ///< as many, and twice as many
   int candidates = 0, drawn = 0;
-  std::optional<Vector6d> compliance;  ///< of the identified campaign, to turn sd into that of k
+  std::optional<JointVector> compliance;  ///< of the identified campaign, to turn sd into that of k
 };
 
 /// Postures (and directions of pull) that identify best by the criterion, over random candidates that keep

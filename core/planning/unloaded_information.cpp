@@ -21,7 +21,7 @@ namespace {
 std::vector<EffectPart> steadyParts(const calibration::UnloadedDay& day) {
   std::vector<EffectPart> parts = calibration::jointCompliances(day);
   std::erase_if(parts, [](const EffectPart& part) { return part.detail == "joint 1"; });  // its axis is upright
-  for (int joint = 0; joint < 6; ++joint) {
+  for (int joint = 0; joint < day.arm.joints(); ++joint) {
     for (const double order : {1.0, 2.0}) parts.push_back(calibration::transmissionError(joint, order));
   }
   for (const calibration::EffectFamily& family : calibration::effectFamilies(day)) {
@@ -40,7 +40,7 @@ std::vector<EffectPart> orderedParts(const calibration::UnloadedDay& day) {
     switch (family.effect) {
       case UnloadedEffect::backlash:
         // By the side that each joint came from.
-        parts.insert(parts.end(), family.parts.begin(), family.parts.begin() + 6);
+        parts.insert(parts.end(), family.parts.begin(), family.parts.begin() + day.arm.joints());
         break;
       case UnloadedEffect::read_back_error:
       case UnloadedEffect::tracker_drift:
@@ -68,7 +68,7 @@ Eigen::MatrixXd inverse(const Eigen::MatrixXd& normal) {
 }  // namespace
 
 UnloadedInformation::UnloadedInformation(const campaign::Campaign& campaign, const PlanningArm& arm,
-                                         const std::vector<Vector6d>& workspace)
+                                         const std::vector<JointVector>& workspace)
     : arm_(arm) {
   day_.robot = arm.geometry.arm;
   // The planned arm stands where it is calibrated; the masses stay those of the URDF.
@@ -89,7 +89,7 @@ UnloadedInformation::UnloadedInformation(const campaign::Campaign& campaign, con
   fit_.start = frames::axesAtStart(day_.robot.axes_in_base_at_zero);
   fit_.centre = flange.translation();
   fit_.parts = steadyParts(empty);
-  geometry_ = ArmParameters::count(arm.targets_in_flange.size());
+  geometry_ = ArmParameters(day_.robot.joints()).count(arm.targets_in_flange.size());
   steady_ = geometry_ + termsOf(fit_.parts);
   for (EffectPart& part : orderedParts(empty)) fit_.parts.push_back(std::move(part));
   all_ = geometry_ + termsOf(fit_.parts);
@@ -100,15 +100,15 @@ UnloadedInformation::UnloadedInformation(const campaign::Campaign& campaign, con
   setPrior(workspace);
 }
 
-calibration::UnloadedDay UnloadedInformation::dayOf(const std::vector<Vector6d>& sequence) const {
+calibration::UnloadedDay UnloadedInformation::dayOf(const std::vector<JointVector>& sequence) const {
   campaign::Campaign day = day_;
   for (std::size_t i = 0; i < sequence.size(); ++i) {
     day.pose_ids.push_back(std::to_string(i));
-    campaign::State state;
+    campaign::State state(day_.robot.joints());
     state.pose = static_cast<int>(i);
     state.q = sequence[i];
     day.states->rows.push_back(state);
-    const Eigen::Isometry3d motion = robot::postureAt(day.robot, sequence[i]).motion[6];
+    const Eigen::Isometry3d motion = robot::postureAt(day.robot, sequence[i]).motion.back();
     for (std::size_t t = 0; t < fit_.place.targets_at_zero.size(); ++t) {
       campaign::LoadingReading reading;
       reading.pose = static_cast<int>(i);
@@ -124,7 +124,7 @@ calibration::UnloadedDay UnloadedInformation::dayOf(const std::vector<Vector6d>&
   return unloaded;
 }
 
-std::vector<Eigen::MatrixXd> UnloadedInformation::allRows(const std::vector<Vector6d>& sequence) const {
+std::vector<Eigen::MatrixXd> UnloadedInformation::allRows(const std::vector<JointVector>& sequence) const {
   const calibration::UnloadedDay day = dayOf(sequence);
   calibration::ArmFit fit = fit_;
   fit.weights.assign(day.readings(), 1.0);
@@ -135,13 +135,13 @@ std::vector<Eigen::MatrixXd> UnloadedInformation::allRows(const std::vector<Vect
   return rows;
 }
 
-std::vector<Eigen::MatrixXd> UnloadedInformation::rowsOf(const std::vector<Vector6d>& postures) const {
+std::vector<Eigen::MatrixXd> UnloadedInformation::rowsOf(const std::vector<JointVector>& postures) const {
   std::vector<Eigen::MatrixXd> rows = allRows(postures);
   for (Eigen::MatrixXd& one : rows) one = Eigen::MatrixXd(one.leftCols(steady_));
   return rows;
 }
 
-void UnloadedInformation::setPrior(const std::vector<Vector6d>& workspace) {
+void UnloadedInformation::setPrior(const std::vector<JointVector>& workspace) {
   const calibration::UnloadedDay day = dayOf(workspace);
   calibration::UnloadedDay plain = day;
   for (calibration::Posture& posture : plain.postures) {
@@ -160,8 +160,8 @@ void UnloadedInformation::setPrior(const std::vector<Vector6d>& workspace) {
   workspace_ = sum.topLeftCorner(steady_, steady_);
   prior_ = Eigen::VectorXd::Ones(all_);
   usual_ = Eigen::VectorXd::Ones(all_);
-  for (Eigen::Index k = 0; k < ArmParameters::kAxes; ++k) {
-    const double sd = k % 4 < 2 ? calibration::kAxisShiftPrior : calibration::kAxisTiltPrior;
+  for (Eigen::Index k = 0; k < ArmParameters(day_.robot.joints()).axes(); ++k) {
+    const double sd = k % ArmParameters::kOfAxis < 2 ? calibration::kAxisShiftPrior : calibration::kAxisTiltPrior;
     prior_[k] = 1.0 / (sd * sd);
   }
   for (Eigen::Index k = geometry_; k < all_; ++k) {
@@ -170,7 +170,7 @@ void UnloadedInformation::setPrior(const std::vector<Vector6d>& workspace) {
   }
 }
 
-double UnloadedInformation::orderValue(const std::vector<Vector6d>& sequence,
+double UnloadedInformation::orderValue(const std::vector<JointVector>& sequence,
                                        const Eigen::MatrixXd& steady_inverse) const {
   const Eigen::Index ordered = all_ - steady_;
   Eigen::MatrixXd own = Eigen::MatrixXd::Zero(ordered, ordered), across = Eigen::MatrixXd::Zero(steady_, ordered);
@@ -186,7 +186,7 @@ double UnloadedInformation::orderValue(const std::vector<Vector6d>& sequence,
   return 2.0 * choleskyLower(own).diagonal().array().log().sum();
 }
 
-UnloadedSight UnloadedInformation::sightOf(const std::vector<Vector6d>& sequence, bool details) const {
+UnloadedSight UnloadedInformation::sightOf(const std::vector<JointVector>& sequence, bool details) const {
   UnloadedSight sight;
   const std::vector<Eigen::MatrixXd> rows = allRows(sequence);
   const Eigen::MatrixXd prior = prior_.asDiagonal();

@@ -20,9 +20,9 @@ namespace {
 /// Straight from the base over the joints to the flange, m.
 double reachOf(const robot::Robot& arm) {
   double reach = 0.0;
-  for (std::size_t j = 1; j < 6; ++j)
+  for (std::size_t j = 1; j < arm.axes_in_base_at_zero.size(); ++j)
     reach += (arm.axes_in_base_at_zero[j].point - arm.axes_in_base_at_zero[j - 1].point).norm();
-  return reach + (arm.base_from_flange_at_zero.translation() - arm.axes_in_base_at_zero[5].point).norm();
+  return reach + (arm.base_from_flange_at_zero.translation() - arm.axes_in_base_at_zero.back().point).norm();
 }
 
 PostureRules scaledRules(PostureRules rules, const robot::Robot& arm) {
@@ -54,7 +54,7 @@ class UnloadedPlanner {
     plan_.candidates = static_cast<int>(draw.kept.size()), plan_.drawn = draw.drawn;
     for (const Candidate& one : draw.kept) candidates_.push_back(one.q);
     constexpr int kWorkspace = 150;
-    std::vector<Vector6d> workspace;
+    std::vector<JointVector> workspace;
     for (const Candidate& one : drawCandidates(plan_.arm, rules, kWorkspace, options_.seed + 1).kept)
       workspace.push_back(one.q);
     plan_.arm.assumed.emplace_back(RemarkId::usual_effects, kUsualEffect);
@@ -158,8 +158,8 @@ class UnloadedPlanner {
     steady_inverse_ = inverse(normal);
   }
 
-  std::vector<Vector6d> sequence(const std::vector<std::size_t>& order) const {
-    std::vector<Vector6d> all;
+  std::vector<JointVector> sequence(const std::vector<std::size_t>& order) const {
+    std::vector<JointVector> all;
     for (const std::size_t one : order) all.push_back(candidates_[one]);
     return all;
   }
@@ -231,7 +231,7 @@ class UnloadedPlanner {
   const campaign::Campaign& campaign_;
   const UnloadedPlanOptions& options_;
   numerics::RandomStream random_;
-  std::vector<Vector6d> candidates_;
+  std::vector<JointVector> candidates_;
   std::optional<UnloadedInformation> information_;
   std::vector<Eigen::MatrixXd> rows_;
   std::vector<std::size_t> chosen_;

@@ -35,24 +35,24 @@ class UnloadedInformation {
  public:
   /// `workspace`: postures whose prediction counts. The columns of effects that depend on the posture alone come first.
   UnloadedInformation(const campaign::Campaign& campaign, const PlanningArm& arm,
-                      const std::vector<Vector6d>& workspace);
+                      const std::vector<JointVector>& workspace);
 
   /// Whitened equations of a posture by what does not depend on the order: three rows a reflector.
-  std::vector<Eigen::MatrixXd> rowsOf(const std::vector<Vector6d>& postures) const;
+  std::vector<Eigen::MatrixXd> rowsOf(const std::vector<JointVector>& postures) const;
   Eigen::MatrixXd prior() const { return prior_.head(steady_).asDiagonal(); }
   /// Mean of J^T J over workspace and reflectors: trace(C W) is the variance of a position.
   const Eigen::MatrixXd& workspace() const { return workspace_; }
 
   /// What a sequence sees; `measured`: a day before it.
-  UnloadedSight sightOf(const std::vector<Vector6d>& sequence, bool details) const;
+  UnloadedSight sightOf(const std::vector<JointVector>& sequence, bool details) const;
   /// Logarithm of the determinant of the information on effects that depend on the order (backlash, read-back, drift,
   /// growth, scale), usual sizes 1; `steady_inverse`: covariance of everything else by these postures.
-  double orderValue(const std::vector<Vector6d>& sequence, const Eigen::MatrixXd& steady_inverse) const;
+  double orderValue(const std::vector<JointVector>& sequence, const Eigen::MatrixXd& steady_inverse) const;
 
  private:
-  calibration::UnloadedDay dayOf(const std::vector<Vector6d>& sequence) const;
-  std::vector<Eigen::MatrixXd> allRows(const std::vector<Vector6d>& sequence) const;
-  void setPrior(const std::vector<Vector6d>& workspace);
+  calibration::UnloadedDay dayOf(const std::vector<JointVector>& sequence) const;
+  std::vector<Eigen::MatrixXd> allRows(const std::vector<JointVector>& sequence) const;
+  void setPrior(const std::vector<JointVector>& workspace);
 
   campaign::Campaign day_;  ///< of the planned arm, without postures
   PlanningArm arm_;
@@ -75,7 +75,7 @@ struct UnloadedPlanOptions {
 /// One posture to measure, in the order of the day.
 struct UnloadedPosture {
   std::string id;
-  Vector6d q = Vector6d::Zero();           ///< rad
+  JointVector q;                           ///< rad
   std::optional<double> tracker_distance;  ///< from the station to the flange, m
   double predicted = 0.0;                  ///< rms uncertainty of a position with it and all before it, m
   double gain = 0.0;                       ///< by how much the predicted variance grows without it, a share

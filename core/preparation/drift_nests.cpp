@@ -71,7 +71,8 @@ double misfitOf(const campaign::Campaign& campaign, const metrology::TrackerNois
   applyDriftCorrection(station, corrected);
   const frames::Frames frames = frames::measureFrames(corrected);
   constexpr double kAnyCompliance = 1e-6;  // rad/Nm; what it really is, is fitted
-  const frames::LoadingGeometry geometry = frames::sweptGeometry(corrected, frames, Vector6d::Constant(kAnyCompliance));
+  const frames::LoadingGeometry geometry =
+      frames::sweptGeometry(corrected, frames, JointVector::Constant(campaign.robot.joints(), kAnyCompliance));
   const frames::AbsoluteRows rows =
       frames::absoluteRows(corrected, frames, geometry, campaign::statePoints(corrected), noise);
   if (!rows.reason.empty()) return INFINITY;

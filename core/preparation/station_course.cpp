@@ -30,10 +30,10 @@ Course fitCourse(const StationMotion& station, std::vector<double> share) {
     normal += course.share[e] * course.share[e] * weight;
     right += course.share[e] * weight * station.epochs[e].motion;
   }
-  course.motion = solveSymmetric6(normal, right);
+  course.motion = solveSymmetric(normal, right);
   for (std::size_t e = 1; e < station.epochs.size(); ++e) {
     const Vector6d left = station.epochs[e].motion - course.share[e] * course.motion;
-    course.chi2 += left.dot(solveSymmetric6(station.epochs[e].covariance, left));
+    course.chi2 += mahalanobisSquared(left, station.epochs[e].covariance);
   }
   return course;
 }
@@ -59,7 +59,7 @@ void findRate(DriftModel& station) {
     station.rate_weight += since * since * weight;
     right += since * weight * epochs[e].motion;
   }
-  station.rate = solveSymmetric6(station.rate_weight, right);
+  station.rate = solveSymmetric(station.rate_weight, right);
   if (!station.rate.allFinite()) station.rate.setZero(), station.rate_weight.setZero();
 }
 

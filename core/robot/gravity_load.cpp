@@ -7,7 +7,7 @@
 namespace stiffscope::robot {
 
 bool GravityLoad::any() const {
-  return gravity_in_base.squaredNorm() > 0.0 &&
+  return gravity_in_base.squaredNorm() > 0.0 && !bodies.empty() &&
          std::any_of(bodies.begin() + 1, bodies.end(), [](const BodyMass& body) { return body.mass_kg > 0.0; });
 }
 

@@ -25,6 +25,9 @@ using Jacobian = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::ColMajor, 6, kM
 /// Displacement of a point by joint.
 using PointJacobian = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, kMostJoints>;
 
+/// Rows by joint, such as displacements of several points, stacked.
+using JointRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, Eigen::Dynamic, kMostJoints>;
+
 /// One thing a joint, [0] for the one at the base, kept in place.
 template <class T>
 using PerJoint = boost::container::static_vector<T, kMostJoints>;

@@ -148,7 +148,7 @@ void addCurveTorques(const ElasticMachine& machine, const Eigen::VectorXd& x, An
 
 }  // namespace
 
-Placement place(const ElasticMachine& machine, const Vector6d& q, const Eigen::VectorXd& x) {
+Placement place(const ElasticMachine& machine, const JointVector& q, const Eigen::VectorXd& x) {
   Placement placement;
   placement.before_giving.reserve(machine.elements.size());
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
@@ -167,20 +167,22 @@ Placement place(const ElasticMachine& machine, const Vector6d& q, const Eigen::V
   };
 
   give(-1, false);
-  placement.body_motions[0] = motion;
-  for (int i = 0; i < 6; ++i) {
+  placement.body_motions.push_back(motion);
+  const int joints = machine.joints();
+  for (int i = 0; i < joints; ++i) {
+    const auto k = static_cast<std::size_t>(i);
     motion =
-        motion * machine.axis_errors[i] * turnAbout(machine.nominal.axes_in_base_at_zero[i], machine.zeros[i] + q[i]);
+        motion * machine.axis_errors[k] * turnAbout(machine.nominal.axes_in_base_at_zero[k], machine.zeros[k] + q[i]);
     give(i, false);
-    placement.body_motions[i + 1] = motion;
+    placement.body_motions.push_back(motion);
     give(i, true);
   }
-  give(6, false);
+  give(joints, false);
   placement.tool_motion = motion;
   return placement;
 }
 
-double potentialEnergy(const ElasticMachine& machine, const Vector6d& q, const AppliedLoad& load,
+double potentialEnergy(const ElasticMachine& machine, const JointVector& q, const AppliedLoad& load,
                        const Eigen::VectorXd& x, Anchors anchors) {
   const Placement placement = place(machine, q, x);
   double energy = 0.0;
@@ -196,7 +198,7 @@ double potentialEnergy(const ElasticMachine& machine, const Vector6d& q, const A
   for (const LinkSpring& spring : machine.truth.link_springs) {
     energy += springNow(spring, placement.body_motions).energy;
   }
-  for (int b = 1; b < 7; ++b) {
+  for (std::size_t b = 1; b < machine.bodies.size(); ++b) {
     const robot::BodyMass& body = machine.bodies[b];
     energy -= body.mass_kg * machine.gravity_in_base.dot(placement.body_motions[b] * body.com_in_base_at_zero);
   }
@@ -205,20 +207,20 @@ double potentialEnergy(const ElasticMachine& machine, const Vector6d& q, const A
   return energy + loadPotential(load, toolPoint(machine, placement, loadPointInFlange(load)));
 }
 
-Eigen::VectorXd smoothGradient(const ElasticMachine& machine, const Vector6d& q, const AppliedLoad& load,
+Eigen::VectorXd smoothGradient(const ElasticMachine& machine, const JointVector& q, const AppliedLoad& load,
                                const Eigen::VectorXd& x) {
   const Placement placement = place(machine, q, x);
   return chainGradient(machine, placement, forcesBeyond(machine, placement, load), x);
 }
 
-Eigen::VectorXd energyGradient(const ElasticMachine& machine, const Vector6d& q, const AppliedLoad& load,
+Eigen::VectorXd energyGradient(const ElasticMachine& machine, const JointVector& q, const AppliedLoad& load,
                                const Eigen::VectorXd& x, Anchors anchors) {
   Eigen::VectorXd gradient = smoothGradient(machine, q, load, x);
   addCurveTorques(machine, x, anchors, gradient);
   return gradient;
 }
 
-EnergySlopes energySlopes(const ElasticMachine& machine, const Vector6d& q, const AppliedLoad& load,
+EnergySlopes energySlopes(const ElasticMachine& machine, const JointVector& q, const AppliedLoad& load,
                           const Eigen::VectorXd& x, Anchors anchors) {
   const Placement placement = place(machine, q, x);
   const std::vector<ForceSum> forces = forcesBeyond(machine, placement, load);
@@ -238,7 +240,7 @@ constexpr int kMostIterations = 100;
 constexpr double kConverged = 1e-12;  ///< m and rad
 constexpr double kDifference = 1e-5;  ///< m and rad: truncation and rounding both near 1e-10 of the Hessian
 
-Eigen::MatrixXd energyHessian(const ElasticMachine& machine, const Vector6d& q, const AppliedLoad& load,
+Eigen::MatrixXd energyHessian(const ElasticMachine& machine, const JointVector& q, const AppliedLoad& load,
                               const Eigen::VectorXd& x, Anchors anchors) {
   Eigen::MatrixXd hessian(x.size(), x.size());
   for (Eigen::Index k = 0; k < x.size(); ++k) {
@@ -272,7 +274,7 @@ Descent descentStep(const Eigen::MatrixXd& hessian, const Eigen::VectorXd& gradi
 }
 
 /// Fraction of the step at which the energy is no higher than `energy` (to its rounding).
-double acceptedFraction(const ElasticMachine& machine, const Vector6d& q, const AppliedLoad& load,
+double acceptedFraction(const ElasticMachine& machine, const JointVector& q, const AppliedLoad& load,
                         const Eigen::VectorXd& x, const Eigen::VectorXd& step, double energy, Anchors anchors) {
   constexpr double kRounding = 1e-13;
   double fraction = 1.0;
@@ -342,21 +344,19 @@ void settleCarefully(const ElasticMachine& machine, const AppliedLoad& load, Anc
 
 }  // namespace
 
-MachineState stateAt(const ElasticMachine& machine, const Vector6d& q, const AppliedLoad& load,
+MachineState stateAt(const ElasticMachine& machine, const JointVector& q, const AppliedLoad& load,
                      const Eigen::VectorXd& x) {
-  MachineState state;
-  state.q = q;
+  MachineState state(q);
   state.deformation = x;
   simulation::fillPlaces(machine, load, state);
   state.energy = potentialEnergy(machine, q, load, x);
   return state;
 }
 
-MachineState equilibrium(const ElasticMachine& machine, const Vector6d& q, const AppliedLoad& load,
+MachineState equilibrium(const ElasticMachine& machine, const JointVector& q, const AppliedLoad& load,
                          const Eigen::VectorXd* anchors) {
   using namespace simulation;
-  MachineState state;
-  state.q = q;
+  MachineState state(q);
   Eigen::VectorXd x = Eigen::VectorXd::Zero(machine.coordinateCount());
   state.converged = x.size() == 0 || settleQuickly(machine, load, anchors, state, x);
   if (!state.converged) {
@@ -389,7 +389,7 @@ Eigen::VectorXd slippedAnchors(const ElasticMachine& machine, const MachineState
 }
 
 Eigen::Isometry3d baseFromLink(const ElasticMachine& machine, const MachineState& state, const robot::LinkFrame& link) {
-  if (link.body == 6) {  // beyond the last link element, as the flange is
+  if (link.body == machine.joints()) {  // beyond the last link element, as the flange is
     return state.base_from_flange * machine.nominal.base_from_flange_at_zero.inverse() * link.base_from_link_at_zero;
   }
   return state.body_motions[link.body] * link.base_from_link_at_zero;
@@ -428,7 +428,7 @@ std::vector<ForceSum> forcesBeyond(const ElasticMachine& machine, const Placemen
   std::vector<ForceSum> sums(machine.elements.size());
   ForceSum beyond;
   addToolForces(machine, placement, load, beyond);
-  int body = 6;  // outermost body whose forces are not in `beyond` yet
+  int body = machine.joints();  // outermost body whose forces are not in `beyond` yet
   for (std::size_t e = machine.elements.size(); e-- > 0;) {
     const ElasticElement& element = machine.elements[e];
     // A joint's element carries its own body, a link's element only those beyond it, the base's all: of

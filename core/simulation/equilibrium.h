@@ -53,12 +53,12 @@ double loadPotential(const AppliedLoad& load, const Eigen::Vector3d& point_in_ba
 /// Where everything stands when the motors are at q (reported angles, rad) and the elastic coordinates are x
 /// (one a free direction of every element, chain order; m and rad).
 struct Placement {
-  std::array<Eigen::Isometry3d, 7> body_motions;  ///< nominal place at zero -> place now, base_link; [0] the base
-  Eigen::Isometry3d tool_motion;                  ///< the same beyond the last link element: flange and tool
-  std::vector<Eigen::Isometry3d> before_giving;   ///< base_from_element of each element, before it deflects
+  PerBody<Eigen::Isometry3d> body_motions;       ///< nominal place at zero -> place now, base_link; [0] the base
+  Eigen::Isometry3d tool_motion;                 ///< the same beyond the last link element: flange and tool
+  std::vector<Eigen::Isometry3d> before_giving;  ///< base_from_element of each element, before it deflects
 };
 
-Placement place(const ElasticMachine& machine, const Vector6d& q, const Eigen::VectorXd& x);
+Placement place(const ElasticMachine& machine, const JointVector& q, const Eigen::VectorXd& x);
 
 /// Where each slider of the machine's curves is anchored (rad or m), in their order; null: sliders carry
 /// nothing.
@@ -67,18 +67,18 @@ using Anchors = const Eigen::VectorXd*;
 /// Pi(x) = 1/2 sum d' K d + curves + shared springs + link springs - sum m g . c(x) + V_load(x), J, over
 /// elements, masses (tool included) and load: the total potential energy of the machine with its motors held.
 /// Its stationary points are the equilibria.
-double potentialEnergy(const ElasticMachine& machine, const Vector6d& q, const AppliedLoad& load,
+double potentialEnergy(const ElasticMachine& machine, const JointVector& q, const AppliedLoad& load,
                        const Eigen::VectorXd& x, Anchors anchors = nullptr);
 
 /// dPi/dx, exact (no differences): with F and M the sum of forces and of moments about the element's
 /// displaced origin of everything beyond, and R the element's axes before deflecting,
 ///   dPi/du = K_u d - R' F,   dPi/dr = K_r d - J_l(r)' R' M      (leftJacobian of rotation.h),
 /// and curves and shared springs straight in their coordinates.
-Eigen::VectorXd energyGradient(const ElasticMachine& machine, const Vector6d& q, const AppliedLoad& load,
+Eigen::VectorXd energyGradient(const ElasticMachine& machine, const JointVector& q, const AppliedLoad& load,
                                const Eigen::VectorXd& x, Anchors anchors = nullptr);
 
 /// The gradient without that of the curves, whose corners would spoil its differences.
-Eigen::VectorXd smoothGradient(const ElasticMachine& machine, const Vector6d& q, const AppliedLoad& load,
+Eigen::VectorXd smoothGradient(const ElasticMachine& machine, const JointVector& q, const AppliedLoad& load,
                                const Eigen::VectorXd& x);
 
 /// Gradient and Hessian at once. The Hessian is K + curves + shared springs and, for two turns a_i inside
@@ -90,7 +90,7 @@ struct EnergySlopes {
   Eigen::VectorXd gradient;
   Eigen::MatrixXd hessian;
 };
-EnergySlopes energySlopes(const ElasticMachine& machine, const Vector6d& q, const AppliedLoad& load,
+EnergySlopes energySlopes(const ElasticMachine& machine, const JointVector& q, const AppliedLoad& load,
                           const Eigen::VectorXd& x, Anchors anchors);
 
 /// Adds the curves' rates at x to the diagonal.
@@ -98,12 +98,12 @@ void addCurveRates(const ElasticMachine& machine, const Eigen::VectorXd& x, Anch
 
 /// The machine at rest: no noise anywhere. All places in base_link (the ground's), m.
 struct MachineState {
-  Vector6d q = Vector6d::Zero();           ///< reported joint angles the motors hold, rad
-  Vector6d held = Vector6d::Zero();        ///< what the controller holds: q, but for joints with a gear (gears.h)
-  Vector6d motor_side = Vector6d::Zero();  ///< motors' angles over the gear ratio; q but for joints with a gear
-  Vector6d ahead = Vector6d::Zero();       ///< of links with play, beyond q (gears.h)
-  Eigen::VectorXd deformation;             ///< elastic coordinates, chain order, m and rad
-  std::array<Eigen::Isometry3d, 7> body_motions;  ///< nominal place at all joints zero -> place now; [0] base
+  JointVector q;                            ///< reported joint angles the motors hold, rad
+  JointVector held;                         ///< what the controller holds: q, but for joints with a gear (gears.h)
+  JointVector motor_side;                   ///< motors' angles over the gear ratio; q but for joints with a gear
+  JointVector ahead;                        ///< of links with play, beyond q (gears.h)
+  Eigen::VectorXd deformation;              ///< elastic coordinates, chain order, m and rad
+  PerBody<Eigen::Isometry3d> body_motions;  ///< nominal place at all joints zero -> place now; [0] base
   Eigen::Isometry3d base_from_flange = Eigen::Isometry3d::Identity();
   std::vector<Eigen::Vector3d> targets_in_base;
   Eigen::Vector3d load_point_in_base = Eigen::Vector3d::Zero();
@@ -113,6 +113,9 @@ struct MachineState {
   double last_step = 0.0;  ///< largest change of a coordinate in the last Newton step, m or rad
   int iterations = 0;
   bool converged = false;  ///< last_step below 1e-12, at a minimum of the energy; if not, the state is the last tried
+
+  /// Held and motors at q, no play.
+  explicit MachineState(const JointVector& at) : q(at), held(at), motor_side(at), ahead(JointVector::Zero(at.size())) {}
 };
 
 /// The stable equilibrium under own weight, tool and load with the motors held at q: the minimum of the
@@ -123,11 +126,11 @@ struct MachineState {
 /// halved. A load beyond buckling has no such minimum nearby: either one far away is found (see
 /// `deformation`), or `converged` is false.
 /// `anchors`: of the sliders, where joints have friction; null: friction carries nothing.
-MachineState equilibrium(const ElasticMachine& machine, const Vector6d& q, const AppliedLoad& load = {},
+MachineState equilibrium(const ElasticMachine& machine, const JointVector& q, const AppliedLoad& load = {},
                          const Eigen::VectorXd* anchors = nullptr);
 
 /// The machine with its elastic coordinates at x, whether that is an equilibrium or not.
-MachineState stateAt(const ElasticMachine& machine, const Vector6d& q, const AppliedLoad& load,
+MachineState stateAt(const ElasticMachine& machine, const JointVector& q, const AppliedLoad& load,
                      const Eigen::VectorXd& x);
 
 /// Friction through a posture's loads. At arrival every slider is anchored where the machine rests; after

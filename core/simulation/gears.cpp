@@ -5,12 +5,13 @@
 
 namespace stiffscope::simulation {
 
-Vector6d driveTorques(const ElasticMachine& machine, const MachineState& state, const AppliedLoad& load,
-                      Anchors anchors) {
+JointVector driveTorques(const ElasticMachine& machine, const MachineState& state, const AppliedLoad& load,
+                         Anchors anchors) {
   constexpr double kStep = 1e-4;  // rad
-  Vector6d torques;
-  for (int i = 0; i < 6; ++i) {
-    const Vector6d step = kStep * Vector6d::Unit(i);
+  const Eigen::Index joints = machine.joints();
+  JointVector torques(joints);
+  for (Eigen::Index i = 0; i < joints; ++i) {
+    const JointVector step = kStep * JointVector::Unit(joints, i);
     const double ahead = potentialEnergy(machine, state.q + step, load, state.deformation, anchors);
     const double behind = potentialEnergy(machine, state.q - step, load, state.deformation, anchors);
     torques[i] = (behind - ahead) / (2.0 * kStep);
@@ -30,9 +31,9 @@ bool hasGears(const ElasticMachine& machine) {
                      [](const JointStiffness& joint) { return joint.gear.has_value(); });
 }
 
-Vector6d windUps(const ElasticMachine& machine, const Vector6d& torques) {
-  Vector6d ahead = Vector6d::Zero();
-  for (int i = 0; i < 6; ++i) {
+JointVector windUps(const ElasticMachine& machine, const JointVector& torques) {
+  JointVector ahead = JointVector::Zero(machine.joints());
+  for (int i = 0; i < machine.joints(); ++i) {
     const JointStiffness& joint = machine.truth.joints[static_cast<std::size_t>(i)];
     if (joint.gear) ahead[i] = windUp(*joint.gear, torques[i]);
   }
@@ -41,12 +42,12 @@ Vector6d windUps(const ElasticMachine& machine, const Vector6d& torques) {
 
 }  // namespace
 
-MachineState equilibriumOnGears(const ElasticMachine& machine, const Vector6d& held, bool link_side_held,
+MachineState equilibriumOnGears(const ElasticMachine& machine, const JointVector& held, bool link_side_held,
                                 const AppliedLoad& load, Anchors anchors) {
   MachineState state = equilibrium(machine, held, load, anchors);
   state.held = state.motor_side = held;
   if (!hasGears(machine) || !state.converged) return state;
-  Vector6d ahead = windUps(machine, driveTorques(machine, state, load, anchors));
+  JointVector ahead = windUps(machine, driveTorques(machine, state, load, anchors));
   if (link_side_held) {
     state.motor_side = held - ahead;
     return state;
@@ -57,7 +58,7 @@ MachineState equilibriumOnGears(const ElasticMachine& machine, const Vector6d& h
     state = equilibrium(machine, held + ahead, load, anchors);
     state.held = state.motor_side = held;
     if (!state.converged) return state;
-    const Vector6d next = windUps(machine, driveTorques(machine, state, load, anchors));
+    const JointVector next = windUps(machine, driveTorques(machine, state, load, anchors));
     const double change = (next - ahead).cwiseAbs().maxCoeff();
     ahead = next;
     if (change < kSettled) return state;

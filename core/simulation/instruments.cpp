@@ -34,12 +34,13 @@ void addLoadCellErrors(const LoadCellSpec& cell, std::uint64_t noise_seed, campa
   }
 }
 
-void addEncoderErrors(const std::array<JointStiffness, 6>& joints, std::uint64_t noise_seed, campaign::States& states) {
+void addEncoderErrors(const PerJoint<JointStiffness>& joints, std::uint64_t noise_seed, campaign::States& states) {
   numerics::RandomStream random(noise_seed, "encoders");
   for (campaign::State& state : states.rows) {
-    for (int i = 0; i < 6; ++i) {
-      const std::optional<JointGear>& gear = joints[static_cast<std::size_t>(i)].gear;
-      if (gear) state.motor_side[i] += gear->encoder_offset + gear->encoder_sigma * random.normal();
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+      const std::optional<JointGear>& gear = joints[i].gear;
+      if (gear)
+        state.motor_side[static_cast<Eigen::Index>(i)] += gear->encoder_offset + gear->encoder_sigma * random.normal();
     }
   }
 }

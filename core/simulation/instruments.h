@@ -27,7 +27,7 @@ Vector6d loadWrenchInCell(const ElasticMachine& machine, const MachineState& sta
 void addLoadCellErrors(const LoadCellSpec& cell, std::uint64_t noise_seed, campaign::States& states);
 
 /// Adds offset and noise of the second encoders (JointGear) to the motor-side angles: stream "encoders".
-void addEncoderErrors(const std::array<JointStiffness, 6>& joints, std::uint64_t noise_seed, campaign::States& states);
+void addEncoderErrors(const PerJoint<JointStiffness>& joints, std::uint64_t noise_seed, campaign::States& states);
 
 /// Where the tracker stands through the day, and what it makes of a true point.
 class Station {

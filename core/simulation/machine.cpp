@@ -33,20 +33,20 @@ namespace {
 
 constexpr double kMeets = 1e-6;  ///< m: nominal axes closer than this meet
 
-/// The point where axes 4, 5 and 6 meet at zero, if they do.
+/// The point where the axes of the wrist meet at zero, if they do.
 std::optional<Eigen::Vector3d> wristCentre(const robot::Robot& robot) {
   // The point with the least sum of squared distances from the three lines.
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  for (int i = 3; i < 6; ++i) {
-    const metrology::Line& axis = robot.axes_in_base_at_zero[i];
+  for (int i = robot::armJointsOf(robot.joints()); i < robot.joints(); ++i) {
+    const metrology::Line& axis = robot.axes_in_base_at_zero[static_cast<std::size_t>(i)];
     const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - axis.direction * axis.direction.transpose();
     normal += across;
     right += across * axis.point;
   }
   const Eigen::Vector3d centre = normal.ldlt().solve(right);
-  for (int i = 3; i < 6; ++i) {
-    const metrology::Line& axis = robot.axes_in_base_at_zero[i];
+  for (int i = robot::armJointsOf(robot.joints()); i < robot.joints(); ++i) {
+    const metrology::Line& axis = robot.axes_in_base_at_zero[static_cast<std::size_t>(i)];
     if ((centre - axis.point).cross(axis.direction).norm() > kMeets) return std::nullopt;
   }
   return centre;
@@ -54,15 +54,17 @@ std::optional<Eigen::Vector3d> wristCentre(const robot::Robot& robot) {
 
 }  // namespace
 
-std::array<AxisError, 6> drawAxisErrors(const SimulationSpec& spec) {
+PerJoint<AxisError> drawAxisErrors(const SimulationSpec& spec) {
   const GeometryErrors& geometry = spec.machine.geometry;
   numerics::RandomStream random(spec.seed, "geometry");
-  std::array<AxisError, 6> errors;
-  for (int i = 0; i < 6; ++i) {
+  const auto joints = static_cast<std::size_t>(spec.nominal.joints());
+  const auto wrist = static_cast<std::size_t>(robot::armJointsOf(spec.nominal.joints()));
+  PerJoint<AxisError> errors(joints);
+  for (std::size_t i = 0; i < joints; ++i) {
     const metrology::Line& axis = spec.nominal.axes_in_base_at_zero[i];
     const Eigen::Matrix3d frame = frameAlong(axis.point, axis.direction).linear();
     const double position_sigma =
-        i >= 4 ? geometry.wrist_position_sigma.value_or(geometry.position_sigma) : geometry.position_sigma;
+        i > wrist ? geometry.wrist_position_sigma.value_or(geometry.position_sigma) : geometry.position_sigma;
     const auto across = [&](double sigma) -> Eigen::Vector3d {
       const double x = random.normal(), y = random.normal();
       return sigma * (frame.col(0) * x + frame.col(1) * y);
@@ -77,8 +79,9 @@ std::array<AxisError, 6> drawAxisErrors(const SimulationSpec& spec) {
 }
 
 Eigen::Isometry3d frameError(const robot::Robot& nominal, int joint, const AxisError& error) {
-  const std::optional<Eigen::Vector3d> wrist = joint >= 3 ? wristCentre(nominal) : std::nullopt;
-  const Eigen::Vector3d pivot = wrist.value_or(nominal.axes_in_base_at_zero[joint].point);
+  const bool of_wrist = joint >= robot::armJointsOf(nominal.joints());
+  const std::optional<Eigen::Vector3d> wrist = of_wrist ? wristCentre(nominal) : std::nullopt;
+  const Eigen::Vector3d pivot = wrist.value_or(nominal.axes_in_base_at_zero[static_cast<std::size_t>(joint)].point);
   return Eigen::Translation3d(error.offset) * turnAbout(pivot, error.tilt);
 }
 
@@ -126,7 +129,7 @@ ElasticElement jointElement(const robot::Robot& robot, int joint, const JointSti
 ElasticElement plateElement(const robot::Robot& robot, const ToolPlate& plate) {
   ElasticElement element;
   element.name = "tool plate";
-  element.joint = 6;
+  element.joint = robot.joints();
   element.base_from_element_at_zero = robot.base_from_flange_at_zero;
   element.free = {0, 1, 2, 3, 4, 5};
   element.stiffness.diagonal() << plate.translation, plate.rotation;
@@ -134,20 +137,21 @@ ElasticElement plateElement(const robot::Robot& robot, const ToolPlate& plate) {
 }
 
 /// Torsion coordinates, and the curves of joints and base.
-void addCurves(const MachineSpec& spec, ElasticMachine& machine) {
+void addCurves(ElasticMachine& machine) {
+  machine.torsion_coordinates.assign(machine.truth.joints.size(), -1);
   Eigen::Index at = 0;
   for (const ElasticElement& element : machine.elements) {
     const auto torsion = std::find(element.free.begin(), element.free.end(), 5);
-    if (element.joint >= 0 && element.joint < 6 && !element.is_link && torsion != element.free.end()) {
+    if (element.joint >= 0 && element.joint < machine.joints() && !element.is_link && torsion != element.free.end()) {
       const std::size_t joint = static_cast<std::size_t>(element.joint);
       machine.torsion_coordinates[joint] = at + (torsion - element.free.begin());
-      TorqueCurve curve = jointCurve(spec.joints[joint]);
+      TorqueCurve curve = jointCurve(machine.truth.joints[joint]);
       if (curve.acts()) {
         machine.curves.push_back({machine.torsion_coordinates[joint], element.joint, std::move(curve)});
       }
     }
     if (element.joint == -1) {
-      for (const OneSidedContact& contact : spec.base_contacts) {
+      for (const OneSidedContact& contact : machine.truth.base_contacts) {
         const auto turn = std::find(element.free.begin(), element.free.end(), 3 + contact.axis);
         if (turn != element.free.end()) {
           machine.curves.push_back({at + (turn - element.free.begin()), -1, contactCurve(contact)});
@@ -161,8 +165,9 @@ void addCurves(const MachineSpec& spec, ElasticMachine& machine) {
 ElasticElement linkElement(const SimulationSpec& spec, const LinkBeam& beam) {
   const robot::Robot& robot = spec.nominal;
   const Eigen::Vector3d root = robot.axes_in_base_at_zero[beam.joint].point;
-  const Eigen::Vector3d tip = beam.joint == 5 ? Eigen::Vector3d(robot.base_from_flange_at_zero.translation())
-                                              : robot.axes_in_base_at_zero[beam.joint + 1].point;
+  const Eigen::Vector3d tip = beam.joint + 1 == robot.joints()
+                                  ? Eigen::Vector3d(robot.base_from_flange_at_zero.translation())
+                                  : robot.axes_in_base_at_zero[beam.joint + 1].point;
   const double length = (tip - root).norm();
   if (length < 1e-3) {
     throw io::InputError({spec.file.string(), 0, "after_joint"}, std::to_string(beam.joint + 1),
@@ -180,7 +185,7 @@ ElasticElement linkElement(const SimulationSpec& spec, const LinkBeam& beam) {
   return element;
 }
 
-std::vector<ElasticElement> elasticElements(const SimulationSpec& spec) {
+std::vector<ElasticElement> elasticElements(const SimulationSpec& spec, const PerJoint<JointStiffness>& joints) {
   std::vector<ElasticElement> elements;
   if (spec.machine.base_rotation || spec.machine.base_translation) {
     ElasticElement base;
@@ -195,8 +200,8 @@ std::vector<ElasticElement> elasticElements(const SimulationSpec& spec) {
     }
     elements.push_back(base);
   }
-  for (int i = 0; i < 6; ++i) {
-    ElasticElement joint = jointElement(spec.nominal, i, spec.machine.joints[i]);
+  for (int i = 0; i < spec.nominal.joints(); ++i) {
+    ElasticElement joint = jointElement(spec.nominal, i, joints[static_cast<std::size_t>(i)]);
     if (!joint.free.empty()) elements.push_back(std::move(joint));
     for (const LinkBeam& beam : spec.machine.links) {
       if (beam.joint == i) elements.push_back(linkElement(spec, beam));
@@ -225,16 +230,17 @@ ElasticMachine buildMachine(const SimulationSpec& spec) {
   ElasticMachine machine;
   machine.nominal = spec.nominal;
   machine.truth = spec.machine;
+  machine.truth.joints.resize(static_cast<std::size_t>(spec.nominal.joints()));
   machine.tool = spec.machine.tool;
   machine.targets = spec.targets;
   machine.temperature = spec.temperature;
-  machine.elements = elasticElements(spec);
-  addCurves(spec.machine, machine);
+  machine.elements = elasticElements(spec, machine.truth.joints);
+  addCurves(machine);
 
-  const std::array<AxisError, 6> errors = drawAxisErrors(spec);
-  for (int i = 0; i < 6; ++i) {
-    machine.axis_errors[i] = frameError(spec.nominal, i, errors[i]);
-    machine.zeros[i] = errors[i].zero;
+  for (const AxisError& error : drawAxisErrors(spec)) {
+    const int joint = static_cast<int>(machine.zeros.size());
+    machine.axis_errors.push_back(frameError(spec.nominal, joint, error));
+    machine.zeros.push_back(error.zero);
   }
 
   numerics::RandomStream random(spec.seed, "masses");
@@ -255,14 +261,14 @@ robot::Robot rigidGeometry(const ElasticMachine& machine) {
   using namespace simulation;
   robot::Robot robot = machine.nominal;
   Eigen::Isometry3d moved = Eigen::Isometry3d::Identity();  // nominal place at zero -> true place, for body i
-  for (int i = 0; i < 6; ++i) {
+  for (std::size_t i = 0; i < machine.zeros.size(); ++i) {
     moved = moved * machine.axis_errors[i];
     const metrology::Line& nominal = machine.nominal.axes_in_base_at_zero[i];
     robot.axes_in_base_at_zero[i] = {moved * nominal.point, moved.linear() * nominal.direction};
     moved = moved * turnAbout(nominal, machine.zeros[i]);
     robot.bodies[i + 1] = {machine.bodies[i + 1].mass_kg, moved * machine.bodies[i + 1].com_in_base_at_zero};
     for (robot::LinkFrame& link : robot.links) {
-      if (link.body == i + 1) link.base_from_link_at_zero = moved * link.base_from_link_at_zero;
+      if (link.body == static_cast<int>(i) + 1) link.base_from_link_at_zero = moved * link.base_from_link_at_zero;
     }
   }
   robot.base_from_flange_at_zero = moved * robot.base_from_flange_at_zero;

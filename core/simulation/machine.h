@@ -13,14 +13,14 @@
 
 namespace stiffscope::simulation {
 
-/// The errors of the six axes: as listed, else drawn from stream "geometry" of the seed. A listed axis leaves
+/// The errors of the axes: as listed, else drawn from stream "geometry" of the seed. A listed axis leaves
 /// the others' draws as they were.
-std::array<AxisError, 6> drawAxisErrors(const SimulationSpec& spec);
+PerJoint<AxisError> drawAxisErrors(const SimulationSpec& spec);
 
 /// E_i: where joint frame i and all that it carries truly stands at zero, from where the nominal robot has it
-/// (base_link): first turned by the tilt about the axis's point - about the wrist centre for axes 4-6 if
-/// these meet within 1 um - then moved by the offset. So the errors add up along the chain, the flange stays
-/// true to axis 6, and wrist axes miss each other only by the offsets of 5 and 6.
+/// (base_link): first turned by the tilt about the axis's point - about the wrist centre for the wrist's axes
+/// (4-6 of six) if these meet within 1 um - then moved by the offset. So the errors add up along the chain, the flange
+/// stays true to the last axis, and wrist axes miss each other only by their own offsets but the first one's.
 Eigen::Isometry3d frameError(const robot::Robot& nominal, int joint, const AxisError& error);
 
 /// A Jenkins element: a spring of `rate` (Nm/rad) in series with a slider that holds up to `limit` (Nm) and
@@ -71,7 +71,7 @@ std::vector<TorqueCurve::Stage> stagesByTorque(const std::vector<double>& torque
 /// 1/2 d' K d, d = (u, r).
 struct ElasticElement {
   std::string name;
-  int joint = -1;        ///< follows the motor of this joint (0..5); -1: the base; 6: the tool's plate
+  int joint = -1;        ///< follows the motor of this joint, from 0; -1: the base; joints(): the tool's plate
   bool is_link = false;  ///< a beam's tip: follows the joint's own element and the mass of the body
   Eigen::Isometry3d base_from_element_at_zero = Eigen::Isometry3d::Identity();  ///< z along the axis or beam
   std::vector<int> free;  ///< which of (ux uy uz rx ry rz) can move
@@ -92,18 +92,19 @@ struct CoordinateCurve {
 /// pedestal.
 struct ElasticMachine {
   robot::Robot nominal;
-  std::array<Eigen::Isometry3d, 6> axis_errors;  ///< E_i, in base_link at zero, nominal place to true place
-  std::array<double, 6> zeros{};                 ///< rad
-  std::vector<ElasticElement> elements;          ///< in chain order
-  std::array<robot::BodyMass, 7> bodies;         ///< true masses, at nominal places; [6] without the tool
+  PerJoint<Eigen::Isometry3d> axis_errors;  ///< E_i, in base_link at zero, nominal place to true place
+  PerJoint<double> zeros;                   ///< rad
+  std::vector<ElasticElement> elements;     ///< in chain order
+  PerBody<robot::BodyMass> bodies;          ///< true masses, at nominal places; the last without the tool
   robot::Tool tool;
   Eigen::Vector3d gravity_in_base{0.0, 0.0, -9.80665};  ///< the true one
   std::vector<TrueTarget> targets;
-  MachineSpec truth;                             ///< what it was built from: the true stiffness values are here
+  MachineSpec truth;  ///< what it was built from, with all joints: the true stiffness values are here
   std::optional<TemperatureCourse> temperature;  ///< of the day
-  std::array<Eigen::Index, 6> torsion_coordinates{-1, -1, -1, -1, -1, -1};  ///< of each joint; -1: rigid
+  PerJoint<Eigen::Index> torsion_coordinates;    ///< of each joint; -1: rigid
   std::vector<CoordinateCurve> curves;
 
+  int joints() const { return nominal.joints(); }
   int coordinateCount() const;       ///< elastic coordinates in all
   Eigen::Index sliderCount() const;  ///< of all curves
   bool changes() const;              ///< with posture or time: see machineAt
@@ -111,7 +112,7 @@ struct ElasticMachine {
 
 /// The machine at a posture and a time of the day (s): thermal growth, warming drives, ripple of stiffness and all that
 /// turns a motor away from the angle reported put in, so that what is left does not change.
-ElasticMachine machineAt(const ElasticMachine& machine, const Vector6d& q, double time_s);
+ElasticMachine machineAt(const ElasticMachine& machine, const JointVector& q, double time_s);
 
 /// Builds the machine of a specification, drawing what it leaves to chance from its seed (streams "geometry",
 /// "masses"). Throws InputError where a link beam would have no length.

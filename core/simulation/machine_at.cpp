@@ -27,7 +27,7 @@ void scaleTorsion(ElasticMachine& machine, int joint, double factor) {
 
 /// True motor angle less reported, beyond the joint's zero.
 double angleError(const JointStiffness& joint, const std::optional<TemperatureCourse>& temperature, int index,
-                  const Vector6d& q, double time_s) {
+                  const JointVector& q, double time_s) {
   double error = 0.0;
   if (joint.angle_wave) error += waveAt(*joint.angle_wave, q[index]);
   if (joint.ratio) error += joint.ratio->share * q[joint.ratio->of];
@@ -47,10 +47,10 @@ bool ElasticMachine::changes() const {
   });
 }
 
-ElasticMachine machineAt(const ElasticMachine& machine, const Vector6d& q, double time_s) {
+ElasticMachine machineAt(const ElasticMachine& machine, const JointVector& q, double time_s) {
   using namespace simulation;
   ElasticMachine now = machine;
-  for (int i = 0; i < 6; ++i) {
+  for (int i = 0; i < machine.joints(); ++i) {
     const JointStiffness& joint = machine.truth.joints[static_cast<std::size_t>(i)];
     now.zeros[static_cast<std::size_t>(i)] += angleError(joint, machine.temperature, i, q, time_s);
     double factor = 1.0;

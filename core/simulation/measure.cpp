@@ -1,6 +1,7 @@
 #include "core/simulation/measure.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -27,17 +28,17 @@ struct Session {
   Station station;
   double now_s = 0.0;
   double last_nests_s = 0.0;
-  Arrival arrival{};
+  Arrival arrival{spec.nominal.joints()};
 
   /// The clock and the arm move on to the next posture.
-  void moveTo(const Vector6d& q);
+  void moveTo(const JointVector& q);
   /// As it is now at q, with its links where their play leaves them.
-  ElasticMachine machineNow(const Vector6d& q, const Vector6d& ahead) const;
+  ElasticMachine machineNow(const JointVector& q, const JointVector& ahead) const;
   /// The machine at rest, now, its controller holding q. Throws InputError where it is not stable or collapses.
-  MachineState rest(const Vector6d& q, const AppliedLoad& load = {}, const Eigen::VectorXd* anchors = nullptr) const;
-  Vector6d reported(const Vector6d& q) const;  ///< rounded to the read-back resolution
+  MachineState rest(const JointVector& q, const AppliedLoad& load = {}, const Eigen::VectorXd* anchors = nullptr) const;
+  JointVector reported(const JointVector& q) const;  ///< rounded to the read-back resolution
   /// What the controller logs of this state: where it stands still, or a little before.
-  Vector6d logged(const MachineState& state) const;
+  JointVector logged(const MachineState& state) const;
   /// The time a reading is finished; the clock moves on to it.
   double takeReading();
 };
@@ -135,14 +136,14 @@ void measureState(Session& session, PostureRun& run, int step) {
   const MachineState rest = session.rest(run.posture.q, load, step > 0 ? &run.anchors : nullptr);
   run.anchors =
       step > 0 ? slippedAnchors(session.machine, rest, std::move(run.anchors)) : arrivedAnchors(session.machine, rest);
-  campaign::State row;
+  campaign::State row(spec.nominal.joints());
   row.pose = run.pose;
   row.step = step;
   row.time_s = session.now_s;
   row.q = session.logged(rest);
   if (spec.temperature) row.temperature_c = spec.temperature->at(session.now_s);
-  for (int i = 0; i < 6; ++i) {
-    if (spec.machine.joints[static_cast<std::size_t>(i)].gear) row.motor_side[i] = rest.motor_side[i];
+  for (int i = 0; i < session.machine.joints(); ++i) {
+    if (session.machine.truth.joints[static_cast<std::size_t>(i)].gear) row.motor_side[i] = rest.motor_side[i];
   }
   if (spec.load_cell) {
     row.wrench_in_cell = loadWrenchInCell(session.machine, rest, cellParent(spec), spec.load_cell->declared,
@@ -175,6 +176,11 @@ void measureLoading(Session& session) {
 
 namespace {
 
+/// Angles as stated; none are zeros.
+JointVector orAtZero(const JointVector& angles, int count) {
+  return angles.size() == 0 ? JointVector(JointVector::Zero(count)) : angles;
+}
+
 /// One target at a true state, read now.
 template <class Row>
 Row reading(Session& session, const MachineState& state, ReflectorSeats& seats, int index, int target) {
@@ -196,7 +202,7 @@ void measureCircleSweeps(Session& session) {
   campaign::CircleSweeps table{"circle_sweeps.csv", campaign::PointFrame::tracker, {}};
   for (const CircleSweepSpec& sweep : spec.circle_sweeps) {
     for (int stop = 0; stop < sweep.count; ++stop) {
-      Vector6d q = sweep.others;
+      JointVector q = orAtZero(sweep.others, spec.nominal.joints());
       q[sweep.axis] = sweep.start + (sweep.stop - sweep.start) * stop / (sweep.count - 1);
       session.moveTo(q);
       const MachineState state = session.rest(q);
@@ -215,15 +221,16 @@ void measureWristSweep(Session& session) {
   const SimulationSpec& spec = session.spec;
   if (!spec.wrist_sweep) return;
   const WristSweepSpec& sweep = *spec.wrist_sweep;
+  const int joints = spec.nominal.joints(), arm = robot::armJointsOf(joints);
   const int targets = static_cast<int>(spec.targets.size());
   const bool one = sweep.scheme == WristScheme::one_target;
   const int stops = one ? sweep.readings : sweep.readings / targets;
   numerics::RandomStream random(spec.seed, "wrist sweep");
   campaign::WristSweep table{"wrist_sweep.csv", campaign::PointFrame::tracker, {}};
   for (int stop = 0; stop < stops; ++stop) {
-    Vector6d q;
-    q.head<3>() = sweep.arm;
-    for (int k = 0; k < 3; ++k) q[3 + k] = random.uniform(sweep.low[k], sweep.high[k]);
+    JointVector q(joints);
+    q.head(arm) = orAtZero(sweep.arm, arm);
+    for (int k = 0; arm + k < joints; ++k) q[arm + k] = random.uniform(sweep.low[k], sweep.high[k]);
     session.moveTo(q);
     const MachineState state = session.rest(q);
     ReflectorSeats seats(spec, stop);
@@ -246,52 +253,52 @@ constexpr double kLargest = 0.1;  ///< m and rad: what gives more has collapsed,
 
 }  // namespace
 
-void Session::moveTo(const Vector6d& q) {
+void Session::moveTo(const JointVector& q) {
   now_s += spec.timing.move_s;
   arrival.moveTo(q);
 }
 
-ElasticMachine Session::machineNow(const Vector6d& q, const Vector6d& ahead) const {
+ElasticMachine Session::machineNow(const JointVector& q, const JointVector& ahead) const {
   ElasticMachine now = machine.changes() ? machineAt(machine, q, now_s) : machine;
-  for (int i = 0; i < 6; ++i) now.zeros[static_cast<std::size_t>(i)] += ahead[i];
+  for (int i = 0; i < now.joints(); ++i) now.zeros[static_cast<std::size_t>(i)] += ahead[i];
   return now;
 }
 
-MachineState Session::rest(const Vector6d& q, const AppliedLoad& load, const Eigen::VectorXd* anchors) const {
+MachineState Session::rest(const JointVector& q, const AppliedLoad& load, const Eigen::VectorXd* anchors) const {
   const bool link_side_held = spec.double_encoder == campaign::DoubleEncoder::active;
-  const auto restsWith = [&](const Vector6d& ahead) {
+  const auto restsWith = [&](const JointVector& ahead) {
     const bool as_built = !machine.changes() && ahead.isZero(0.0);
     MachineState at = as_built ? equilibriumOnGears(machine, q, link_side_held, load, anchors)
                                : equilibriumOnGears(machineNow(q, ahead), q, link_side_held, load, anchors);
     at.ahead = ahead;
     return at;
   };
-  MachineState state = restsWith(Vector6d::Zero());
+  const JointVector no_play = JointVector::Zero(q.size());
+  MachineState state = restsWith(no_play);
   // Play turns the torque by nothing that would change its side.
   if (state.converged && hasLostMotion(machine.truth)) {
-    const Vector6d torques = driveTorques(machineNow(q, Vector6d::Zero()), state, load, anchors);
+    const JointVector torques = driveTorques(machineNow(q, no_play), state, load, anchors);
     state = restsWith(lostMotions(machine.truth, arrival, torques));
   }
   const bool small = state.deformation.size() == 0 || state.deformation.cwiseAbs().maxCoeff() < kLargest;
   if (!state.converged || !small) {
-    const Vector6d deg = q / io::kDegree;
-    throw io::InputError(
-        {spec.file.string(), 0, "q_deg"},
-        fmt::format("{:.3f} {:.3f} {:.3f} {:.3f} {:.3f} {:.3f}", deg[0], deg[1], deg[2], deg[3], deg[4], deg[5]),
-        "expected a posture where the machine rests stably, giving less than 0.1 rad; stiffness "
-        "is too low or the "
-        "load too large");
+    const JointVector deg = q / io::kDegree;
+    throw io::InputError({spec.file.string(), 0, "q_deg"},
+                         fmt::format("{:.3f}", fmt::join(deg.data(), deg.data() + deg.size(), " ")),
+                         "expected a posture where the machine rests stably, giving less than 0.1 rad; stiffness "
+                         "is too low or the "
+                         "load too large");
   }
   return state;
 }
 
-Vector6d Session::reported(const Vector6d& q) const {
+JointVector Session::reported(const JointVector& q) const {
   const double step = spec.read_back_resolution;
   if (step <= 0.0) return q;
   return (q / step).array().round().matrix() * step;
 }
 
-Vector6d Session::logged(const MachineState& state) const {
+JointVector Session::logged(const MachineState& state) const {
   // What gears hold elsewhere than the controller's target they hold from the arrival on.
   return reported(loggedAngles(spec.early_log, arrival) + (state.q - arrival.at));
 }

@@ -11,14 +11,14 @@
 
 namespace stiffscope::simulation {
 
-PostureSpacing::PostureSpacing(const Vector6d& low, const Vector6d& high) : widths_(high - low) {}
+PostureSpacing::PostureSpacing(const JointVector& low, const JointVector& high) : widths_(high - low) {}
 
-void PostureSpacing::add(const Vector6d& q) {
+void PostureSpacing::add(const JointVector& q) {
   const std::size_t added = nodes_.size();
   nodes_.push_back({q});
   if (added == 0) return;
   for (std::size_t at = 0, depth = 0;; ++depth) {
-    const int joint = jointOf(depth);
+    const Eigen::Index joint = jointOf(depth);
     std::size_t& next = nodes_[at].beyond[q[joint] < nodes_[at].q[joint] ? 0 : 1];
     if (next == 0) {
       next = added;
@@ -28,15 +28,15 @@ void PostureSpacing::add(const Vector6d& q) {
   }
 }
 
-double PostureSpacing::squaredToNearest(const Vector6d& q, double enough) const {
+double PostureSpacing::squaredToNearest(const JointVector& q, double enough) const {
   double least = std::numeric_limits<double>::infinity();
   if (!nodes_.empty()) search(0, 0, q, enough, least);
   return least;
 }
 
-double PostureSpacing::squared(const Vector6d& a, const Vector6d& b) const {
+double PostureSpacing::squared(const JointVector& a, const JointVector& b) const {
   double sum = 0.0;
-  for (int i = 0; i < 6; ++i) {
+  for (Eigen::Index i = 0; i < widths_.size(); ++i) {
     if (!(widths_[i] > 0.0)) continue;
     const double apart = (a[i] - b[i]) / widths_[i];
     sum += apart * apart;
@@ -44,11 +44,11 @@ double PostureSpacing::squared(const Vector6d& a, const Vector6d& b) const {
   return sum;
 }
 
-void PostureSpacing::search(std::size_t node, std::size_t depth, const Vector6d& q, double enough,
+void PostureSpacing::search(std::size_t node, std::size_t depth, const JointVector& q, double enough,
                             double& least) const {
   const Node& here = nodes_[node];
   least = std::min(least, squared(q, here.q));
-  const int joint = jointOf(depth);
+  const Eigen::Index joint = jointOf(depth);
   const std::size_t own_side = q[joint] < here.q[joint] ? 0 : 1;
   for (const std::size_t side : {own_side, 1 - own_side}) {
     if (least <= enough) return;
@@ -68,11 +68,13 @@ bool within(double value, const std::optional<double>& low, const std::optional<
   return (!low || value >= *low) && (!high || value <= *high);
 }
 
-bool keepsRules(const SimulationSpec& spec, const PostureDraw& draw, const Vector6d& q) {
-  for (int i = 0; i < 6; ++i) {
-    if (q[i] < spec.nominal.limits[i].lower || q[i] > spec.nominal.limits[i].upper) return false;
+bool keepsRules(const SimulationSpec& spec, const PostureDraw& draw, const JointVector& q) {
+  const int joints = spec.nominal.joints();
+  for (int i = 0; i < joints; ++i) {
+    const robot::JointLimits& limits = spec.nominal.limits[static_cast<std::size_t>(i)];
+    if (q[i] < limits.lower || q[i] > limits.upper) return false;
   }
-  if (std::abs(std::sin(q[4])) < draw.min_abs_sin_q5) return false;
+  if (robot::wristJointsOf(joints) == 3 && std::abs(std::sin(q[joints - 2])) < draw.min_abs_sin_bend) return false;
   const Eigen::Isometry3d base_from_flange = nominalFlange(spec.nominal, q);
   const double up = std::asin(std::clamp(base_from_flange.linear()(2, 2), -1.0, 1.0));
   if (draw.max_flange_up && up > *draw.max_flange_up) return false;
@@ -84,10 +86,10 @@ bool keepsRules(const SimulationSpec& spec, const PostureDraw& draw, const Vecto
          hangClearance(spec.nominal, q, spec.loading->hook_in_flange) >= *draw.min_hang_clearance;
 }
 
-Vector6d drawOne(const SimulationSpec& spec, const PostureDraw& draw, numerics::RandomStream& random) {
+JointVector drawOne(const SimulationSpec& spec, const PostureDraw& draw, numerics::RandomStream& random) {
   for (int attempt = 0; attempt < kMostTries; ++attempt) {
-    Vector6d q;
-    for (int i = 0; i < 6; ++i) q[i] = random.uniform(draw.low[i], draw.high[i]);
+    JointVector q(draw.low.size());
+    for (Eigen::Index i = 0; i < q.size(); ++i) q[i] = random.uniform(draw.low[i], draw.high[i]);
     if (keepsRules(spec, draw, q)) return q;
   }
   throw io::InputError(
@@ -97,18 +99,21 @@ Vector6d drawOne(const SimulationSpec& spec, const PostureDraw& draw, numerics::
 
 }  // namespace
 
-Eigen::Isometry3d nominalFlange(const robot::Robot& robot, const Vector6d& q) {
+Eigen::Isometry3d nominalFlange(const robot::Robot& robot, const JointVector& q) {
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
-  for (int i = 0; i < 6; ++i) motion = motion * turnAbout(robot.axes_in_base_at_zero[i], q[i]);
+  for (int i = 0; i < robot.joints(); ++i) {
+    motion = motion * turnAbout(robot.axes_in_base_at_zero[static_cast<std::size_t>(i)], q[i]);
+  }
   return motion * robot.base_from_flange_at_zero;
 }
 
-double hangClearance(const robot::Robot& robot, const Vector6d& q, const Eigen::Vector3d& hook_in_flange) {
+double hangClearance(const robot::Robot& robot, const JointVector& q, const Eigen::Vector3d& hook_in_flange) {
   std::vector<Eigen::Vector3d> corners{Eigen::Vector3d::Zero()};
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
-  for (int i = 0; i < 6; ++i) {
-    corners.push_back(motion * robot.axes_in_base_at_zero[i].point);
-    motion = motion * turnAbout(robot.axes_in_base_at_zero[i], q[i]);
+  for (int i = 0; i < robot.joints(); ++i) {
+    const metrology::Line& axis = robot.axes_in_base_at_zero[static_cast<std::size_t>(i)];
+    corners.push_back(motion * axis.point);
+    motion = motion * turnAbout(axis, q[i]);
   }
   const Eigen::Isometry3d flange = motion * robot.base_from_flange_at_zero;
   corners.push_back(flange.translation());
@@ -136,10 +141,10 @@ std::vector<Posture> loadingPostures(const SimulationSpec& spec) {
   PostureSpacing spacing(draw.low, draw.high);
   for (const Posture& listed : postures) spacing.add(listed.q);
   for (int n = 0; n < draw.count; ++n) {
-    Vector6d best = drawOne(spec, draw, random);
+    JointVector best = drawOne(spec, draw, random);
     double farthest = draw.candidates > 1 ? spacing.squaredToNearest(best, 0.0) : 0.0;
     for (int c = 1; c < draw.candidates; ++c) {
-      const Vector6d q = drawOne(spec, draw, random);
+      const JointVector q = drawOne(spec, draw, random);
       const double apart = spacing.squaredToNearest(q, farthest);
       if (apart > farthest) {
         best = q;

@@ -16,32 +16,34 @@ namespace stiffscope::simulation {
 /// deep as the logarithm of their number without being balanced.
 class PostureSpacing {
  public:
-  PostureSpacing(const Vector6d& low, const Vector6d& high);
+  PostureSpacing(const JointVector& low, const JointVector& high);
 
-  void add(const Vector6d& q);
+  void add(const JointVector& q);
 
   /// Squared distance to the nearest; infinity without any. Where it is no more than `enough`, any distance that is no
   /// more than `enough` may stand for it.
-  double squaredToNearest(const Vector6d& q, double enough) const;
+  double squaredToNearest(const JointVector& q, double enough) const;
 
  private:
   struct Node {
-    Vector6d q;
+    JointVector q;
     std::array<std::size_t, 2> beyond{0, 0};  ///< on the lower and the upper side; 0: none
   };
 
-  static int jointOf(std::size_t depth) { return static_cast<int>(depth % 6); }
-  double squared(const Vector6d& a, const Vector6d& b) const;
-  void search(std::size_t node, std::size_t depth, const Vector6d& q, double enough, double& least) const;
+  Eigen::Index jointOf(std::size_t depth) const {
+    return static_cast<Eigen::Index>(depth % static_cast<std::size_t>(widths_.size()));
+  }
+  double squared(const JointVector& a, const JointVector& b) const;
+  void search(std::size_t node, std::size_t depth, const JointVector& q, double enough, double& least) const;
 
-  Vector6d widths_;
+  JointVector widths_;
   std::vector<Node> nodes_;  ///< the first is the root
 };
 
 /// A posture of the loading and the direction a fixed-direction cable pulls there (unit, base_link), if
 /// listed.
 struct Posture {
-  Vector6d q = Vector6d::Zero();  ///< rad
+  JointVector q;  ///< rad
   std::optional<Eigen::Vector3d> pull_direction;
 };
 
@@ -52,11 +54,11 @@ struct Posture {
 std::vector<Posture> loadingPostures(const SimulationSpec& spec);
 
 /// Place of the flange of the nominal rigid arm.
-Eigen::Isometry3d nominalFlange(const robot::Robot& robot, const Vector6d& q);
+Eigen::Isometry3d nominalFlange(const robot::Robot& robot, const JointVector& q);
 
 /// Horizontal distance (m) from the vertical through the hook to the nearest part of the arm that is lower
-/// than the hook: the arm taken as straight lines from the base's origin over the points of axes 1-6 to the
+/// than the hook: the arm taken as straight lines from the base's origin over the points of the axes to the
 /// flange. Infinite if none is lower.
-double hangClearance(const robot::Robot& robot, const Vector6d& q, const Eigen::Vector3d& hook_in_flange);
+double hangClearance(const robot::Robot& robot, const JointVector& q, const Eigen::Vector3d& hook_in_flange);
 
 }  // namespace stiffscope::simulation

@@ -7,6 +7,8 @@ namespace stiffscope::simulation {
 
 namespace {
 
+int jointsOf(const MachineSpec& machine) { return static_cast<int>(machine.joints.size()); }
+
 JointStages readStages(const io::XmlNode& node) {
   refuseUnknown(node, {"torques_nm", "stiffness_nm_per_rad"});
   JointStages stages;
@@ -57,9 +59,9 @@ JointGear readGear(const io::XmlNode& node) {
           numberOr(node, "encoder_offset_deg", io::kDegree, 0.0)};
 }
 
-JointRatio readRatio(const io::XmlNode& node, int joint) {
+JointRatio readRatio(const io::XmlNode& node, int joint, int joints) {
   refuseUnknown(node, {"share", "of_joint"});
-  return {node.number("share"), integer(node, "of_joint", 1, 6, joint + 1) - 1};
+  return {node.number("share"), integer(node, "of_joint", 1, joints, joint + 1) - 1};
 }
 
 LostMotion readLostMotion(const io::XmlNode& node) {
@@ -91,7 +93,7 @@ double shareBelowOne(const io::XmlNode& node) {
 
 }  // namespace
 
-JointStiffness readJoint(const io::XmlNode& node, int index) {
+JointStiffness readJoint(const io::XmlNode& node, int index, int joints) {
   refuseUnknown(node, {"index", "stiffness_nm_per_rad", "bearing_nm_per_rad", "cubic_nm_per_rad3"},
                 {"stages", "backlash", "friction", "stiffness_ripple", "angle_error", "softening", "gear", "ratio",
                  "lost_motion", "zero_jump", "zero_warming"});
@@ -114,7 +116,7 @@ JointStiffness readJoint(const io::XmlNode& node, int index) {
     joint.softening = JointSoftening{shareBelowOne(*child), positive(*child, "time_constant_s", 1.0)};
   }
   if (const auto child = node.child("gear")) joint.gear = readGear(*child);
-  if (const auto child = node.child("ratio")) joint.ratio = readRatio(*child, index);
+  if (const auto child = node.child("ratio")) joint.ratio = readRatio(*child, index, joints);
   if (const auto child = node.child("lost_motion")) joint.lost_motion = readLostMotion(*child);
   if (const auto child = node.child("zero_jump")) {
     refuseUnknown(*child, {"angle_deg", "at_s"});
@@ -134,14 +136,16 @@ namespace {
 void readJoints(const io::XmlNode& root, MachineSpec& machine) {
   const std::optional<io::XmlNode> joints = root.child("joints");
   if (!joints) return;
+  const int count = jointsOf(machine);
   refuseUnknown(*joints, {"mass_relative_sigma"}, {"joint"});
   machine.mass_relative_sigma = nonNegativeOr(*joints, "mass_relative_sigma", 1.0, 0.0);
-  std::array<bool, 6> seen{};
+  PerJoint<bool> seen(machine.joints.size(), false);
   for (const io::XmlNode& node : joints->children("joint")) {
-    const int joint = integer(node, "index", 1, 6) - 1;
+    const int index = integer(node, "index", 1, count) - 1;
+    const auto joint = static_cast<std::size_t>(index);
     if (seen[joint]) node.refuse("index", node.requiredAttribute("index"), "expected every joint at most once");
     seen[joint] = true;
-    machine.joints[joint] = readJoint(node, joint);
+    machine.joints[joint] = readJoint(node, index, count);
     if (machine.joints[joint].zero_warming) requireTemperature(root, *node.child("zero_warming"), "deg_per_k");
   }
 }
@@ -171,7 +175,7 @@ void readLinks(const io::XmlNode& root, MachineSpec& machine) {
   for (const io::XmlNode& node : root.children("link")) {
     refuseUnknown(node, {"after_joint", "bending_nm2", "torsion_nm2", "shear_n", "axial_n"});
     LinkBeam beam;
-    beam.joint = integer(node, "after_joint", 1, 6) - 1;
+    beam.joint = integer(node, "after_joint", 1, jointsOf(machine)) - 1;
     for (const LinkBeam& other : machine.links) {
       if (other.joint == beam.joint) {
         node.refuse("after_joint", node.requiredAttribute("after_joint"), "expected every link at most once");
@@ -205,7 +209,7 @@ void readGeometry(const io::XmlNode& root, MachineSpec& machine) {
   }
   for (const io::XmlNode& axis : node->children("axis")) {
     refuseUnknown(axis, {"index", "offset_mm", "tilt_deg", "zero_deg"});
-    const int index = integer(axis, "index", 1, 6) - 1;
+    const auto index = static_cast<std::size_t>(integer(axis, "index", 1, jointsOf(machine)) - 1);
     if (geometry.listed[index]) {
       axis.refuse("index", axis.requiredAttribute("index"), "expected every axis at most once");
     }
@@ -217,8 +221,9 @@ void readGeometry(const io::XmlNode& root, MachineSpec& machine) {
 
 }  // namespace
 
-MachineSpec readMachine(const io::XmlNode& root) {
+MachineSpec readMachine(const io::XmlNode& root, int joints) {
   MachineSpec machine;
+  machine.joints.resize(static_cast<std::size_t>(joints));
   readJoints(root, machine);
   readBase(root, machine);
   readLinks(root, machine);
@@ -243,9 +248,10 @@ SharedSpring readSharedSpring(const io::XmlNode& node, const MachineSpec& machin
   const std::vector<double> joints = numberList(node, "joints", 2, 1.0);
   for (std::size_t k = 0; k < 2; ++k) {
     const int joint = static_cast<int>(joints[k]) - 1;
-    const bool exists = joints[k] >= 1.0 && joints[k] <= 6.0 && joints[k] == joint + 1;
+    const bool exists = joints[k] >= 1.0 && joints[k] <= jointsOf(machine) && joints[k] == joint + 1;
     if (!exists || joints[0] == joints[1]) {
-      node.refuse("joints", node.requiredAttribute("joints"), "expected two different joints from 1 to 6");
+      node.refuse("joints", node.requiredAttribute("joints"),
+                  "expected two different joints from 1 to " + std::to_string(jointsOf(machine)));
     }
     if (!machine.joints[static_cast<std::size_t>(joint)].torsion) {
       node.refuse("joints", node.requiredAttribute("joints"), "expected joints that have stiffness_nm_per_rad");
@@ -263,11 +269,11 @@ SharedSpring readSharedSpring(const io::XmlNode& node, const MachineSpec& machin
   return spring;
 }
 
-LinkSpring readLinkSpring(const io::XmlNode& node) {
+LinkSpring readLinkSpring(const io::XmlNode& node, const MachineSpec& machine) {
   refuseUnknown(node, {"from_body", "to_body", "from_mm", "to_mm", "rate_n_per_m", "tension_n"});
   LinkSpring spring;
-  spring.from_body = integer(node, "from_body", 0, 6);
-  spring.to_body = integer(node, "to_body", 0, 6);
+  spring.from_body = integer(node, "from_body", 0, jointsOf(machine));
+  spring.to_body = integer(node, "to_body", 0, jointsOf(machine));
   if (spring.to_body <= spring.from_body) {
     node.refuse("to_body", node.requiredAttribute("to_body"), "expected a body beyond from_body");
   }
@@ -287,7 +293,7 @@ void readSprings(const io::XmlNode& root, MachineSpec& machine) {
   for (const io::XmlNode& node : root.children("coupling")) {
     machine.shared_springs.push_back(readSharedSpring(node, machine));
   }
-  for (const io::XmlNode& node : root.children("spring")) machine.link_springs.push_back(readLinkSpring(node));
+  for (const io::XmlNode& node : root.children("spring")) machine.link_springs.push_back(readLinkSpring(node, machine));
 }
 
 void readBaseContacts(const io::XmlNode& base, MachineSpec& machine) {
@@ -323,10 +329,10 @@ LoosePlate readLoosePlate(const io::XmlNode& node) {
 
 namespace {
 
-ThermalGrowth readGrowth(const io::XmlNode& root, const io::XmlNode& node) {
+ThermalGrowth readGrowth(const io::XmlNode& root, const io::XmlNode& node, int joints) {
   refuseUnknown(node, {"after_joint", "growth_mm", "time_constant_s", "growth_mm_per_k"});
   ThermalGrowth growth;
-  growth.joint = integer(node, "after_joint", 1, 5) - 1;
+  growth.joint = integer(node, "after_joint", 1, joints - 1) - 1;
   if (node.has("growth_mm_per_k")) {
     growth.per_kelvin = node.number("growth_mm_per_k") * io::kMillimetre;
     requireTemperature(root, node, "growth_mm_per_k");
@@ -340,7 +346,8 @@ ThermalGrowth readGrowth(const io::XmlNode& root, const io::XmlNode& node) {
 }  // namespace
 
 void readSlowChanges(const io::XmlNode& root, MachineSpec& machine) {
-  for (const io::XmlNode& node : root.children("growth")) machine.growths.push_back(readGrowth(root, node));
+  for (const io::XmlNode& node : root.children("growth"))
+    machine.growths.push_back(readGrowth(root, node, jointsOf(machine)));
   if (const auto node = root.child("creep")) {
     refuseUnknown(*node, {"share", "time_constant_s"});
     const double share = positive(*node, "share", 1.0);

@@ -99,16 +99,12 @@ CablePull readCable(const io::XmlNode& node) {
   return cable;
 }
 
-Vector6d jointAngles(const io::XmlNode& node, const std::string& attribute) {
-  const std::vector<double> values = numberList(node, attribute, 6, io::kDegree);
-  return Eigen::Map<const Vector6d>(values.data());
-}
-
 void readListed(const io::XmlNode& node, SimulationSpec& spec) {
   refuseUnknown(node, {"q_deg", "pull"});
-  ListedPosture posture{jointAngles(node, "q_deg"), optionalDirection(node, "pull")};
-  for (int i = 0; i < 6; ++i) {
-    const robot::JointLimits& limits = spec.nominal.limits[i];
+  const int joints = spec.nominal.joints();
+  ListedPosture posture{jointNumbers(node, "q_deg", joints, io::kDegree), optionalDirection(node, "pull")};
+  for (int i = 0; i < joints; ++i) {
+    const robot::JointLimits& limits = spec.nominal.limits[static_cast<std::size_t>(i)];
     if (posture.q[i] < limits.lower || posture.q[i] > limits.upper) {
       node.refuse("q_deg", node.requiredAttribute("q_deg"),
                   "expected joint " + std::to_string(i + 1) + " within the limits of the URDF");
@@ -117,19 +113,19 @@ void readListed(const io::XmlNode& node, SimulationSpec& spec) {
   spec.postures.push_back(posture);
 }
 
-PostureDraw readDraw(const io::XmlNode& node) {
+PostureDraw readDraw(const io::XmlNode& node, int joints) {
   refuseUnknown(node,
                 {"count", "candidates", "min_deg", "max_deg", "min_abs_sin_q5", "max_flange_up_deg", "min_height_mm",
                  "max_height_mm", "min_tracker_distance_mm", "max_tracker_distance_mm", "min_hang_clearance_mm"});
-  PostureDraw draw;
+  PostureDraw draw(joints);
   draw.count = integer(node, "count", 1, kMost);
   draw.candidates = integer(node, "candidates", 1, 1000, 1);
-  draw.low = jointAngles(node, "min_deg");
-  draw.high = jointAngles(node, "max_deg");
+  draw.low = jointNumbers(node, "min_deg", joints, io::kDegree);
+  draw.high = jointNumbers(node, "max_deg", joints, io::kDegree);
   if ((draw.high - draw.low).minCoeff() < 0.0) {
     node.refuse("max_deg", node.requiredAttribute("max_deg"), "expected no angle below that of min_deg");
   }
-  draw.min_abs_sin_q5 = nonNegativeOr(node, "min_abs_sin_q5", 1.0, 0.0);
+  draw.min_abs_sin_bend = nonNegativeOr(node, "min_abs_sin_q5", 1.0, 0.0);
   draw.max_flange_up = optionalNumber(node, "max_flange_up_deg", io::kDegree);
   draw.min_height = optionalNumber(node, "min_height_mm", io::kMillimetre);
   draw.max_height = optionalNumber(node, "max_height_mm", io::kMillimetre);
@@ -185,7 +181,7 @@ void readPostures(const io::XmlNode& root, SimulationSpec& spec) {
   }
   spec.unloaded_repeats = integer(*postures, "repeats", 1, 1000, spec.unloaded_repeats);
   for (const io::XmlNode& node : postures->children("posture")) readListed(node, spec);
-  if (const auto node = postures->child("draw")) spec.posture_draw = readDraw(*node);
+  if (const auto node = postures->child("draw")) spec.posture_draw = readDraw(*node, spec.nominal.joints());
   if (spec.postures.empty() && !spec.posture_draw) {
     postures->refuse("postures", "", "expected posture or draw in it");
   }
@@ -200,12 +196,12 @@ void readSwing(const io::XmlNode& load, LoadingSpec& loading) {
   loading.swing_period = positive(*node, "period_s", 1.0);
 }
 
-std::vector<CircleSweepSpec> readCircleSweeps(const io::XmlNode& root) {
+std::vector<CircleSweepSpec> readCircleSweeps(const io::XmlNode& root, int joints) {
   std::vector<CircleSweepSpec> sweeps;
   for (const io::XmlNode& node : root.children("circle_sweep")) {
     refuseUnknown(node, {"axis", "start_deg", "stop_deg", "count", "others_deg"});
     CircleSweepSpec sweep;
-    sweep.axis = integer(node, "axis", 1, 6) - 1;
+    sweep.axis = integer(node, "axis", 1, joints) - 1;
     for (const CircleSweepSpec& other : sweeps) {
       if (other.axis == sweep.axis) {
         node.refuse("axis", node.requiredAttribute("axis"), "expected one sweep an axis");
@@ -214,16 +210,24 @@ std::vector<CircleSweepSpec> readCircleSweeps(const io::XmlNode& root) {
     sweep.start = node.number("start_deg") * io::kDegree;
     sweep.stop = node.number("stop_deg") * io::kDegree;
     sweep.count = integer(node, "count", 2, 100000);
-    if (node.has("others_deg")) {
-      const std::vector<double> values = numberList(node, "others_deg", 6, io::kDegree);
-      sweep.others = Eigen::Map<const Vector6d>(values.data());
-    }
+    sweep.others = JointVector::Zero(joints);
+    if (node.has("others_deg")) sweep.others = jointNumbers(node, "others_deg", joints, io::kDegree);
     sweeps.push_back(sweep);
   }
   return sweeps;
 }
 
-std::optional<WristSweepSpec> readWristSweep(const io::XmlNode& root, std::size_t targets) {
+namespace {
+
+/// Angles of the wrist or of what carries it, which of six joints are three each, as any vector.
+JointVector partAngles(const io::XmlNode& node, const std::string& attribute, int count) {
+  if (count == 3) return node.vector(attribute) * io::kDegree;
+  return jointNumbers(node, attribute, count, io::kDegree);
+}
+
+}  // namespace
+
+std::optional<WristSweepSpec> readWristSweep(const io::XmlNode& root, int joints, std::size_t targets) {
   const std::optional<io::XmlNode> node = root.child("wrist_sweep");
   if (!node) return std::nullopt;
   refuseUnknown(*node, {"readings", "scheme", "arm_deg", "min_deg", "max_deg"});
@@ -238,9 +242,11 @@ std::optional<WristSweepSpec> readWristSweep(const io::XmlNode& root, std::size_
     node->refuse("readings", node->requiredAttribute("readings"),
                  "expected a multiple of the number of targets for all_targets");
   }
-  sweep.arm = vectorOr(*node, "arm_deg", io::kDegree, Eigen::Vector3d::Zero());
-  sweep.low = node->vector("min_deg") * io::kDegree;
-  sweep.high = node->vector("max_deg") * io::kDegree;
+  const int arm = robot::armJointsOf(joints), wrist = joints - arm;
+  sweep.arm = JointVector::Zero(arm);
+  if (node->has("arm_deg")) sweep.arm = partAngles(*node, "arm_deg", arm);
+  sweep.low = partAngles(*node, "min_deg", wrist);
+  sweep.high = partAngles(*node, "max_deg", wrist);
   if ((sweep.high - sweep.low).minCoeff() < 0.0) {
     node->refuse("max_deg", node->requiredAttribute("max_deg"), "expected no angle below that of min_deg");
   }
@@ -276,7 +282,6 @@ void readRobot(const io::XmlNode& root, const std::filesystem::path& folder, Sim
   const io::XmlNode node = root.requiredChild("robot");
   refuseUnknown(node, {"urdf", "base_link", "flange_link", "double_encoder", "read_back_resolution_deg"},
                 {"early_log"});
-  spec.early_log = readEarlyLog(node);
   spec.urdf_file = folder / node.requiredName("urdf");
   spec.base_link = node.requiredName("base_link");
   spec.flange_link = node.requiredName("flange_link");
@@ -288,6 +293,7 @@ void readRobot(const io::XmlNode& root, const std::filesystem::path& folder, Sim
   }
   spec.read_back_resolution = nonNegativeOr(node, "read_back_resolution_deg", io::kDegree, 0.0);
   spec.nominal = robot::readUrdf(spec.urdf_file, spec.base_link, spec.flange_link);
+  spec.early_log = readEarlyLog(node, spec.nominal.joints());
 }
 
 }  // namespace
@@ -316,15 +322,15 @@ SimulationSpec parseSimulationSpec(std::string_view bytes, const std::filesystem
   spec.measurement = integer64(root, "measurement", 1);
   readRobot(root, file.parent_path(), spec);
   spec.temperature = readTemperature(root);
-  spec.machine = readMachine(root);
+  spec.machine = readMachine(root, spec.nominal.joints());
   spec.targets = readTargets(root);
   spec.tracker = readTracker(root);
   spec.station = readStation(root);
   spec.load_cell = readLoadCell(root, spec.nominal);
   spec.loading = readLoading(root);
   readPostures(root, spec);
-  spec.circle_sweeps = readCircleSweeps(root);
-  spec.wrist_sweep = readWristSweep(root, spec.targets.size());
+  spec.circle_sweeps = readCircleSweeps(root, spec.nominal.joints());
+  spec.wrist_sweep = readWristSweep(root, spec.nominal.joints(), spec.targets.size());
   readNestsAndTimes(root, spec);
   return spec;
 }

@@ -16,7 +16,7 @@ namespace stiffscope::simulation {
 ///       [measurement=1] (another one draws other noise on the same machine)
 ///   robot: urdf base_link flange_link [double_encoder=unspecified] [read_back_resolution_deg=0]
 ///   [joints]: [mass_relative_sigma=0] (of the URDF's link masses)
-///     [joint]...: index (1..6; one that is not listed is rigid, and `rigidJoints` names it)
+///     [joint]...: index (1 to n, the joints of the URDF; one that is not listed is rigid, and `rigidJoints` names it)
 ///     [stiffness_nm_per_rad=rigid] [bearing_nm_per_rad=rigid] (across the axis)
 ///         [cubic_nm_per_rad3=0] (times twist cubed, besides)
 ///       [stages]: torques_nm (rising) stiffness_nm_per_rad (one more; instead of the joint's)
@@ -30,7 +30,7 @@ namespace stiffscope::simulation {
 ///       [tilt_azimuth_deg=0] (of the axis it is tilted about)
 ///     [contact]...: axis (x, y, z) side (positive, negative) stiffness_nm_per_rad (besides, on that side)
 ///         [gap_deg=0]
-///   [link]...: after_joint (1..6; a beam from this joint's point to the next one's)
+///   [link]...: after_joint (1 to n; a beam from this joint's point to the next one's)
 ///       [bending_nm2=rigid] (EI) [torsion_nm2=rigid] (GJ) [shear_n=rigid] (kGA) [axial_n=rigid] (EA)
 ///   [geometry]: [position_sigma_mm=0] [direction_sigma_deg=0] [zero_sigma_deg=0]
 ///       [wrist_position_sigma_mm=position_sigma_mm]
@@ -40,9 +40,9 @@ namespace stiffscope::simulation {
 ///       (between flange and all that is on it; flange axes)
 ///   [coupling]...: joints (two) rod_n_per_m crank_mm (two, signed), or shaft_nm_per_rad ratios (two)
 ///       (a spring that both joints' twists stretch)
-///   [spring]...: from_body to_body (0..6) from_mm to_mm (base_link at all joints zero) [rate_n_per_m=0]
+///   [spring]...: from_body to_body (0 to n) from_mm to_mm (base_link at all joints zero) [rate_n_per_m=0]
 ///       [tension_n=0] (at all joints zero): gravity compensator, dress pack
-///   [growth]...: after_joint (1..5) growth_mm time_constant_s (of a link, as the day goes on)
+///   [growth]...: after_joint (1 to n-1) growth_mm time_constant_s (of a link, as the day goes on)
 ///   [creep]: share time_constant_s (of every change under load, late)
 ///   targets
 ///     target...: id xyz_mm (the true place on the flange)
@@ -65,12 +65,13 @@ namespace stiffscope::simulation {
 ///       [return_to_zero=true] [repeats=3]
 ///   [postures]
 ///     [posture]...: q_deg [pull] (direction of a cable without anchor, base_link)
-///     [draw]: count [candidates=1] min_deg max_deg (six each) [min_abs_sin_q5=0] [max_flange_up_deg]
+///     [draw]: count [candidates=1] min_deg max_deg (n each)
+///         [min_abs_sin_q5=0] (of the bend of a wrist of three axes) [max_flange_up_deg]
 ///         [min_height_mm] [max_height_mm] [min_tracker_distance_mm] [max_tracker_distance_mm]
 ///         [min_hang_clearance_mm]
-///   [circle_sweep]...: axis start_deg stop_deg count [others_deg=0] (six)
-///   [wrist_sweep]: readings (rows in all) [scheme=one_target] (or all_targets) [arm_deg=0] (three)
-///       min_deg max_deg (three each, axes 4-6)
+///   [circle_sweep]...: axis start_deg stop_deg count [others_deg=0] (n)
+///   [wrist_sweep]: readings (rows in all) [scheme=one_target] (or all_targets) [arm_deg=0] (one a joint
+///       before the wrist) min_deg max_deg (one a joint of the wrist)
 ///   [nests]: [interval_s=3600] [after_sweeps=false] (read once more between wrist sweep and loading)
 ///     nest...: id xyz_mm (in the base)
 ///   [times]: [reading_s=2] [move_s=10] [load_change_s=60]
@@ -82,7 +83,7 @@ SimulationSpec readSimulationSpec(const std::filesystem::path& file);
 /// The same from the bytes of such a file; `file` is its name, and its folder is where the URDF is looked for.
 SimulationSpec parseSimulationSpec(std::string_view bytes, const std::filesystem::path& file);
 
-/// The joints (1..6) to which a specification gives no stiffness about their axes: what is taken for them is rigid,
+/// The joints (from 1) to which a specification gives no stiffness about their axes: what is taken for them is rigid,
 /// which a user may not have meant.
 std::vector<int> rigidJoints(const SimulationSpec& spec);
 

@@ -106,16 +106,15 @@ std::optional<TemperatureCourse> readTemperature(const io::XmlNode& root) {
   return course;
 }
 
-std::optional<EarlyLog> readEarlyLog(const io::XmlNode& robot) {
+std::optional<EarlyLog> readEarlyLog(const io::XmlNode& robot, int joints) {
   const auto node = robot.child("early_log");
   if (!node) return std::nullopt;
   refuseUnknown(*node, {"after_s", "time_constant_s"});
-  EarlyLog log;
-  log.after = nonNegativeOr(*node, "after_s", 1.0, 0.0);
-  const std::vector<double> constants = numberList(*node, "time_constant_s", 6, 1.0);
-  log.time_constants = Eigen::Map<const Vector6d>(constants.data());
+  const double after = nonNegativeOr(*node, "after_s", 1.0, 0.0);
+  const EarlyLog log(after, jointNumbers(*node, "time_constant_s", joints, 1.0));
   if (!(log.time_constants.minCoeff() > 0.0)) {
-    node->refuse("time_constant_s", node->requiredAttribute("time_constant_s"), "expected six numbers above 0");
+    node->refuse("time_constant_s", node->requiredAttribute("time_constant_s"),
+                 "expected " + (joints == 6 ? "six" : std::to_string(joints)) + " numbers above 0");
   }
   return log;
 }

@@ -2,7 +2,7 @@
 
 namespace stiffscope::simulation {
 
-SpringNow springNow(const LinkSpring& spring, const std::array<Eigen::Isometry3d, 7>& body_motions) {
+SpringNow springNow(const LinkSpring& spring, const PerBody<Eigen::Isometry3d>& body_motions) {
   SpringNow now;
   now.from = body_motions[static_cast<std::size_t>(spring.from_body)] * spring.from_in_base_at_zero;
   now.to = body_motions[static_cast<std::size_t>(spring.to_body)] * spring.to_in_base_at_zero;

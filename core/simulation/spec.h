@@ -83,7 +83,7 @@ struct JointGear {
 /// parallelogram): true motor angle less reported = share times the reported angle of joint `of`.
 struct JointRatio {
   double share = 0.0;
-  int of = 0;  ///< 0..5
+  int of = 0;  ///< from 0
 };
 
 /// Play between motor and link, `width` (rad) in all. What friction holds, `friction` (Nm, absent: whatever pulls),
@@ -144,12 +144,12 @@ struct SpringNow {
   double energy = 0.0;       ///< J, integral of T from l0 to l
 };
 
-SpringNow springNow(const LinkSpring& spring, const std::array<Eigen::Isometry3d, 7>& body_motions);
+SpringNow springNow(const LinkSpring& spring, const PerBody<Eigen::Isometry3d>& body_motions);
 
 /// A link as a uniform straight beam from the point of joint `joint` to that of the next one (after the last:
 /// to the flange). Absent: rigid in that respect.
 struct LinkBeam {
-  int joint = 0;                  ///< 0..5
+  int joint = 0;                  ///< from 0
   std::optional<double> bending;  ///< E I, the same in both planes, Nm^2
   std::optional<double> torsion;  ///< G J, Nm^2
   std::optional<double> shear;    ///< kappa G A, N; absent: Euler-Bernoulli, present: Timoshenko
@@ -158,8 +158,8 @@ struct LinkBeam {
 
 /// How joint frame i, and all that it carries, differs from nominal: moved by `offset`, turned by the
 /// rotation vector `tilt`, base_link axes at all joints zero; and the motor stands at `zero` + the reported
-/// angle. The tilt pivots on the axis's point; for axes 4-6 of a wrist whose nominal axes meet, on that
-/// meeting point.
+/// angle. The tilt pivots on the axis's point; for the wrist's axes (axes 4-6 of six), where the nominal ones meet, on
+/// that meeting point.
 struct AxisError {
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< m
   Eigen::Vector3d tilt = Eigen::Vector3d::Zero();    ///< rad
@@ -169,11 +169,12 @@ struct AxisError {
 /// Listed errors stand as they are; the other axes' are drawn: offset and tilt in the two directions across
 /// the axis, each with its sigma.
 struct GeometryErrors {
-  double position_sigma = 0.0;                 ///< m
-  double direction_sigma = 0.0;                ///< rad
-  double zero_sigma = 0.0;                     ///< rad
-  std::optional<double> wrist_position_sigma;  ///< m; for axes 5 and 6: how far they miss the one before
-  std::array<std::optional<AxisError>, 6> listed;
+  double position_sigma = 0.0;   ///< m
+  double direction_sigma = 0.0;  ///< rad
+  double zero_sigma = 0.0;       ///< rad
+  /// m; for the wrist's axes but its first (axes 5 and 6 of six): how far they miss the one before.
+  std::optional<double> wrist_position_sigma;
+  std::array<std::optional<AxisError>, kMostJoints> listed;  ///< by joint; beyond the last they play no part
 };
 
 /// A crack or a shim under the pedestal: beyond `gap` (rad) of turn to one side about base_link x, y or z it
@@ -204,7 +205,7 @@ struct LoosePlate {
 /// radii in m. A shaft of a differential wrist: Nm/rad and ratios. Its energy is 1/2 rate stretch^2, so what
 /// joint a does to b, b does to a.
 struct SharedSpring {
-  std::array<int, 2> joints{};  ///< 0..5
+  std::array<int, 2> joints{};  ///< from 0
   std::array<double, 2> arms{};
   double rate = 0.0;
 };
@@ -213,7 +214,7 @@ struct SharedSpring {
 /// growth (1 - exp(-t / time_constant)) from the first reading, and by `per_kelvin` times what the temperature of the
 /// day has risen since then.
 struct ThermalGrowth {
-  int joint = 0;                             ///< 0..4
+  int joint = 0;                             ///< from 0, not the last
   double growth = 0.0, time_constant = 1.0;  ///< m, s
   double per_kelvin = 0.0;                   ///< m/K; needs SimulationSpec::temperature
 };
@@ -225,7 +226,7 @@ struct Creep {
 };
 
 struct MachineSpec {
-  std::array<JointStiffness, 6> joints;
+  PerJoint<JointStiffness> joints;                  ///< of the robot's joints; those that it does not name are rigid
   std::optional<Eigen::Vector3d> base_rotation;     ///< of pedestal and floor about base_link x, y, z; Nm/rad
   std::optional<Eigen::Vector3d> base_translation;  ///< the same along x, y, z; N/m
   std::vector<OneSidedContact> base_contacts;       ///< about axes that base_rotation lets turn
@@ -330,7 +331,7 @@ struct LoadingSpec {
 };
 
 struct ListedPosture {
-  Vector6d q = Vector6d::Zero();
+  JointVector q;
   std::optional<Eigen::Vector3d> pull_direction;  ///< unit, in base_link
 };
 
@@ -339,20 +340,24 @@ struct ListedPosture {
 struct PostureDraw {
   int count = 0;
   int candidates = 1;  ///< of this many that keep the rules, the one farthest from the postures chosen before
-  Vector6d low = Vector6d::Zero(), high = Vector6d::Zero();
-  double min_abs_sin_q5 = 0.0;
+  JointVector low, high;
+  /// Of the bend of a wrist of three axes, the second of them (joint 5 of six); left aside where the wrist has two.
+  double min_abs_sin_bend = 0.0;
   std::optional<double> max_flange_up;           ///< rad, of the flange's z axis above the horizontal of base_link
   std::optional<double> min_height, max_height;  ///< of the flange in base_link, m
   std::optional<double> min_tracker_distance, max_tracker_distance;  ///< of the flange, m
   /// The line below the hook stays this far (m, horizontally) from every part of the arm's skeleton below it.
   std::optional<double> min_hang_clearance;
+
+  /// Of a robot of so many joints, the box without width at zero.
+  explicit PostureDraw(int joints) : low(JointVector::Zero(joints)), high(low) {}
 };
 
 struct CircleSweepSpec {
-  int axis = 0;  ///< 0..5
+  int axis = 0;  ///< from 0
   double start = 0.0, stop = 0.0;
   int count = 0;
-  Vector6d others = Vector6d::Zero();  ///< where the other axes stand (its own entry plays no part)
+  JointVector others;  ///< where the other axes stand (its own entry plays no part); empty: at zero
 };
 
 enum class WristScheme {
@@ -363,8 +368,8 @@ enum class WristScheme {
 struct WristSweepSpec {
   int readings = 0;  ///< rows in all
   WristScheme scheme = WristScheme::one_target;
-  Eigen::Vector3d arm = Eigen::Vector3d::Zero();                                  ///< q1..q3
-  Eigen::Vector3d low = Eigen::Vector3d::Zero(), high = Eigen::Vector3d::Zero();  ///< q4..q6
+  JointVector arm;        ///< of the joints before the wrist (robot::armJointsOf); empty: at zero
+  JointVector low, high;  ///< of the wrist's joints
 };
 
 struct NestSpec {
@@ -382,7 +387,9 @@ struct Timing {
 /// at rest.
 struct EarlyLog {
   double after = 0.0;
-  Vector6d time_constants = Vector6d::Constant(0.05);  ///< s
+  JointVector time_constants;  ///< s
+
+  EarlyLog(double after_s, const JointVector& constants) : after(after_s), time_constants(constants) {}
 };
 
 /// A machine and its measurement. Empty tables: that part of the day did not happen.

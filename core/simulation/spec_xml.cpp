@@ -60,6 +60,11 @@ std::vector<double> numberList(const io::XmlNode& node, const std::string& attri
   return numbers;
 }
 
+JointVector jointNumbers(const io::XmlNode& node, const std::string& attribute, int count, double unit) {
+  const std::vector<double> values = numberList(node, attribute, static_cast<std::size_t>(count), unit);
+  return Eigen::Map<const JointVector>(values.data(), count);
+}
+
 std::optional<double> optionalNumber(const io::XmlNode& node, const std::string& attribute, double unit) {
   if (!node.has(attribute)) return std::nullopt;
   return node.number(attribute) * unit;

@@ -16,28 +16,28 @@
 
 namespace stiffscope::simulation {
 
-MachineSpec readMachine(const io::XmlNode& root);
-JointStiffness readJoint(const io::XmlNode& node, int index);     ///< 0..5
-void readSprings(const io::XmlNode& root, MachineSpec& machine);  ///< after the joints
+MachineSpec readMachine(const io::XmlNode& root, int joints);
+JointStiffness readJoint(const io::XmlNode& node, int index, int joints);  ///< from 0, of so many
+void readSprings(const io::XmlNode& root, MachineSpec& machine);           ///< after the joints
 void readBaseContacts(const io::XmlNode& base, MachineSpec& machine);
 ToolPlate readToolPlate(const io::XmlNode& node);
 LoosePlate readLoosePlate(const io::XmlNode& node);
-void readSlowChanges(const io::XmlNode& root, MachineSpec& machine);
+void readSlowChanges(const io::XmlNode& root, MachineSpec& machine);  ///< after the joints
 
 std::vector<TrueTarget> readTargets(const io::XmlNode& root);
 TargetMotion readTargetMotion(const io::XmlNode& node);
 TrackerSpec readTracker(const io::XmlNode& root);
 StationSpec readStation(const io::XmlNode& root);
 std::optional<TemperatureCourse> readTemperature(const io::XmlNode& root);
-std::optional<EarlyLog> readEarlyLog(const io::XmlNode& robot);
+std::optional<EarlyLog> readEarlyLog(const io::XmlNode& robot, int joints);
 std::optional<LoadCellSpec> readLoadCell(const io::XmlNode& root, const robot::Robot& robot);
 
 std::optional<LoadingSpec> readLoading(const io::XmlNode& root);
 void readSwing(const io::XmlNode& load, LoadingSpec& loading);
 void readPostures(const io::XmlNode& root, SimulationSpec& spec);  ///< after nominal and loading
 
-std::vector<CircleSweepSpec> readCircleSweeps(const io::XmlNode& root);
-std::optional<WristSweepSpec> readWristSweep(const io::XmlNode& root, std::size_t targets);
+std::vector<CircleSweepSpec> readCircleSweeps(const io::XmlNode& root, int joints);
+std::optional<WristSweepSpec> readWristSweep(const io::XmlNode& root, int joints, std::size_t targets);
 void readNestsAndTimes(const io::XmlNode& root, SimulationSpec& spec);
 
 /// Refuses attributes and child elements of `node` that are not listed, naming the nearest that is.
@@ -46,6 +46,8 @@ void refuseUnknown(const io::XmlNode& node, const std::vector<std::string>& attr
 
 /// Exactly `count` numbers (any number of them, at least one, for 0), times `unit`.
 std::vector<double> numberList(const io::XmlNode& node, const std::string& attribute, std::size_t count, double unit);
+/// The same of up to kMostJoints.
+JointVector jointNumbers(const io::XmlNode& node, const std::string& attribute, int count, double unit);
 
 std::optional<double> optionalNumber(const io::XmlNode& node, const std::string& attribute, double unit);
 double numberOr(const io::XmlNode& node, const std::string& attribute, double unit, double otherwise);

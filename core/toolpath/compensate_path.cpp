@@ -14,11 +14,12 @@ namespace {
 
 /// Joint angles at which the unloaded arm, bent by its own weight, holds the tool; empty where it does not come to rest
 /// or the steps do not end. The rigid arm is sent to the pose less the sag found before: a contraction of a hundredth.
-std::optional<Vector6d> bentSolution(const compensation::DeflectingArm& arm, const Eigen::Isometry3d& flange_from_tool,
-                                     const Eigen::Isometry3d& r0_from_tool, const Vector6d& rigid) {
+std::optional<JointVector> bentSolution(const compensation::DeflectingArm& arm,
+                                        const Eigen::Isometry3d& flange_from_tool,
+                                        const Eigen::Isometry3d& r0_from_tool, const JointVector& rigid) {
   constexpr int kMostSteps = 20;
   constexpr double kClose = 1e-9;  // m and rad
-  Vector6d q = rigid;
+  JointVector q = rigid;
   Eigen::Isometry3d sent = r0_from_tool;
   for (int step = 0; step < kMostSteps; ++step) {
     const auto flange = compensation::restingFlange(arm.geometry, arm.estimate, arm.with, q);
@@ -38,7 +39,7 @@ std::optional<Vector6d> bentSolution(const compensation::DeflectingArm& arm, con
 
 SmallMotion offsetOf(const compensation::DeflectingArm& arm, const PathJob& job,
                      const Eigen::Matrix3d& workpiece_from_r0, const compensation::CompensatedPosture& found) {
-  const auto toolAt = [&](const Vector6d& q) {
+  const auto toolAt = [&](const JointVector& q) {
     return robot::flangeAt(arm.geometry.arm, robot::postureAt(arm.geometry.arm, q)) * job.flange_from_tool;
   };
   const Eigen::Isometry3d before = toolAt(found.posture.q), after = toolAt(found.commands);
@@ -54,7 +55,7 @@ JointPathOptions jointOptions(const compensation::DeflectingArm& arm, const Path
       if (state.step == 0) options.seeds.push_back(state.q);
     }
   }
-  options.seeds.push_back(Vector6d::Zero());
+  options.seeds.push_back(JointVector::Zero(arm.geometry.arm.joints()));
   if (arm.certainty != nullptr && !options.preferred_low) {
     options.preferred_low = arm.certainty->range.low;
     options.preferred_high = arm.certainty->range.high;
@@ -103,7 +104,9 @@ CompensatedPath compensatePath(const compensation::DeflectingArm& arm, const Pat
     pose.wrench = wrenches[i];
     compensation::CompensatedPosture& found = pose.compensated;
     found.posture.id = job.path.poses[i].id;
-    found.posture.q.setConstant(std::numeric_limits<double>::quiet_NaN());
+    const int axes = arm.geometry.arm.joints();
+    found.posture.q = JointVector::Constant(axes, std::numeric_limits<double>::quiet_NaN());
+    found.commands = pose.joint_torque = JointVector::Zero(axes);
     found.reason = pose.joints.reason.empty() ? pose.wrench.reason : pose.joints.reason;
     if (!pose.joints.q.allFinite()) return;
     const auto q = bentSolution(arm, job.flange_from_tool, pose.joints.base_from_tool, pose.joints.q);

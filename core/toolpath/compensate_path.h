@@ -12,23 +12,23 @@
 namespace stiffscope::toolpath {
 
 struct JointPathOptions {
-  std::optional<Vector6d> start;     ///< near it lies the branch that is wanted, rad; empty: the best of all found
-  std::vector<Vector6d> seeds;       ///< postures from which branches are looked for, besides drawn ones, rad
+  std::optional<JointVector> start;  ///< near it lies the branch that is wanted, rad; empty: the best of all found
+  std::vector<JointVector> seeds;    ///< postures from which branches are looked for, besides drawn ones, rad
   double least_conditioning = 0.01;  ///< below it a posture is too near a singularity
   double turn_per_metre = 3.0;       ///< most of the free turn about the tool's axis, rad per m of the path
   /// Joint angles among which postures are preferred: those that a day identified from, rad. Of an infinite one there
   /// is no limit.
-  std::optional<Vector6d> preferred_low, preferred_high;
+  std::optional<JointVector> preferred_low, preferred_high;
 };
 
 /// Joint angles for one pose of the path.
 struct JointPathPose {
-  Vector6d q = Vector6d::Zero();                                     ///< rad
+  JointVector q;                                                     ///< rad
   Eigen::Isometry3d base_from_tool = Eigen::Isometry3d::Identity();  ///< with the turn about the tool's axis put in
   double turn = 0.0;          ///< about the tool's z axis, from the pose as it was given, rad
   double conditioning = 0.0;  ///< conditioningAt the tool's origin
   double limit_margin = 0.0;  ///< from the nearest joint limit, rad; negative outside
-  int nearest_limit = 0;      ///< whose limit that is, 0..5
+  int nearest_limit = 0;      ///< whose limit that is, from 0
   Remark reason;              ///< why it is not usable; empty where it is
 };
 
@@ -46,6 +46,10 @@ struct JointPath {
 ///   deg)^2.
 /// Whole turns of a joint are chosen for the whole path. A pose out of reach has the reason; the path goes on from the
 /// last one that was reached.
+///
+/// Of more than six joints a branch is a family of postures: steps from one pose to the next turn the joints as little
+/// as they can, and the cost chooses among the families that the first pose was found in, not along the path. Fewer
+/// than six joints hold some poses only: then no pose has joint angles, and the reason says so.
 JointPath jointPath(const robot::Robot& arm, const std::vector<Eigen::Isometry3d>& base_from_tool,
                     const Eigen::Isometry3d& flange_from_tool, bool turn_free, const JointPathOptions& options);
 
@@ -74,9 +78,9 @@ struct CompensatedPathPose {
   /// At the joint angles at which the arm, bent by its own weight, holds the tool at the pose. Not a number where there
   /// are none; its `tcp` is the tool's tip.
   compensation::CompensatedPosture compensated;
-  SmallMotion deflection;                    ///< by the process, without compensation
-  SmallMotion offset;                        ///< to add to the programmed pose, in place of other joint commands
-  Vector6d joint_torque = Vector6d::Zero();  ///< of the process, Nm
+  SmallMotion deflection;    ///< by the process, without compensation
+  SmallMotion offset;        ///< to add to the programmed pose, in place of other joint commands
+  JointVector joint_torque;  ///< of the process, Nm
 
   ToolWrench wrenchAtTip() const;  ///< its moment about the tip
 };

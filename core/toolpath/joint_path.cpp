@@ -25,9 +25,9 @@ struct LimitMargin {
   int joint = 0;
 };
 
-LimitMargin limitMargin(const Robot& arm, const Vector6d& q) {
+LimitMargin limitMargin(const Robot& arm, const JointVector& q) {
   LimitMargin nearest;
-  for (int j = 0; j < 6; ++j) {
+  for (int j = 0; j < arm.joints(); ++j) {
     const robot::JointLimits& limits = arm.limits[static_cast<std::size_t>(j)];
     const double margin = std::min(q[j] - limits.lower, limits.upper - q[j]);
     if (margin < nearest.margin) nearest = {margin, j};
@@ -47,9 +47,9 @@ class Follower {
       : arm_(arm), poses_(poses), flange_from_tool_(flange_from_tool), turn_free_(turn_free), options_(options) {}
 
   /// From joint angles at which the first pose, turned so, is held.
-  std::vector<JointPathPose> follow(const Vector6d& first, double first_turn) const {
+  std::vector<JointPathPose> follow(const JointVector& first, double first_turn) const {
     std::vector<JointPathPose> path;
-    Vector6d last = first;  // reached last
+    JointVector last = first;  // reached last
     std::size_t last_reached = 0;
     double turn = first_turn;
     for (std::size_t i = 0; i < poses_.size(); ++i) {
@@ -63,7 +63,7 @@ class Follower {
     return path;
   }
 
-  double costAt(std::size_t pose, double turn, const Vector6d& q) const {
+  double costAt(std::size_t pose, double turn, const JointVector& q) const {
     return cost(q, conditioning(q, turned(poses_[pose], turn)));
   }
 
@@ -74,15 +74,15 @@ class Follower {
     double jump = 0.0;
   };
 
-  double conditioning(const Vector6d& q, const Eigen::Isometry3d& base_from_tool) const {
+  double conditioning(const JointVector& q, const Eigen::Isometry3d& base_from_tool) const {
     return robot::conditioningAt(robot::axesAt(arm_, robot::postureAt(arm_, q)), base_from_tool.translation());
   }
 
-  double cost(const Vector6d& q, double conditioning) const {
+  double cost(const JointVector& q, double conditioning) const {
     constexpr double kNear = 10.0 * io::kDegree, kLeastMargin = 1.0 * io::kDegree, kBeyond = 15.0 * io::kDegree;
     const auto square = [](double value) { return value * value; };
     double sum = square(0.05 / std::max(1e-3, conditioning));
-    for (int j = 0; j < 6; ++j) {
+    for (int j = 0; j < arm_.joints(); ++j) {
       const robot::JointLimits& limits = arm_.limits[static_cast<std::size_t>(j)];
       const double margin = std::min(q[j] - limits.lower, limits.upper - q[j]);
       sum += square(kNear / std::max(kLeastMargin, margin));
@@ -95,7 +95,7 @@ class Follower {
   }
 
   /// From the pose reached last, in parts, so that Newton's steps stay on the branch.
-  Reached reach(std::size_t pose, std::size_t from, const Vector6d& start, double from_turn, double turn) const {
+  Reached reach(std::size_t pose, std::size_t from, const JointVector& start, double from_turn, double turn) const {
     constexpr double kPart = 0.03, kPartTurn = 0.06, kJump = 0.35;
     const Eigen::Isometry3d begin = turned(poses_[from], from_turn), end = turned(poses_[pose], turn);
     const Eigen::Quaterniond begin_turn(begin.linear()), end_turn(end.linear());
@@ -111,7 +111,7 @@ class Follower {
         between.translation() = (1.0 - share) * begin.translation() + share * end.translation();
         between.linear() = begin_turn.slerp(share, end_turn).toRotationMatrix();
       }
-      const Vector6d before = reached.found.q;
+      const JointVector before = reached.found.q;
       reached.found = robot::inverseKinematics(arm_, between, flange_from_tool_, before);
       Eigen::Index joint = 0;
       const double change = (reached.found.q - before).cwiseAbs().maxCoeff(&joint);
@@ -125,7 +125,7 @@ class Follower {
 
   /// The turn within reach of `turn` at which the posture costs least: the vertex of the parabola through three of
   /// them.
-  double betterTurn(std::size_t pose, std::size_t from, const Vector6d& start, double turn, bool first) const {
+  double betterTurn(std::size_t pose, std::size_t from, const JointVector& start, double turn, bool first) const {
     const double step = (poses_[pose].translation() - poses_[from].translation()).norm();
     const double most = first ? 0.0 : std::min(0.1, options_.turn_per_metre * step);
     if (most <= 0.0) return turn;
@@ -166,7 +166,7 @@ class Follower {
 
 /// Moves joints by a whole turn for the whole path where that brings more poses within the limits.
 void chooseWholeTurns(const Robot& arm, std::vector<JointPathPose>& path) {
-  for (int j = 0; j < 6; ++j) {
+  for (int j = 0; j < arm.joints(); ++j) {
     const robot::JointLimits& limits = arm.limits[static_cast<std::size_t>(j)];
     const auto outside = [&](double shift) {
       return std::count_if(path.begin(), path.end(), [&](const JointPathPose& pose) {
@@ -192,24 +192,37 @@ void addMargins(const Robot& arm, std::vector<JointPathPose>& path) {
 
 /// A solution of the first pose.
 struct Start {
-  Vector6d q;
+  JointVector q;
   double turn = 0.0, cost = 0.0;
 };
 
-std::vector<Vector6d> seedsOf(const Robot& arm, const JointPathOptions& options) {
+std::vector<JointVector> seedsOf(const Robot& arm, const JointPathOptions& options) {
   if (options.start) return {*options.start};
-  std::vector<Vector6d> seeds = options.seeds;
+  std::vector<JointVector> seeds = options.seeds;
   constexpr int kDrawn = 60;
   numerics::RandomStream random(1, "inverse kinematics");
   for (int k = 0; k < kDrawn; ++k) {
-    Vector6d q;
-    for (int j = 0; j < 6; ++j) {
+    JointVector q(arm.joints());
+    for (int j = 0; j < arm.joints(); ++j) {
       const robot::JointLimits& limits = arm.limits[static_cast<std::size_t>(j)];
       q[j] = random.uniform(std::max(limits.lower, -std::numbers::pi), std::min(limits.upper, std::numbers::pi));
     }
     seeds.push_back(q);
   }
   return seeds;
+}
+
+/// Of a machine that cannot hold a tool at any pose.
+JointPath refused(const Robot& arm, const std::vector<Eigen::Isometry3d>& base_from_tool) {
+  JointPath path;
+  for (const Eigen::Isometry3d& wanted : base_from_tool) {
+    JointPathPose pose;
+    pose.q = JointVector::Constant(arm.joints(), std::numeric_limits<double>::quiet_NaN());
+    pose.base_from_tool = wanted;
+    pose.reason = Remark(RemarkId::fewer_than_six_joints, arm.joints());
+    path.poses.push_back(std::move(pose));
+  }
+  return path;
 }
 
 }  // namespace
@@ -220,17 +233,18 @@ JointPath jointPath(const robot::Robot& arm, const std::vector<Eigen::Isometry3d
   constexpr int kTurns = 12;
   JointPath result;
   if (base_from_tool.empty()) return result;
+  if (arm.joints() < 6) return refused(arm, base_from_tool);
   const Follower follower(arm, base_from_tool, flange_from_tool, turn_free, options);
-  const std::vector<Vector6d> seeds = seedsOf(arm, options);
+  const std::vector<JointVector> seeds = seedsOf(arm, options);
   const std::size_t turns = turn_free ? kTurns : 1;
   std::vector<std::vector<Start>> by_turn(turns);
   numerics::onAllCores(turns, [&](std::size_t k) {
     const double turn = kFullTurn * static_cast<double>(k) / static_cast<double>(turns);
-    for (Vector6d q :
+    for (JointVector q :
          robot::inverseKinematicsBranches(arm, turned(base_from_tool.front(), turn), flange_from_tool, seeds)) {
       // The whole turns of a stated start are meant.
       if (options.start) {
-        for (int j = 0; j < 6; ++j) q[j] += kFullTurn * std::round(((*options.start)[j] - q[j]) / kFullTurn);
+        for (int j = 0; j < arm.joints(); ++j) q[j] += kFullTurn * std::round(((*options.start)[j] - q[j]) / kFullTurn);
       }
       by_turn[k].push_back({q, turn, follower.costAt(0, turn, q)});
     }

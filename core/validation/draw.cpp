@@ -10,6 +10,7 @@
 #include "core/numerics/random.h"
 #include "core/robot/read_urdf.h"
 #include "core/simulation/postures.h"
+#include "core/validation/day_parts.h"
 #include "core/validation/effect_draw.h"
 
 namespace stiffscope::validation {
@@ -125,8 +126,6 @@ namespace {
 using Eigen::Vector3d;
 using numerics::RandomStream;
 
-constexpr int kPostures = 24;
-
 int pick(numerics::RandomStream& random, int count) {
   return std::min(count - 1, static_cast<int>(random.uniform() * count));
 }
@@ -140,22 +139,25 @@ ArmModel drawArm(numerics::RandomStream& random) {
   return model;
 }
 
-double reach(const ArmModel& m) { return m.a1 + m.a2 + m.d4 + m.d6; }
+DayScale scaleOf(const ArmModel& m) { return {m.a1 + m.a2 + m.d4 + m.d6, m.tool_kg, m.load_n}; }
 
-void addSprings(const ArmModel& model, numerics::RandomStream& random, simulation::SimulationSpec& spec) {
-  for (std::size_t i = 0; i < 6; ++i) {
-    spec.machine.joints[i].torsion = model.stiffness[i];
-    spec.machine.joints[i].bearing = 1200.0 * model.stiffness[i] * std::exp(0.3 * random.normal());
+}  // namespace
+
+void addSprings(const std::vector<double>& stiffness, const DayScale& day, RandomStream& random,
+                simulation::SimulationSpec& spec) {
+  for (std::size_t i = 0; i < stiffness.size(); ++i) {
+    spec.machine.joints[i].torsion = stiffness[i];
+    spec.machine.joints[i].bearing = 1200.0 * stiffness[i] * std::exp(0.3 * random.normal());
   }
   spec.machine.geometry.position_sigma = 1e-4;
   spec.machine.geometry.direction_sigma = 0.006 * io::kDegree;
   spec.machine.geometry.zero_sigma = 0.006 * io::kDegree;
   spec.machine.geometry.wrist_position_sigma = 3e-5;
-  spec.machine.tool = {model.tool_kg, Vector3d(0, 0, 0.1)};
+  spec.machine.tool = {day.tool_kg, Vector3d(0, 0, 0.1)};
 }
 
-void addInstruments(const ArmModel& model, numerics::RandomStream& random, simulation::SimulationSpec& spec) {
-  const double size = 0.07 + 0.06 * reach(model);
+void addInstruments(const DayScale& day, RandomStream& random, simulation::SimulationSpec& spec) {
+  const double size = 0.07 + 0.06 * day.reach;
   for (int t = 0; t < 3; ++t) {
     const double angle = 2.0 * std::numbers::pi * t / 3 + random.uniform(-0.3, 0.3);
     const double radius = size * random.uniform(0.9, 1.2);
@@ -167,14 +169,14 @@ void addInstruments(const ArmModel& model, numerics::RandomStream& random, simul
   tracker.declared = {"absolute tracker", 4e-6 * quality,   0.6e-6 * quality,
                       6e-6 * quality,     2.2e-6 * quality, Vector3d::Zero()};
   const double bearing = random.uniform(-0.6, 0.6);
-  const double distance = 1.3 * reach(model) + random.uniform(0.8, 1.6);
+  const double distance = 1.3 * day.reach + random.uniform(0.8, 1.6);
   tracker.base_from_tracker.linear() = (Eigen::AngleAxisd(random.uniform(-3.1, 3.1), Vector3d::UnitZ()) *
                                         Eigen::AngleAxisd(0.3 * io::kDegree * random.normal(), Vector3d::UnitX()) *
                                         Eigen::AngleAxisd(0.3 * io::kDegree * random.normal(), Vector3d::UnitY()))
                                            .toRotationMatrix();
   tracker.base_from_tracker.translation() << distance * std::cos(bearing), distance * std::sin(bearing),
       random.uniform(0.9, 1.4);
-  const double round = reach(model) + 0.5;
+  const double round = day.reach + 0.5;
   for (int n = 0; n < 4; ++n) {
     const double angle = 0.7 + 1.4 * n + random.uniform(-0.3, 0.3);
     spec.nests.push_back(
@@ -184,6 +186,8 @@ void addInstruments(const ArmModel& model, numerics::RandomStream& random, simul
   spec.timing.nest_interval_s = 2400.0;
 }
 
+namespace {
+
 /// Down, and five level or rising to the sides: a cable over pulleys at the walls.
 Vector3d pullDirection(int posture) {
   if (posture % 6 == 0) return -Vector3d::UnitZ();
@@ -191,9 +195,17 @@ Vector3d pullDirection(int posture) {
   return Vector3d(std::cos(angle), std::sin(angle), posture % 2 == 0 ? 0.35 : -0.4).normalized();
 }
 
-std::string addLoad(const ArmModel& model, numerics::RandomStream& random, simulation::SimulationSpec& spec) {
+}  // namespace
+
+void pullAllRound(simulation::SimulationSpec& spec) {
+  for (std::size_t p = 0; p < spec.postures.size(); ++p) {
+    spec.postures[p].pull_direction = pullDirection(static_cast<int>(p));
+  }
+}
+
+std::string addLoad(const DayScale& day, RandomStream& random, simulation::SimulationSpec& spec) {
   spec.loading.emplace();
-  const double full = random.uniform(model.load_n[0], model.load_n[1]);
+  const double full = random.uniform(day.load_n[0], day.load_n[1]);
   const std::array<double, 3> shares{0.4, 0.7, 1.0};
   const bool hanging = random.uniform() < 0.6;
   if (hanging) {
@@ -205,7 +217,7 @@ std::string addLoad(const ArmModel& model, numerics::RandomStream& random, simul
     for (const double share : shares) cable.tensions.push_back(share * full);
     spec.loading->load = cable;
   }
-  const double size = 0.02 + 0.04 * reach(model);
+  const double size = 0.02 + 0.04 * day.reach;
   spec.loading->hook_in_flange = Vector3d(random.uniform(-size, size), random.uniform(-size, size), 0.16 + size);
   spec.load_cell.emplace();
   campaign::LoadCell& cell = spec.load_cell->declared;
@@ -217,10 +229,18 @@ std::string addLoad(const ArmModel& model, numerics::RandomStream& random, simul
   return hanging ? "hanging" : "cable";
 }
 
+void listPostures(simulation::SimulationSpec& spec) {
+  const std::vector<simulation::Posture> postures = simulation::loadingPostures(spec);
+  spec.posture_draw.reset();
+  for (const simulation::Posture& posture : postures) spec.postures.push_back({posture.q, {}});
+}
+
+namespace {
+
 /// A box of joint angles, deg, stated for positive senses.
 simulation::PostureDraw postureBox(const ArmModel& model, const std::array<double, 6>& low,
                                    const std::array<double, 6>& high) {
-  simulation::PostureDraw draw;
+  simulation::PostureDraw draw(6);
   for (int i = 0; i < 6; ++i) {
     const std::size_t k = static_cast<std::size_t>(i);
     const bool same = model.sense[k] > 0;
@@ -230,29 +250,19 @@ simulation::PostureDraw postureBox(const ArmModel& model, const std::array<doubl
   return draw;
 }
 
-/// Draws the postures now, so that what an effect draws leaves them alone.
-void listPostures(simulation::SimulationSpec& spec) {
-  const std::vector<simulation::Posture> postures = simulation::loadingPostures(spec);
-  spec.posture_draw.reset();
-  for (const simulation::Posture& posture : postures) spec.postures.push_back({posture.q, {}});
-}
-
 /// Postures as a person would choose them: spread out, clear of the wrist's singularity, the flange level or
 /// down, in the tracker's reach, for a hanging load the chain clear of the arm.
 void addPostures(const ArmModel& model, bool hanging, simulation::SimulationSpec& spec) {
   simulation::PostureDraw draw = postureBox(model, {-50, -40, -60, -120, -100, -150}, {50, 55, 35, 120, 100, 150});
-  draw.count = kPostures;
+  draw.count = kLoadedPostures;
   draw.candidates = 8;
-  draw.min_abs_sin_q5 = 0.4;
+  draw.min_abs_sin_bend = 0.4;
   draw.max_flange_up = 25.0 * io::kDegree;
-  draw.min_height = 0.25 * reach(model);
-  if (hanging) draw.min_hang_clearance = 0.06 * reach(model);
+  draw.min_height = 0.25 * scaleOf(model).reach;
+  if (hanging) draw.min_hang_clearance = 0.06 * scaleOf(model).reach;
   spec.posture_draw = draw;
   listPostures(spec);
-  if (hanging) return;
-  for (std::size_t p = 0; p < spec.postures.size(); ++p) {
-    spec.postures[p].pull_direction = pullDirection(static_cast<int>(p));
-  }
+  if (!hanging) pullAllRound(spec);
 }
 
 void addSweeps(const ArmModel& model, simulation::SimulationSpec& spec) {
@@ -261,7 +271,7 @@ void addSweeps(const ArmModel& model, simulation::SimulationSpec& spec) {
     const std::size_t k = static_cast<std::size_t>(i);
     const double sense = model.sense[k];
     spec.circle_sweeps.push_back(
-        {i, sense * low[k] * io::kDegree, sense * high[k] * io::kDegree, 24, Vector6d::Zero()});
+        {i, sense * low[k] * io::kDegree, sense * high[k] * io::kDegree, 24, JointVector::Zero(6)});
   }
   spec.wrist_sweep.emplace();
   spec.wrist_sweep->readings = 360;
@@ -273,15 +283,12 @@ void addSweeps(const ArmModel& model, simulation::SimulationSpec& spec) {
 
 }  // namespace
 
-namespace {
-
-/// An arm of the catalogue and what all its days have: URDF, name, seed.
-MachineDraw beginDraw(const ArmModel& model, std::uint64_t seed, const std::string& name,
-                      const std::filesystem::path& urdf_file) {
+MachineDraw beginDay(const std::string& urdf_text, const std::string& arm_name, std::uint64_t seed,
+                     const std::string& name, const std::filesystem::path& urdf_file) {
   io::makeFolder(urdf_file.parent_path());
-  io::writeFileWhole(urdf_file, armUrdf(model));
+  io::writeFileWhole(urdf_file, urdf_text);
   MachineDraw draw;
-  draw.arm = std::string(model.name);
+  draw.arm = arm_name;
   simulation::SimulationSpec& spec = draw.spec;
   spec.name = name;
   spec.date = "2026-01-01";
@@ -290,19 +297,19 @@ MachineDraw beginDraw(const ArmModel& model, std::uint64_t seed, const std::stri
   spec.base_link = "base_link";
   spec.flange_link = "tool0";
   spec.nominal = robot::readUrdf(urdf_file, spec.base_link, spec.flange_link);
+  spec.machine.joints.resize(static_cast<std::size_t>(spec.nominal.joints()));
   spec.read_back_resolution = 1e-5 * io::kDegree;
   return draw;
 }
 
-}  // namespace
-
 MachineDraw drawMachine(std::uint64_t seed, const std::string& name, const std::filesystem::path& urdf_file) {
   numerics::RandomStream random(seed, "machine");
   const ArmModel model = drawArm(random);
-  MachineDraw draw = beginDraw(model, seed, name, urdf_file);
-  addSprings(model, random, draw.spec);
-  addInstruments(model, random, draw.spec);
-  draw.loading = addLoad(model, random, draw.spec);
+  MachineDraw draw = beginDay(armUrdf(model), std::string(model.name), seed, name, urdf_file);
+  const DayScale day = scaleOf(model);
+  addSprings({model.stiffness.begin(), model.stiffness.end()}, day, random, draw.spec);
+  addInstruments(day, random, draw.spec);
+  draw.loading = addLoad(day, random, draw.spec);
   addPostures(model, draw.loading == "hanging", draw.spec);
   addSweeps(model, draw.spec);
   return draw;
@@ -311,14 +318,14 @@ MachineDraw drawMachine(std::uint64_t seed, const std::string& name, const std::
 MachineDraw drawUnloadedMachine(std::uint64_t seed, const std::string& name, const std::filesystem::path& urdf_file) {
   numerics::RandomStream random(seed, "machine");
   const ArmModel model = drawArm(random);
-  MachineDraw draw = beginDraw(model, seed, name, urdf_file);
+  MachineDraw draw = beginDay(armUrdf(model), std::string(model.name), seed, name, urdf_file);
   draw.loading = "unloaded";
   simulation::SimulationSpec& spec = draw.spec;
   spec.machine.geometry.position_sigma = 2e-4 * random.uniform(0.6, 1.4);
   spec.machine.geometry.direction_sigma = spec.machine.geometry.zero_sigma =
       0.008 * io::kDegree * random.uniform(0.6, 1.4);
   spec.machine.mass_relative_sigma = 0.02;
-  addInstruments(model, random, spec);
+  addInstruments(scaleOf(model), random, spec);
   if (random.uniform() < 1.0 / 7.0) spec.targets.resize(1);
   if (random.uniform() < 0.2) spec.nests.clear();
   spec.nests_after_sweeps = false;
@@ -328,7 +335,7 @@ MachineDraw drawUnloadedMachine(std::uint64_t seed, const std::string& name, con
   simulation::PostureDraw postures =
       postureBox(model, {-130, -50, -70, -170, -110, -170}, {130, 70, 50, 170, 110, 170});
   postures.count = 60 + pick(random, 141);
-  postures.min_height = 0.1 * reach(model);
+  postures.min_height = 0.1 * scaleOf(model).reach;
   postures.min_tracker_distance = 0.6;
   spec.posture_draw = postures;
   listPostures(spec);

@@ -20,6 +20,15 @@ int drawIndex(int count, numerics::RandomStream& random) {
   return std::min(count - 1, static_cast<int>(random.uniform() * count));
 }
 
+namespace {
+
+double length(const simulation::SimulationSpec& spec, int joint) {
+  const auto& axes = spec.nominal.axes_in_base_at_zero;
+  return (axes[static_cast<std::size_t>(joint) + 1].point - axes[static_cast<std::size_t>(joint)].point).norm();
+}
+
+}  // namespace
+
 double fullLoad(const simulation::SimulationSpec& spec) {
   if (const auto* weights = std::get_if<simulation::HangingWeights>(&spec.loading->load)) {
     return weights->masses_kg.back() * 9.80665;
@@ -30,8 +39,15 @@ double fullLoad(const simulation::SimulationSpec& spec) {
 double usualTorque(const simulation::SimulationSpec& spec, int joint) {
   const Vector3d flange = spec.nominal.base_from_flange_at_zero.translation();
   const Vector3d axis = spec.nominal.axes_in_base_at_zero[static_cast<std::size_t>(joint)].point;
-  // The hook's own offset is what turns joint 6.
+  // The hook's own offset is what turns the last joint.
   return fullLoad(spec) * (0.5 * (flange - axis).norm() + 0.5 * spec.loading->hook_in_flange.norm());
+}
+
+std::array<int, 2> longestLinks(const simulation::SimulationSpec& spec) {
+  std::vector<int> joints;
+  for (int joint = 1; joint + 1 < spec.nominal.joints(); ++joint) joints.push_back(joint);
+  std::stable_sort(joints.begin(), joints.end(), [&](int a, int b) { return length(spec, a) > length(spec, b); });
+  return {std::min(joints[0], joints[1]), std::max(joints[0], joints[1])};
 }
 
 namespace {
@@ -42,19 +58,18 @@ double torsion(const simulation::SimulationSpec& spec, int joint) {
 
 std::string jointName(int joint) { return "joint " + std::to_string(joint + 1); }
 
-double length(const simulation::SimulationSpec& spec, int joint) {
-  const auto& axes = spec.nominal.axes_in_base_at_zero;
-  return (axes[static_cast<std::size_t>(joint) + 1].point - axes[static_cast<std::size_t>(joint)].point).norm();
+std::string allJoints(const simulation::SimulationSpec& spec) {
+  return "joints 1 to " + std::to_string(spec.nominal.joints());
 }
 
 /// A beam as stiff, at strength 1, as the joint it follows: EI / L and GJ / L are the joint's stiffness.
 EffectDraw linkCompliance(const simulation::SimulationSpec& machine, numerics::RandomStream& random) {
-  const std::array<int, 2> links{1, 3};  // the upper arm, the forearm from axis 4 to axis 5
-  const int joint = links[static_cast<std::size_t>(drawIndex(2, random))];
+  const int which = drawIndex(2, random);
+  const int joint = longestLinks(machine)[static_cast<std::size_t>(which)];
   const double twist = random.uniform(0.5, 2.0);
   const double root = torsion(machine, std::min(joint, 2));
   EffectDraw draw;
-  draw.detail = joint == 1 ? "upper arm" : "forearm";
+  draw.detail = which == 0 ? "upper arm" : "forearm";
   draw.most = 2.0;
   draw.apply = [=](double s, simulation::SimulationSpec& spec) {
     if (s <= 0.0) return;
@@ -64,8 +79,8 @@ EffectDraw linkCompliance(const simulation::SimulationSpec& machine, numerics::R
   return draw;
 }
 
-EffectDraw bearingTilt(numerics::RandomStream& random) {
-  const int joint = drawIndex(5, random);
+EffectDraw bearingTilt(const simulation::SimulationSpec& machine, numerics::RandomStream& random) {
+  const int joint = drawIndex(machine.nominal.joints() - 1, random);
   EffectDraw draw;
   draw.detail = jointName(joint);
   draw.most = 3.0;
@@ -87,8 +102,10 @@ EffectDraw baseCompliance(const simulation::SimulationSpec& machine, numerics::R
 }
 
 EffectDraw jointCoupling(const simulation::SimulationSpec& machine, numerics::RandomStream& random) {
-  const std::array<std::array<int, 2>, 3> pairs{{{1, 2}, {3, 4}, {4, 5}}};
-  const std::array<int, 2> pair = pairs[static_cast<std::size_t>(drawIndex(3, random))];
+  const int joints = machine.nominal.joints();
+  std::vector<std::array<int, 2>> pairs{{1, 2}};  // a parallelogram, or within the wrist
+  for (int j = robot::armJointsOf(joints); j + 1 < joints; ++j) pairs.push_back({j, j + 1});
+  const std::array<int, 2> pair = pairs[static_cast<std::size_t>(drawIndex(static_cast<int>(pairs.size()), random))];
   const double ratio = random.uniform(0.5, 1.2) * (random.uniform() < 0.5 ? -1.0 : 1.0);
   const double a = torsion(machine, pair[0]), b = torsion(machine, pair[1]);
   EffectDraw draw;
@@ -102,7 +119,7 @@ EffectDraw jointCoupling(const simulation::SimulationSpec& machine, numerics::Ra
 }
 
 EffectDraw jointHardening(const simulation::SimulationSpec& machine, numerics::RandomStream& random) {
-  const std::array<int, 3> joints{1, 2, 4};
+  const std::array<int, 3> joints{1, 2, machine.nominal.joints() - 2};
   const int joint = joints[static_cast<std::size_t>(drawIndex(3, random))];
   const double k = torsion(machine, joint), torque = usualTorque(machine, joint);
   const int kind = drawIndex(3, random);
@@ -124,8 +141,10 @@ EffectDraw jointHardening(const simulation::SimulationSpec& machine, numerics::R
 }
 
 EffectDraw backlash(const simulation::SimulationSpec& machine, numerics::RandomStream& random) {
-  const std::array<int, 4> joints{0, 3, 4, 5};  // those whose torque changes sign with posture and load
-  const int joint = joints[static_cast<std::size_t>(drawIndex(4, random))];
+  // Those whose torque changes sign with posture and load: the first and the wrist's.
+  const int wrist = robot::wristJointsOf(machine.nominal.joints());
+  const int which = drawIndex(1 + wrist, random);
+  const int joint = which == 0 ? 0 : machine.nominal.joints() - wrist + which - 1;
   const double twist = usualTorque(machine, joint) / torsion(machine, joint);
   EffectDraw draw;
   draw.detail = jointName(joint);
@@ -161,19 +180,22 @@ EffectDraw hysteresis(const simulation::SimulationSpec& machine, numerics::Rando
 
 EffectDraw gravityCompensator(const simulation::SimulationSpec& machine, numerics::RandomStream& random) {
   const auto& axes = machine.nominal.axes_in_base_at_zero;
-  const Vector3d shoulder = axes[1].point, upper = axes[2].point - axes[1].point;
+  const int joint = longestLinks(machine)[0];
+  const auto at = static_cast<std::size_t>(joint);
+  const Vector3d shoulder = axes[at].point, upper = axes[at + 1].point - axes[at].point;
   const double behind = random.uniform(0.25, 0.45), along = random.uniform(0.25, 0.45);
   const double rate = random.uniform(0.3, 1.5);
   const Vector3d from = shoulder + upper.norm() * Vector3d(-behind, random.uniform(0.1, 0.2), -0.1);
   const Vector3d to = shoulder + along * upper + Vector3d(0, from.y(), 0);
-  const double weight = 9.80665 * (machine.nominal.bodies[3].mass_kg + machine.nominal.bodies[4].mass_kg);
+  const double weight = 9.80665 * (machine.nominal.bodies[at + 2].mass_kg + machine.nominal.bodies[at + 3].mass_kg);
   EffectDraw draw;
   draw.shows = Shows::positions;
-  draw.detail = "joint 2";
+  draw.detail = jointName(joint);
   draw.most = 5.0;
   draw.apply = [=](double s, simulation::SimulationSpec& spec) {
     if (s > 0.0) {
-      spec.machine.link_springs.push_back({1, 2, from, to, s * rate * weight / (to - from).norm(), s * weight});
+      spec.machine.link_springs.push_back(
+          {joint, joint + 1, from, to, s * rate * weight / (to - from).norm(), s * weight});
     }
   };
   return draw;
@@ -230,17 +252,18 @@ EffectDraw frameError(numerics::RandomStream& random) {
 
 /// Joint zeros and link lengths against nominal, on top of the axes' background.
 EffectDraw kinematicError(const simulation::SimulationSpec& machine, numerics::RandomStream& random) {
-  const int first = 1 + drawIndex(4, random), second = 1 + drawIndex(4, random);
+  const int inner = machine.nominal.joints() - 2;  // all but the first and the last
+  const int first = 1 + drawIndex(inner, random), second = 1 + drawIndex(inner, random);
   const bool zero = random.uniform() < 0.5;
   const double sign = random.uniform() < 0.5 ? -1.0 : 1.0, share = random.uniform(-1.0, 1.0);
-  const std::array<simulation::AxisError, 6> background = simulation::drawAxisErrors(machine);
+  const PerJoint<simulation::AxisError> background = simulation::drawAxisErrors(machine);
   EffectDraw draw;
   draw.shows = Shows::positions;
   draw.detail = zero ? "zeros of joints " : "lengths before joints ";
   draw.detail += std::to_string(first + 1) + " and " + std::to_string(second + 1);
   draw.most = 5e-3;
   draw.apply = [=](double s, simulation::SimulationSpec& spec) {  // s in m, or rad
-    std::array<simulation::AxisError, 6> errors = background;
+    PerJoint<simulation::AxisError> errors = background;
     const auto add = [&](int joint, double size) {
       simulation::AxisError& error = errors[static_cast<std::size_t>(joint)];
       const auto& axes = spec.nominal.axes_in_base_at_zero;
@@ -254,7 +277,7 @@ EffectDraw kinematicError(const simulation::SimulationSpec& machine, numerics::R
     };
     add(first, sign * s);
     if (second != first) add(second, share * s);
-    for (std::size_t i = 0; i < 6; ++i) spec.machine.geometry.listed[i] = errors[i];
+    for (std::size_t i = 0; i < errors.size(); ++i) spec.machine.geometry.listed[i] = errors[i];
   };
   return draw;
 }
@@ -296,7 +319,8 @@ EffectDraw targetMotion(const simulation::SimulationSpec& machine, numerics::Ran
 }
 
 EffectDraw toolCompliance(const simulation::SimulationSpec& machine, numerics::RandomStream& random) {
-  const double rate = torsion(machine, 4), size = machine.targets[0].position_in_flange.norm();
+  const double rate = torsion(machine, machine.nominal.joints() - 2),
+               size = machine.targets[0].position_in_flange.norm();
   const Vector3d spread(random.uniform(0.7, 1.4), random.uniform(0.7, 1.4), random.uniform(0.5, 3.0));
   EffectDraw draw;
   draw.most = 3.0;
@@ -313,7 +337,7 @@ EffectDraw drawOf(effects::Effect effect, const simulation::SimulationSpec& mach
     case effects::Effect::link_compliance:
       return linkCompliance(machine, random);
     case effects::Effect::bearing_tilt:
-      return bearingTilt(random);
+      return bearingTilt(machine, random);
     case effects::Effect::base_compliance:
       return baseCompliance(machine, random);
     case effects::Effect::joint_coupling:
@@ -349,14 +373,14 @@ EffectDraw drawOf(effects::Effect effect, const simulation::SimulationSpec& mach
 /// Strength 1 is half of what an arm of this kind usually has.
 constexpr double kHalf = 0.5;
 
-EffectDraw bearingsAsTheyAre(numerics::RandomStream& random) {
-  std::array<double, 6> stiffer{};
+EffectDraw bearingsAsTheyAre(const simulation::SimulationSpec& machine, numerics::RandomStream& random) {
+  PerJoint<double> stiffer(machine.machine.joints.size());
   for (double& ratio : stiffer) ratio = random.uniform(8.0, 18.0) / kHalf;
   EffectDraw draw;
-  draw.detail = "joints 1 to 6";
+  draw.detail = allJoints(machine);
   draw.apply = [=](double s, simulation::SimulationSpec& spec) {
     if (s <= 0.0) return;
-    for (std::size_t i = 0; i < 6; ++i)
+    for (std::size_t i = 0; i < stiffer.size(); ++i)
       spec.machine.joints[i].bearing = stiffer[i] / s * *spec.machine.joints[i].torsion;
   };
   return draw;
@@ -368,7 +392,7 @@ EffectDraw linksAsTheyAre(const simulation::SimulationSpec& machine, numerics::R
     double bending, torsion;  // Nm^2
   };
   std::vector<Link> links;
-  for (const int joint : {1, 3}) {
+  for (const int joint : longestLinks(machine)) {
     const double ratio = random.uniform(4.0, 10.0) / kHalf, twist = random.uniform(0.5, 2.0);
     const double rigidity = ratio * torsion(machine, std::min(joint, 2)) * length(machine, joint);
     links.push_back({joint, rigidity, rigidity / twist});
@@ -394,17 +418,17 @@ EffectDraw baseAsItIs(const simulation::SimulationSpec& machine, numerics::Rando
 }
 
 EffectDraw frictionAsItIs(const simulation::SimulationSpec& machine, numerics::RandomStream& random) {
-  std::array<simulation::JointFriction, 6> frictions;
-  for (std::size_t i = 0; i < 6; ++i) {
+  PerJoint<simulation::JointFriction> frictions(machine.machine.joints.size());
+  for (std::size_t i = 0; i < frictions.size(); ++i) {
     const double share = kHalf * random.uniform(0.01, 0.02);
     frictions[i] = {share * usualTorque(machine, static_cast<int>(i)),
                     random.uniform(0.5, 1.5) * torsion(machine, static_cast<int>(i)), 1 + drawIndex(6, random)};
   }
   EffectDraw draw;
-  draw.detail = "joints 1 to 6";
+  draw.detail = allJoints(machine);
   draw.apply = [=](double s, simulation::SimulationSpec& spec) {
     if (s <= 0.0) return;
-    for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t i = 0; i < frictions.size(); ++i) {
       spec.machine.joints[i].friction = frictions[i];
       spec.machine.joints[i].friction->torque *= s;
     }
@@ -417,7 +441,7 @@ EffectDraw frictionAsItIs(const simulation::SimulationSpec& machine, numerics::R
 EffectDraw drawAsIs(effects::Effect effect, const simulation::SimulationSpec& machine, numerics::RandomStream& random) {
   EffectDraw draw;
   if (effect == effects::Effect::bearing_tilt) {
-    draw = bearingsAsTheyAre(random);
+    draw = bearingsAsTheyAre(machine, random);
   } else if (effect == effects::Effect::link_compliance) {
     draw = linksAsTheyAre(machine, random);
   } else if (effect == effects::Effect::base_compliance) {

@@ -38,7 +38,8 @@ EffectDraw drawEffect(effects::Effect effect, const simulation::SimulationSpec& 
 
 /// What an arm as it is has of an effect, at half its usual size, at strength 1. For torsion k in the joint (Nm/rad):
 ///   bearing_tilt     every joint; across its axis 2 k times 8 to 18, in place of the machine's own
-///   link_compliance  upper arm and forearm; EI / L = 2 k times 4 to 10, of the joint that the link follows (at most
+///   link_compliance  upper arm and forearm (longestLinks); EI / L = 2 k times 4 to 10, of the joint that the link
+///   follows (at most
 ///                    joint 3's), GJ / L half to twice EI / L
 ///   base_compliance  about x and y 2 k_2 times 10 to 25, about z ten times that
 ///   hysteresis       every joint; friction of half a hundredth to one hundredth of its usual torque
@@ -71,6 +72,10 @@ double milliradianStiffness(const simulation::SimulationSpec& spec, int joint);
 
 /// How long (s) the postures of a day without a load take, nests aside.
 double dayLength(const simulation::SimulationSpec& spec);
+
+/// The joints (from 0, in their order) after which the two longest links stand, base and flange aside: the upper arm's
+/// and the forearm's, of the catalogue's arms joints 2 and 4.
+std::array<int, 2> longestLinks(const simulation::SimulationSpec& spec);
 
 /// A unit vector, all directions alike.
 Eigen::Vector3d drawDirection(numerics::RandomStream& random);

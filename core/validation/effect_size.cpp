@@ -29,7 +29,7 @@ Index forUnloaded(const campaign::Campaign& campaign, const Use& use) {
     for (const campaign::WristReading& one : campaign.wrist_sweep->rows) use(one.q, one.target, one.point, 1);
     before_loading += static_cast<Index>(campaign.wrist_sweep->rows.size());
   }
-  std::map<int, Vector6d> angles;
+  std::map<int, JointVector> angles;
   for (const campaign::State& state : campaign.states->rows) {
     if (state.step == 0) angles[state.pose] = state.q;
   }
@@ -41,7 +41,7 @@ Index forUnloaded(const campaign::Campaign& campaign, const Use& use) {
 
 VectorXd unloadedPoints(const campaign::Campaign& campaign) {
   std::vector<double> values;
-  forUnloaded(campaign, [&](const Vector6d&, int, const Vector3d& point, int) {
+  forUnloaded(campaign, [&](const JointVector&, int, const Vector3d& point, int) {
     values.insert(values.end(), point.data(), point.data() + 3);
   });
   return Eigen::Map<const VectorXd>(values.data(), static_cast<Index>(values.size()));
@@ -55,8 +55,9 @@ EffectSizer::EffectSizer(const simulation::SimulationSpec& clean)
       true_noise_factor_(clean.tracker.true_noise_factor),
       geometry_(simulation::rigidGeometry(simulation::buildMachine(clean))),
       reference_(withoutScatter(clean)) {
-  for (std::size_t i = 0; i < 6; ++i) {
-    compliance_[static_cast<Index>(i)] = 1.0 / clean.machine.joints[i].torsion.value();
+  compliance_.resize(geometry_.joints());
+  for (Index i = 0; i < compliance_.size(); ++i) {
+    compliance_[i] = 1.0 / clean.machine.joints[static_cast<std::size_t>(i)].torsion.value();
   }
   undisturbed_ = deflections(reference_);
   const auto means = stateMeans(reference_);
@@ -88,7 +89,8 @@ EffectSizer::Deflections EffectSizer::deflections(const campaign::Campaign& camp
   for (const campaign::State& state : campaign.states->rows) states[{state.pose, state.step}] = &state;
   std::size_t count = 0;
   for (const auto& one : means) count += one.first[1] > 0 ? 1 : 0;
-  Deflections all{VectorXd(3 * static_cast<Index>(count)), Eigen::MatrixXd(3 * static_cast<Index>(count), 6)};
+  const Index rows = 3 * static_cast<Index>(count);
+  Deflections all{VectorXd(rows), Eigen::MatrixXd(rows, geometry_.joints())};
   Index row = 0;
   for (const auto& [key, mean] : means) {
     if (key[1] == 0) continue;
@@ -102,7 +104,7 @@ EffectSizer::Deflections EffectSizer::deflections(const campaign::Campaign& camp
     const Vector3d moment = cell.linear() * state.wrench_in_cell.tail<3>();
     // The point in base_link as the rigid arm would have it: what the reference's station saw.
     const Vector3d point = base_from_tracker_ * (zero - reference_.tracker->station) + station_in_base_;
-    for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t i = 0; i < arm.axes.size(); ++i) {
       const metrology::Line& axis = arm.axes[i];
       const double torque = axis.direction.dot(moment + (cell.translation() - axis.point).cross(force));
       all.columns.block<3, 1>(row, static_cast<Index>(i)) =
@@ -115,7 +117,7 @@ EffectSizer::Deflections EffectSizer::deflections(const campaign::Campaign& camp
 
 std::vector<Index> EffectSizer::identifiableBy(const Deflections& of) const {
   std::vector<Index> joints;
-  for (Index i = 0; i < 6; ++i) {
+  for (Index i = 0; i < compliance_.size(); ++i) {
     if (whitened(of.columns.col(i) * compliance_[i]) > 1.0) joints.push_back(i);
   }
   return joints;
@@ -162,15 +164,16 @@ void EffectSizer::designPositions() {
   const Index targets = static_cast<Index>(reference_.targets.size());
   Eigen::MatrixXd design = Eigen::MatrixXd::Zero(unloaded_.size(), 6 + 3 * targets);
   Index row = 0;
-  const Index before = forUnloaded(reference_, [&](const Vector6d& q, int target, const Vector3d& point, int readings) {
-    const Vector3d sigma = sigmaAt(*reference_.tracker, point) / std::sqrt(readings);
-    // One sigma for all three directions will do for what is a nuisance.
-    unloaded_sigma_.segment<3>(row).setConstant(std::sqrt(sigma.squaredNorm() / 3.0));
-    design.block<3, 3>(row, 0).setIdentity();
-    design.block<3, 3>(row, 3) = -simulation::skew(point);
-    design.block<3, 3>(row, 6 + 3 * target) = base_from_tracker_.transpose() * armAt(geometry_, q).flange.linear();
-    row += 3;
-  });
+  const Index before =
+      forUnloaded(reference_, [&](const JointVector& q, int target, const Vector3d& point, int readings) {
+        const Vector3d sigma = sigmaAt(*reference_.tracker, point) / std::sqrt(readings);
+        // One sigma for all three directions will do for what is a nuisance.
+        unloaded_sigma_.segment<3>(row).setConstant(std::sqrt(sigma.squaredNorm() / 3.0));
+        design.block<3, 3>(row, 0).setIdentity();
+        design.block<3, 3>(row, 3) = -simulation::skew(point);
+        design.block<3, 3>(row, 6 + 3 * target) = base_from_tracker_.transpose() * armAt(geometry_, q).flange.linear();
+        row += 3;
+      });
   first_of_step_0_ = 3 * before;
   const Index rest = unloaded_.size() - first_of_step_0_;
   position_noise_ = rms(unloaded_sigma_.tail(rest));

@@ -13,8 +13,8 @@ namespace stiffscope::validation {
 
 /// How large an effect is, found by measuring the same machine with and without it, without noise.
 ///
-/// Deflection. With d the displacements of all poses, later steps and targets, and A(w) the six columns of
-/// joint compliance for the wrenches w as they are read,
+/// Deflection. With d the displacements of all poses, later steps and targets, and A(w) the columns of
+/// joint compliance, one a joint, for the wrenches w as they are read,
 ///   g = (d_with - A(w_with) c) - (d_without - A(w_without) c)
 /// (c the true compliances; a wrong reading moves A, a wrong machine d), whitened by the declared tracker
 /// noise of one state's displacement (mean of its repeats, less that of step 0) and projected off A(w_with):
@@ -32,7 +32,7 @@ struct EffectSize {
   /// On a day without a load (GeometrySizer): what the URDF misses the more, over what it misses of every machine.
   double geometry = 0.0;
   /// 1 - rms after / rms before of the displacements' residuals (plain, m) when the effect is known and taken
-  /// out, six compliances fitted both times to the other postures than the one judged, as a promise for
+  /// out, the joints' compliances fitted both times to the other postures than the one judged, as a promise for
   /// postures that took no part is: without noise, and as it can be seen with the tracker's true noise in
   /// both.
   double shrink = 0.0, shrink_seen = 0.0;
@@ -69,7 +69,7 @@ class EffectSizer {
   Eigen::Vector3d station_in_base_;
   double true_noise_factor_ = 1.0;
   robot::Robot geometry_;  ///< true and rigid
-  Vector6d compliance_ = Vector6d::Zero();
+  JointVector compliance_;
   campaign::Campaign reference_;
   Deflections undisturbed_;
   std::vector<Eigen::Index> identifiable_;  ///< columns that are refitted
@@ -87,10 +87,10 @@ class EffectSizer {
 /// would show them at the joint angles as reported,
 ///   g = (p_with - f(q_with)) - (p_without - f(q_without)),
 /// whitened by the declared noise of one position (mean of its repeats) and projected off the columns of a rigid
-/// calibration: two offsets and two tilts of each of six axes, the robot's place, each reflector's place on the flange,
-/// 30 + 3 n, by central differences of f; what of them the postures cannot tell apart is left out by rank. `positions`
-/// is the rms of what is left per coordinate, in metres, over the rms of that noise. Nothing here is the product's
-/// calibration: what judges it must not share its errors.
+/// calibration: two offsets and two tilts of each axis, the robot's place, each reflector's place on the flange, with n
+/// reflectors 30 + 3 n of a six-axis arm, by central differences of f; what of them the postures cannot tell apart is
+/// left out by rank. `positions` is the rms of what is left per coordinate, in metres, over the rms of that noise.
+/// Nothing here is the product's calibration: what judges it must not share its errors.
 ///
 /// Geometry. The same g, projected off the robot's place and the reflectors' alone, over the hypot of the noise and
 /// what the machine without the effect departs from its URDF, found in the same way.
@@ -111,13 +111,15 @@ class GeometrySizer {
   /// Readings less the true rigid arm's at the reported angles, and those angles.
   struct Misfits {
     Eigen::VectorXd misfit;  ///< m, in sight axes of the reference
-    std::vector<Vector6d> q;
+    std::vector<JointVector> q;
   };
   Misfits misfitsOf(const simulation::SimulationSpec& spec) const;
-  Eigen::MatrixXd columnsAt(const std::vector<Vector6d>& q) const;
+  Eigen::MatrixXd columnsAt(const std::vector<JointVector>& q) const;
   Eigen::VectorXd leftOver(const Eigen::MatrixXd& basis, const Eigen::VectorXd& gap) const;  ///< m
   Eigen::VectorXd leftHeldOut(const Eigen::VectorXd& gap) const;                             ///< m
   double noiseHeldOut() const;  ///< rms of noise in what is held out, m
+
+  int axisParameters() const { return 4 * geometry_.joints(); }
 
   Eigen::Isometry3d tracker_from_base_;
   double true_noise_factor_ = 1.0;

@@ -17,9 +17,10 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr int kAxisParameters = 24, kPlaceParameters = 6;
+constexpr int kPlaceParameters = 6;
 
-/// The arm with one of its 24 axis parameters changed by `step` (m or rad): offset or tilt across axis, in turns.
+/// The arm with one of its axis parameters, four an axis, changed by `step` (m or rad): offset or tilt across axis, in
+/// turns.
 robot::Robot shifted(robot::Robot robot, int parameter, double step) {
   metrology::Line& axis = robot.axes_in_base_at_zero[static_cast<std::size_t>(parameter / 4)];
   const Eigen::Matrix3d across = simulation::frameAlong(axis.point, axis.direction).linear();
@@ -81,7 +82,7 @@ GeometrySizer::GeometrySizer(const simulation::SimulationSpec& clean)
   const MatrixXd columns = columnsAt(without.q);
   columns_ = independent(columns);
   basis_ = orthonormal(columns_);
-  frames_basis_ = orthonormal(independent(columns.rightCols(columns.cols() - kAxisParameters)));
+  frames_basis_ = orthonormal(independent(columns.rightCols(columns.cols() - axisParameters())));
   background_ = rms(leftOver(basis_, reference_)) / noise_;
   simulation::SimulationSpec nominal = clean;
   nominal.machine.geometry = {};
@@ -104,14 +105,15 @@ GeometrySizer::Misfits GeometrySizer::misfitsOf(const simulation::SimulationSpec
   return all;
 }
 
-MatrixXd GeometrySizer::columnsAt(const std::vector<Vector6d>& q) const {
+MatrixXd GeometrySizer::columnsAt(const std::vector<JointVector>& q) const {
   const Index targets = static_cast<Index>(on_flange_.size());
-  MatrixXd columns = MatrixXd::Zero(sigma_.size(), kAxisParameters + kPlaceParameters + 3 * targets);
+  const int of_axes = axisParameters();
+  MatrixXd columns = MatrixXd::Zero(sigma_.size(), of_axes + kPlaceParameters + 3 * targets);
   constexpr double kStep = 1e-5;  // m and rad: the third order is 1e-10 of the first
-  for (int parameter = 0; parameter < kAxisParameters; ++parameter) {
+  for (int parameter = 0; parameter < of_axes; ++parameter) {
     const robot::Robot ahead = shifted(geometry_, parameter, kStep), behind = shifted(geometry_, parameter, -kStep);
     for (std::size_t r = 0; r < pose_of_.size(); ++r) {
-      const Vector6d& angles = q[static_cast<std::size_t>(pose_of_[r])];
+      const JointVector& angles = q[static_cast<std::size_t>(pose_of_[r])];
       const Vector3d& point = on_flange_[static_cast<std::size_t>(target_of_[r])];
       const Vector3d change = armAt(ahead, angles).flange * point - armAt(behind, angles).flange * point;
       columns.block<3, 1>(3 * static_cast<Index>(r), parameter) =
@@ -123,10 +125,9 @@ MatrixXd GeometrySizer::columnsAt(const std::vector<Vector6d>& q) const {
     const Eigen::Isometry3d flange = armAt(geometry_, q[static_cast<std::size_t>(pose_of_[r])]).flange;
     const Vector3d point = flange * on_flange_[static_cast<std::size_t>(target_of_[r])];
     const Eigen::Matrix3d sight_from_base = sight_[r].transpose() * tracker_from_base_.linear();
-    columns.block<3, 3>(row, kAxisParameters) = sight_from_base;
-    columns.block<3, 3>(row, kAxisParameters + 3) = -sight_from_base * simulation::skew(point);
-    columns.block<3, 3>(row, kAxisParameters + kPlaceParameters + 3 * target_of_[r]) =
-        sight_from_base * flange.linear();
+    columns.block<3, 3>(row, of_axes) = sight_from_base;
+    columns.block<3, 3>(row, of_axes + 3) = -sight_from_base * simulation::skew(point);
+    columns.block<3, 3>(row, of_axes + kPlaceParameters + 3 * target_of_[r]) = sight_from_base * flange.linear();
   }
   return sigma_.cwiseInverse().asDiagonal() * columns;
 }

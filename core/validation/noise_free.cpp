@@ -13,13 +13,13 @@ using Eigen::Index;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-ArmNow armAt(const robot::Robot& robot, const Vector6d& q) {
+ArmNow armAt(const robot::Robot& robot, const JointVector& q) {
   ArmNow now;
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
-  for (std::size_t i = 0; i < 6; ++i) {
-    const metrology::Line& axis = robot.axes_in_base_at_zero[i];
-    now.axes[i] = {motion * axis.point, motion.linear() * axis.direction};
-    motion = motion * simulation::turnAbout(axis, q[static_cast<Index>(i)]);
+  for (const metrology::Line& axis : robot.axes_in_base_at_zero) {
+    const double angle = q[static_cast<Index>(now.axes.size())];
+    now.axes.push_back({motion * axis.point, motion.linear() * axis.direction});
+    motion = motion * simulation::turnAbout(axis, angle);
   }
   now.flange = motion * robot.base_from_flange_at_zero;
   return now;

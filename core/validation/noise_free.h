@@ -18,10 +18,10 @@ campaign::Campaign withoutScatter(const simulation::SimulationSpec& spec);
 
 /// The rigid arm at joint angles: its axes and its flange in base_link.
 struct ArmNow {
-  std::array<metrology::Line, 6> axes;
+  PerJoint<metrology::Line> axes;
   Eigen::Isometry3d flange;
 };
-ArmNow armAt(const robot::Robot& robot, const Vector6d& q);
+ArmNow armAt(const robot::Robot& robot, const JointVector& q);
 
 /// Declared sigma of one reading (m), in the axes of sightAxes: across the line of sight, across, along it.
 Eigen::Vector3d sigmaAt(const campaign::Tracker& tracker, const Eigen::Vector3d& point);

@@ -78,8 +78,8 @@ EffectDraw crackedFloor(const simulation::SimulationSpec& machine, numerics::Ran
   return draw;
 }
 
-EffectDraw thermalGrowth(const simulation::SimulationSpec&, numerics::RandomStream& random) {
-  const int joint = random.uniform() < 0.5 ? 3 : 1;
+EffectDraw thermalGrowth(const simulation::SimulationSpec& machine, numerics::RandomStream& random) {
+  const int joint = longestLinks(machine)[random.uniform() < 0.5 ? 1 : 0];
   const double time = random.uniform(2000.0, 10000.0);
   EffectDraw draw;
   draw.shows = Shows::positions;
@@ -88,8 +88,8 @@ EffectDraw thermalGrowth(const simulation::SimulationSpec&, numerics::RandomStre
   return draw;
 }
 
-EffectDraw eccentricEncoder(const simulation::SimulationSpec&, numerics::RandomStream& random) {
-  const int joint = 1 + drawIndex(4, random);
+EffectDraw eccentricEncoder(const simulation::SimulationSpec& machine, numerics::RandomStream& random) {
+  const int joint = 1 + drawIndex(machine.nominal.joints() - 2, random);  // neither the first nor the last
   const double cycles = random.uniform() < 0.5 ? 1.0 : 2.0 + drawIndex(6, random);
   const double phase = random.uniform(0.0, 2.0 * std::numbers::pi);
   EffectDraw draw;
@@ -103,14 +103,16 @@ EffectDraw eccentricEncoder(const simulation::SimulationSpec&, numerics::RandomS
 
 EffectDraw dressPack(const simulation::SimulationSpec& machine, numerics::RandomStream& random) {
   const auto& axes = machine.nominal.axes_in_base_at_zero;
-  const Vector3d from = axes[2].point + Vector3d(-0.1, random.uniform(0.15, 0.3), 0.2);
-  const Vector3d to = axes[4].point + Vector3d(0.05, random.uniform(-0.2, 0.2), 0.15);
+  const int last = machine.nominal.joints(), forearm = robot::armJointsOf(last);  // bodies
+  const Vector3d from =
+      axes[static_cast<std::size_t>(forearm) - 1].point + Vector3d(-0.1, random.uniform(0.15, 0.3), 0.2);
+  const Vector3d to = axes[static_cast<std::size_t>(last) - 2].point + Vector3d(0.05, random.uniform(-0.2, 0.2), 0.15);
   const double rate = random.uniform(0.5, 2.0);
   EffectDraw draw;
   draw.shows = Shows::positions;
   draw.most = 20000.0;
   draw.apply = [=](double s, simulation::SimulationSpec& spec) {  // s in N
-    if (s > 0.0) spec.machine.link_springs.push_back({3, 5, from, to, s * rate, s});
+    if (s > 0.0) spec.machine.link_springs.push_back({forearm, last - 1, from, to, s * rate, s});
   };
   return draw;
 }

@@ -194,7 +194,9 @@ Label labelOf(const std::string& name, const BlindCase& one) {
               one.arm,
               one.loading,
               {}};
-  for (std::size_t i = 0; i < 6; ++i) label.stiffness[i] = one.spec.machine.joints[i].torsion.value_or(0.0);
+  for (const simulation::JointStiffness& joint : one.spec.machine.joints) {
+    label.stiffness.push_back(joint.torsion.value_or(0.0));
+  }
   for (const PlacedEffect& placed : one.effects) {
     label.effects.push_back({placed.effect.empty() ? plain(placed.detail) : placed.effect, plain(placed.detail),
                              nameOf(placed.shows), placed.size(), placed.sizes.deflection, placed.sizes.positions});
@@ -236,8 +238,10 @@ std::vector<Label> readLabels(const std::string& file, const std::string& bytes)
                 row.text("loading"),
                 {}};
     const std::vector<double> stiffness = row.numbers("stiffness_nm_per_rad");
-    if (stiffness.size() != label.stiffness.size()) row.refuse("stiffness_nm_per_rad", "six numbers joined by '+'");
-    std::copy(stiffness.begin(), stiffness.end(), label.stiffness.begin());
+    if (stiffness.size() < kFewestJoints || stiffness.size() > kMostJoints) {
+      row.refuse("stiffness_nm_per_rad", fmt::format("{} to {} numbers joined by '+'", kFewestJoints, kMostJoints));
+    }
+    label.stiffness.assign(stiffness.begin(), stiffness.end());
     const std::vector<std::string> ids = split(row.text("effects"), '+'), details = split(row.text("details"), '+'),
                                    shows = split(row.text("shows"), '+');
     const std::vector<double> sizes = row.numbers("sizes"), deflection = row.numbers("deflection"),

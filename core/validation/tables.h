@@ -64,13 +64,13 @@ struct Label {
   std::string arm, loading;
   /// Stiffness of the joints' springs, Nm/rad: where the stiffness changes with torque or time, that without torque at
   /// the start of the day. What an interval of an identification has to hold.
-  std::array<double, 6> stiffness{};
+  PerJoint<double> stiffness;
 };
 
 Label labelOf(const std::string& name, const BlindCase& one);
 
 /// One line a case: case,kind,effects,details,shows,sizes,deflection,positions,shrink,shrink_seen,
-/// noise_factor,background,arm,loading,stiffness_nm_per_rad; of several effects, and of the six joints, joined by '+'.
+/// noise_factor,background,arm,loading,stiffness_nm_per_rad; of several effects, and of the joints, joined by '+'.
 /// Numbers with six significant digits, stiffnesses to a tenth.
 std::string labelsCsv(const std::vector<Label>& labels);
 

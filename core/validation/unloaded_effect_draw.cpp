@@ -20,8 +20,8 @@ double milliradianStiffness(const simulation::SimulationSpec& spec, int joint) {
     const robot::BodyMass& mass = spec.nominal.bodies[body];
     torque += kGravity * mass.mass_kg * (mass.com_in_base_at_zero - axis).norm();
   }
-  // Joint 6 carries a body whose centre is on its axis; it is given what a flange of 5 cm would have.
-  const double least = kGravity * 0.05 * spec.nominal.bodies[6].mass_kg;
+  // The last joint may carry a body whose centre is on its axis; it is given what a flange of 5 cm would have.
+  const double least = kGravity * 0.05 * spec.nominal.bodies.back().mass_kg;
   return std::max(torque, least) / kTurn;
 }
 
@@ -44,36 +44,38 @@ void soften(simulation::SimulationSpec& spec, int joint, double stiffness) {
   torsion = torsion ? 1.0 / (1.0 / *torsion + 1.0 / stiffness) : stiffness;
 }
 
-/// Joint 2, joint 3, or the four that own weight turns; strength 1: a milliradian by the weight standing out level.
+/// Joint 2, joint 3, or all that own weight turns, which the first and the last are not; strength 1: a milliradian by
+/// the weight standing out level.
 EffectDraw jointCompliance(const simulation::SimulationSpec& machine, numerics::RandomStream& random) {
   const int which = drawIndex(3, random);
-  std::array<double, 6> stiffness{};
-  for (int i = 0; i < 6; ++i) {
+  const int joints = machine.nominal.joints();
+  PerJoint<double> stiffness(static_cast<std::size_t>(joints));
+  for (int i = 0; i < joints; ++i) {
     const double spread = std::exp(0.4 * random.normal());
-    if (which == 2 ? (i > 0 && i < 5) : i == which + 1) {
+    if (which == 2 ? (i > 0 && i < joints - 1) : i == which + 1) {
       stiffness[static_cast<std::size_t>(i)] = spread * milliradianStiffness(machine, i);
     }
   }
   EffectDraw draw;
-  draw.detail = which < 2 ? jointCalled(which + 1) : "joints 2 to 5";
+  draw.detail = which < 2 ? jointCalled(which + 1) : "joints 2 to " + std::to_string(joints - 1);
   draw.most = 5.0;
   draw.apply = [=](double s, simulation::SimulationSpec& spec) {
-    for (int i = 0; i < 6 && s > 0.0; ++i) {
-      const double k = stiffness[static_cast<std::size_t>(i)];
-      if (k > 0.0) soften(spec, i, k / s);
+    for (std::size_t i = 0; i < stiffness.size() && s > 0.0; ++i) {
+      if (stiffness[i] > 0.0) soften(spec, static_cast<int>(i), stiffness[i] / s);
     }
   };
   return draw;
 }
 
 EffectDraw linksBend(const simulation::SimulationSpec& machine, numerics::RandomStream& random) {
-  const int joint = random.uniform() < 0.6 ? 1 : 3;
+  const int which = random.uniform() < 0.6 ? 0 : 1;
+  const int joint = longestLinks(machine)[static_cast<std::size_t>(which)];
   const auto& axes = machine.nominal.axes_in_base_at_zero;
   const auto at = static_cast<std::size_t>(joint);
   const double length = (axes[at + 1].point - axes[at].point).norm(), twist = random.uniform(0.5, 2.0);
   const double rigidity = milliradianStiffness(machine, joint) * length;
   EffectDraw draw;
-  draw.detail = joint == 1 ? "upper arm" : "forearm";
+  draw.detail = which == 0 ? "upper arm" : "forearm";
   draw.most = 5.0;
   draw.apply = [=](double s, simulation::SimulationSpec& spec) {
     if (s > 0.0) spec.machine.links.push_back({joint, rigidity / s, rigidity / twist / s, {}, {}});
@@ -82,7 +84,7 @@ EffectDraw linksBend(const simulation::SimulationSpec& machine, numerics::Random
 }
 
 EffectDraw bearingsTilt(const simulation::SimulationSpec& machine, numerics::RandomStream& random) {
-  const int joint = drawIndex(5, random);
+  const int joint = drawIndex(machine.nominal.joints() - 1, random);
   const double rate = milliradianStiffness(machine, joint);
   EffectDraw draw;
   draw.detail = jointCalled(joint);
@@ -104,31 +106,33 @@ EffectDraw baseGives(const simulation::SimulationSpec& machine, numerics::Random
 }
 
 /// A gas spring made for arm and payload: without the payload it pulls more than the weight does. It shows through the
-/// compliance of joint 2, which the strength scales.
+/// compliance of the joint that it spans, the upper arm's, which the strength scales.
 EffectDraw gasSpring(const simulation::SimulationSpec& machine, numerics::RandomStream& random) {
   const auto& axes = machine.nominal.axes_in_base_at_zero;
-  const Vector3d shoulder = axes[1].point, upper = axes[2].point - axes[1].point;
+  const int joint = longestLinks(machine)[0];
+  const auto at = static_cast<std::size_t>(joint);
+  const Vector3d shoulder = axes[at].point, upper = axes[at + 1].point - axes[at].point;
   const Vector3d from = shoulder + upper.norm() * Vector3d(-random.uniform(0.25, 0.45), random.uniform(0.1, 0.2), -0.1);
   const Vector3d to = shoulder + random.uniform(0.25, 0.45) * upper + Vector3d(0, from.y() - shoulder.y(), 0);
   const double rate = random.uniform(0.3, 1.5), share = random.uniform(1.0, 2.0);
-  const double stiffness = milliradianStiffness(machine, 1);
+  const double stiffness = milliradianStiffness(machine, joint);
   const double arm = (to - shoulder).cross((from - to).normalized()).norm();
   const double tension =
       share * 1e-3 * stiffness / std::max(arm, 0.05);  // N, whose torque is that share of the weight's
   EffectDraw draw;
-  draw.detail = jointCalled(1);
+  draw.detail = jointCalled(joint);
   draw.most = 5.0;
   draw.apply = [=](double s, simulation::SimulationSpec& spec) {
     if (s <= 0.0) return;
-    soften(spec, 1, stiffness / s);
-    spec.machine.link_springs.push_back({1, 2, from, to, rate * tension / (to - from).norm(), tension});
+    soften(spec, joint, stiffness / s);
+    spec.machine.link_springs.push_back({joint, joint + 1, from, to, rate * tension / (to - from).norm(), tension});
   };
   return draw;
 }
 
 /// An encoder ring or an eccentric gear, once or twice a turn; or a gear's own order, in quarters.
-EffectDraw periodicError(numerics::RandomStream& random) {
-  const int joint = drawIndex(6, random);
+EffectDraw periodicError(const simulation::SimulationSpec& machine, numerics::RandomStream& random) {
+  const int joint = drawIndex(machine.nominal.joints(), random);
   const double kind = random.uniform(), phase = random.uniform(0.0, 2.0 * std::numbers::pi);
   const double own = 5.0 + 0.25 * drawIndex(121, random);
   const double order = kind < 0.3 ? 1.0 : kind < 0.5 ? 2.0 : own;
@@ -141,11 +145,16 @@ EffectDraw periodicError(numerics::RandomStream& random) {
   return draw;
 }
 
-EffectDraw wrongRatio(numerics::RandomStream& random) {
-  constexpr std::array<std::array<int, 2>, 4> kPairs{{{3, 4}, {4, 5}, {3, 5}, {1, 2}}};
+EffectDraw wrongRatio(const simulation::SimulationSpec& machine, numerics::RandomStream& random) {
+  // Within the wrist, and a parallelogram.
+  const int joints = machine.nominal.joints(), wrist = robot::armJointsOf(joints);
+  std::vector<std::array<int, 2>> pairs;
+  for (int first = wrist; first + 1 < joints; ++first) pairs.push_back({first, first + 1});
+  if (joints - wrist > 2) pairs.push_back({wrist, wrist + 2});
+  pairs.push_back({1, 2});
   const bool own = random.uniform() < 0.5;
-  const int joint = drawIndex(6, random);
-  const std::array<int, 2> pair = kPairs[static_cast<std::size_t>(drawIndex(4, random))];
+  const int joint = drawIndex(machine.nominal.joints(), random);
+  const std::array<int, 2> pair = pairs[static_cast<std::size_t>(drawIndex(static_cast<int>(pairs.size()), random))];
   const int of = own ? joint : pair[0], turned = own ? joint : pair[1];
   const double sign = random.uniform() < 0.5 ? -1.0 : 1.0;
   EffectDraw draw;
@@ -158,7 +167,7 @@ EffectDraw wrongRatio(numerics::RandomStream& random) {
 }
 
 EffectDraw playInGear(const simulation::SimulationSpec& machine, numerics::RandomStream& random) {
-  const int joint = drawIndex(6, random);
+  const int joint = drawIndex(machine.nominal.joints(), random);
   const double torque = 1e-3 * milliradianStiffness(machine, joint), share = random.uniform(0.2, 0.8);
   const bool weight_decides = random.uniform() < 0.5;
   EffectDraw draw;
@@ -172,18 +181,20 @@ EffectDraw playInGear(const simulation::SimulationSpec& machine, numerics::Rando
   return draw;
 }
 
-EffectDraw loggedEarly(numerics::RandomStream& random) {
+EffectDraw loggedEarly(const simulation::SimulationSpec& machine, numerics::RandomStream& random) {
   const double after = random.uniform(0.2, 1.0);
-  const int slow = random.uniform() < 0.7 ? -1 : drawIndex(6, random);  // all drives alike, about, or one that creeps
-  std::array<double, 6> shares{};
+  const int joints = machine.nominal.joints();
+  const int slow =
+      random.uniform() < 0.7 ? -1 : drawIndex(joints, random);  // all drives alike, about, or one that creeps
+  PerJoint<double> shares(static_cast<std::size_t>(joints));
   for (double& share : shares) share = random.uniform(0.7, 1.3);
   EffectDraw draw;
-  draw.detail = slow < 0 ? "joints 1 to 6" : jointCalled(slow);
+  draw.detail = slow < 0 ? "joints 1 to " + std::to_string(joints) : jointCalled(slow);
   draw.most = 0.05;
   draw.apply = [=](double s, simulation::SimulationSpec& spec) {  // s: the share of the move that is still to come
     if (s <= 0.0) return;
-    spec.early_log = simulation::EarlyLog{after, Vector6d::Constant(after / 50.0)};
-    for (int i = 0; i < 6; ++i) {
+    spec.early_log = simulation::EarlyLog{after, JointVector::Constant(joints, after / 50.0)};
+    for (int i = 0; i < joints; ++i) {
       if (slow < 0 || i == slow) {
         spec.early_log->time_constants[i] = -after / std::log(s * shares[static_cast<std::size_t>(i)]);
       }
@@ -257,7 +268,7 @@ EffectDraw reflectorReseated(const simulation::SimulationSpec& machine, numerics
 
 /// All links or one, in proportion to their lengths; with the hall's temperature, or as drives warm up.
 EffectDraw armGrows(const simulation::SimulationSpec& machine, numerics::RandomStream& random) {
-  const int only = random.uniform() < 0.6 ? -1 : (random.uniform() < 0.5 ? 1 : 3);
+  const int only = random.uniform() < 0.6 ? -1 : longestLinks(machine)[random.uniform() < 0.5 ? 0 : 1];
   const double day = dayLength(machine), time = day * random.uniform(0.2, 0.8);
   const bool by_temperature = random.uniform() < 0.6;
   const double warmer = random.uniform(1.0, 6.0), begin = random.uniform(17.0, 25.0);
@@ -269,7 +280,7 @@ EffectDraw armGrows(const simulation::SimulationSpec& machine, numerics::RandomS
   draw.apply = [=](double s, simulation::SimulationSpec& spec) {  // s: share of the length, per kelvin or in all
     if (s <= 0.0) return;
     const auto& axes = spec.nominal.axes_in_base_at_zero;
-    for (int i = 0; i < 5; ++i) {
+    for (int i = 0; i + 1 < spec.nominal.joints(); ++i) {
       if (only >= 0 && i != only) continue;
       const auto at = static_cast<std::size_t>(i);
       const double more = s * (axes[at + 1].point - axes[at].point).norm();
@@ -314,10 +325,10 @@ EffectDraw drawNamed(const std::string& id, const simulation::SimulationSpec& ma
   if (id == "bearing_tilt") return bearingsTilt(machine, random);
   if (id == "base_compliance") return baseGives(machine, random);
   if (id == "gravity_compensator") return gasSpring(machine, random);
-  if (id == "transmission_error") return periodicError(random);
-  if (id == "ratio_error") return wrongRatio(random);
+  if (id == "transmission_error") return periodicError(machine, random);
+  if (id == "ratio_error") return wrongRatio(machine, random);
   if (id == "backlash") return playInGear(machine, random);
-  if (id == "read_back_error") return loggedEarly(random);
+  if (id == "read_back_error") return loggedEarly(machine, random);
   if (id == "tracker_drift") return stationWanders(machine, random);
   if (id == "frame_error") return stationJumps(machine, random);
   if (id == "target_motion") return reflectorReseated(machine, random);

@@ -15,23 +15,26 @@ namespace {
 /// A dress pack from the forearm to the hand, which pulls the wrist's joints about: their own weight hardly does.
 EffectDraw pullingCable(const simulation::SimulationSpec& machine, numerics::RandomStream& random) {
   const auto& axes = machine.nominal.axes_in_base_at_zero;
-  const Vector3d from = axes[2].point + Vector3d(-0.1, random.uniform(0.15, 0.3), 0.2);
-  const Vector3d to = axes[4].point + Vector3d(0.1, random.uniform(-0.2, 0.2), 0.15);
+  const int last = machine.nominal.joints(), forearm = robot::armJointsOf(last);  // bodies
+  const auto wrist = static_cast<std::size_t>(forearm);                           // its first joint
+  const Vector3d from = axes[wrist - 1].point + Vector3d(-0.1, random.uniform(0.15, 0.3), 0.2);
+  const Vector3d to = axes[static_cast<std::size_t>(last) - 2].point + Vector3d(0.1, random.uniform(-0.2, 0.2), 0.15);
   const double rate = random.uniform(0.5, 2.0);
-  const double four = 20.0 * milliradianStiffness(machine, 3), five = 20.0 * milliradianStiffness(machine, 4);
+  const double first = 20.0 * milliradianStiffness(machine, forearm);
+  const double second = 20.0 * milliradianStiffness(machine, forearm + 1);
   EffectDraw draw;
   draw.most = 2e4;
   draw.apply = [=](double s, simulation::SimulationSpec& spec) {  // s in N
     if (s <= 0.0) return;
-    spec.machine.joints[3].torsion = four;
-    spec.machine.joints[4].torsion = five;
-    spec.machine.link_springs.push_back({3, 6, from, to, s * rate, s});
+    spec.machine.joints[wrist].torsion = first;
+    spec.machine.joints[wrist + 1].torsion = second;
+    spec.machine.link_springs.push_back({forearm, last, from, to, s * rate, s});
   };
   return draw;
 }
 
 EffectDraw zeroByTemperature(const simulation::SimulationSpec& machine, numerics::RandomStream& random) {
-  const int joint = 1 + drawIndex(4, random);
+  const int joint = 1 + drawIndex(machine.nominal.joints() - 2, random);  // neither the first nor the last
   const double day = dayLength(machine), lag = day * random.uniform(0.1, 0.3);
   const double begin = random.uniform(17.0, 25.0), top = begin + random.uniform(2.0, 6.0);
   EffectDraw draw;
@@ -83,7 +86,7 @@ EffectDraw rattlingReflector(const simulation::SimulationSpec& machine, numerics
 }
 
 EffectDraw slippedBelt(const simulation::SimulationSpec& machine, numerics::RandomStream& random) {
-  const int joint = 1 + drawIndex(4, random);
+  const int joint = 1 + drawIndex(machine.nominal.joints() - 2, random);  // neither the first nor the last
   const double at_s = random.uniform(0.25, 0.75) * dayLength(machine);
   EffectDraw draw;
   draw.most = 5e-3;

@@ -32,7 +32,7 @@ const campaign::TableLayout<OffsetRow>& offsetsLayout() {
 }
 
 /// The load cell's reading that a force at P_TCP gives there: force in the cell's axes, moment about its point.
-Vector6d readingOf(const DeflectingArm& arm, const Vector6d& q, const Eigen::Vector3d& force) {
+Vector6d readingOf(const DeflectingArm& arm, const JointVector& q, const Eigen::Vector3d& force) {
   const robot::ArmPosture posture = robot::postureAt(arm.geometry.arm, q);
   const Eigen::Isometry3d flange = robot::flangeAt(arm.geometry.arm, posture);
   Eigen::Matrix3d r0_from_cell;
@@ -50,16 +50,17 @@ Vector6d readingOf(const DeflectingArm& arm, const Vector6d& q, const Eigen::Vec
 }
 
 /// The joint angles at which the tool stands moved by `by`: in steps, so that the branch is kept.
-std::optional<Vector6d> movedAngles(const DeflectingArm& arm, const Vector6d& q, const Eigen::Vector3d& by,
-                                    double least_conditioning) {
-  constexpr double kStep = 0.05;  // m
+std::optional<JointVector> movedAngles(const DeflectingArm& arm, const JointVector& q, const Eigen::Vector3d& by,
+                                       double least_conditioning) {
+  constexpr double kStep = 0.05;    // m
+  constexpr double kTurned = 1e-3;  // rad, of fewer than six joints: the same task still
   const Eigen::Isometry3d flange = robot::flangeAt(arm.geometry.arm, robot::postureAt(arm.geometry.arm, q));
   const int steps = std::max(1, static_cast<int>(std::ceil(by.norm() / kStep)));
-  Vector6d angles = q;
+  JointVector angles = q;
   for (int step = 1; step <= steps; ++step) {
     Eigen::Isometry3d wanted = flange;
     wanted.pretranslate(Eigen::Vector3d(by * step / steps));
-    const auto next = continuedAngles(arm.geometry.arm, wanted, angles, least_conditioning);
+    const auto next = continuedAngles(arm.geometry.arm, wanted, arm.tcp_in_flange, angles, least_conditioning, kTurned);
     if (!next) return std::nullopt;
     angles = *next;
   }

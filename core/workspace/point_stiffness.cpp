@@ -25,14 +25,14 @@ constexpr double kNoMove = 1e-9;  // m per rad: no joint of an arm in a laborato
 
 /// Where P_TCP stands under a force there, R0; empty where the arm does not come to rest.
 std::optional<Eigen::Vector3d> loadedPoint(const effects::RestingFlange& flange, const DeflectingArm& arm,
-                                           const Vector6d& q, const Eigen::Vector3d& force) {
+                                           const JointVector& q, const Eigen::Vector3d& force) {
   const auto resting = flange(q, {arm.tcp_in_flange, force, Eigen::Vector3d::Zero()});
   return resting ? std::optional<Eigen::Vector3d>(*resting * arm.tcp_in_flange) : std::nullopt;
 }
 
 /// Half the difference of the deflections under a force and its opposite, over the force: one column of the compliance.
-std::optional<Eigen::Vector3d> probed(const effects::RestingFlange& flange, const DeflectingArm& arm, const Vector6d& q,
-                                      const Eigen::Vector3d& direction) {
+std::optional<Eigen::Vector3d> probed(const effects::RestingFlange& flange, const DeflectingArm& arm,
+                                      const JointVector& q, const Eigen::Vector3d& direction) {
   const double probe = probeOf(arm);
   const auto there = loadedPoint(flange, arm, q, probe * direction),
              back = loadedPoint(flange, arm, q, -probe * direction);
@@ -41,7 +41,7 @@ std::optional<Eigen::Vector3d> probed(const effects::RestingFlange& flange, cons
 }
 
 /// Orthonormal columns at right angles to what the joints move.
-Eigen::Matrix3Xd unmovedBy(const Matrix36d& jacobian, const std::vector<int>& joints) {
+Eigen::Matrix3Xd unmovedBy(const PointJacobian& jacobian, const std::vector<int>& joints) {
   if (joints.empty()) return Eigen::Matrix3d::Identity();
   Eigen::Matrix3Xd moved(3, static_cast<Eigen::Index>(joints.size()));
   for (std::size_t k = 0; k < joints.size(); ++k)
@@ -54,7 +54,7 @@ Eigen::Matrix3Xd unmovedBy(const Matrix36d& jacobian, const std::vector<int>& jo
 }
 
 /// Displacement of P_TCP by a unit force with a unit of each uncertain parameter of what gives besides joint springs.
-Eigen::MatrixXd byParameters(const DeflectingArm& arm, const Vector6d& q, const Eigen::Vector3d& tcp,
+Eigen::MatrixXd byParameters(const DeflectingArm& arm, const JointVector& q, const Eigen::Vector3d& tcp,
                              const Eigen::Vector3d& direction, const Eigen::Vector3d& as_it_is) {
   const compensation::DeflectionDraws& draws = arm.certainty->draws;
   Eigen::MatrixXd by = Eigen::MatrixXd::Zero(3, draws.parameters.rows());
@@ -73,16 +73,17 @@ Eigen::MatrixXd byParameters(const DeflectingArm& arm, const Vector6d& q, const 
 
 /// Variance of a direction's compliance, (m/N)^2, by the fit alone, springs and named effects together. Zero where the
 /// draws are those of the fit: then they have it.
-double varianceOfFit(const DeflectingArm& arm, const Vector6d& q, const Matrix36d& jacobian,
+double varianceOfFit(const DeflectingArm& arm, const JointVector& q, const PointJacobian& jacobian,
                      const Eigen::Vector3d& direction, double compliance) {
   if (!arm.certainty->draws.by) return 0.0;
   identification::StiffnessEstimate springs = arm.estimate;
   if (arm.with != nullptr) springs.covariance -= springs.parts.effects;
-  const Matrix6d covariance = identification::coveringCovariance(springs);
-  const Vector6d moves = (jacobian.transpose() * direction).cwiseAbs2();
+  const JointMatrix covariance = identification::coveringCovariance(springs);
+  const JointVector moves = (jacobian.transpose() * direction).cwiseAbs2();
   double variance = 0.0;
-  for (int i = 0; i < 6; ++i) {
-    for (int j = 0; j < 6; ++j) {
+  const auto joints = static_cast<int>(moves.size());
+  for (int i = 0; i < joints; ++i) {
+    for (int j = 0; j < joints; ++j) {
       // The direction is at right angles to what joints of unknown stiffness move.
       if (hasUsableStiffness(arm.estimate, i) && hasUsableStiffness(arm.estimate, j))
         variance += moves[i] * moves[j] * covariance(i, j);
@@ -108,11 +109,11 @@ double middleError(const std::vector<double>& errors) {
 
 /// `by`: of the effects' parameters along the direction; no columns: joint springs alone. `more`: variance that the
 /// draws do not have.
-DirectionalCompliance withInterval(const DeflectingArm& arm, const Matrix36d& jacobian,
+DirectionalCompliance withInterval(const DeflectingArm& arm, const PointJacobian& jacobian,
                                    const Eigen::Vector3d& direction, double compliance, const Eigen::RowVectorXd& by,
                                    double more = 0.0) {
   const compensation::DeflectionDraws& draws = arm.certainty->draws;
-  const Vector6d moves = jacobian.transpose() * direction;
+  const JointVector moves = jacobian.transpose() * direction;
   std::vector<double> errors(static_cast<std::size_t>(draws.size()));
   Eigen::Map<Eigen::RowVectorXd> row(errors.data(), draws.size());
   row = moves.cwiseAbs2().transpose() * draws.compliance;
@@ -131,10 +132,10 @@ DirectionalCompliance withInterval(const DeflectingArm& arm, const Matrix36d& ja
 struct LinearArm {
   robot::ArmPosture posture;
   Eigen::Vector3d tcp;
-  Matrix6d jacobian;
+  Jacobian jacobian;
 };
 
-LinearArm linearArm(const DeflectingArm& arm, const Vector6d& q) {
+LinearArm linearArm(const DeflectingArm& arm, const JointVector& q) {
   LinearArm at{robot::postureAt(arm.geometry.arm, arm.geometry.sagged(q)), {}, {}};
   at.tcp = robot::flangeAt(arm.geometry.arm, at.posture) * arm.tcp_in_flange;
   at.jacobian = robot::jacobianAt(arm.geometry.arm, at.posture, at.tcp);
@@ -151,16 +152,16 @@ identification::CoverageInterval DirectionalCompliance::stiffnessInterval() cons
   return identification::stiffnessInterval(interval);
 }
 
-std::optional<PointStiffness> pointStiffness(const DeflectingArm& arm, const Vector6d& q) {
+std::optional<PointStiffness> pointStiffness(const DeflectingArm& arm, const JointVector& q) {
   const LinearArm at = linearArm(arm, q);
   PointStiffness place;
   place.q = q;
   place.tcp = at.tcp;
-  const Vector6d singular = singularValues(at.jacobian);
-  place.conditioning = singular[5] / singular[0];
-  Vector6d compliance = arm.estimate.compliance;
-  const Matrix36d moves = at.jacobian.topRows<3>();
-  for (int joint = 0; joint < 6; ++joint) {
+  const Eigen::VectorXd singular = singularValues(at.jacobian);
+  place.conditioning = singular[singular.size() - 1] / singular[0];
+  JointVector compliance = arm.estimate.compliance;
+  const PointJacobian moves = at.jacobian.topRows<3>();
+  for (int joint = 0; joint < compliance.size(); ++joint) {
     if (hasUsableStiffness(arm.estimate, joint)) continue;
     compliance[joint] = 0.0;
     if (moves.col(joint).norm() > kNoMove) place.unknown.push_back(joint);

@@ -44,10 +44,10 @@ struct DirectionalCompliance {
 /// the truth more often than the stated coverage (docs/validation.md).
 struct PointStiffness {
   std::string pose;  ///< of the campaign; empty: of none
-  Vector6d q = Vector6d::Zero();
+  JointVector q;
   Eigen::Vector3d tcp = Eigen::Vector3d::Zero();
   double conditioning = 0.0;  ///< least over largest singular value of J at P_TCP, lengths over 1 m
-  std::vector<int> unknown;   ///< joints (0..5) of unknown stiffness that move P_TCP
+  std::vector<int> unknown;   ///< joints (from 0) of unknown stiffness that move P_TCP
   Eigen::Matrix3d springs = Eigen::Matrix3d::Zero();  ///< m/N
   Eigen::Matrix3d model = Eigen::Matrix3d::Zero();    ///< m/N; as `springs` where the model has no more
   std::vector<DirectionalCompliance> of_springs;      ///< C_x alone, by what the day leaves open of the springs
@@ -55,7 +55,7 @@ struct PointStiffness {
 };
 
 /// At the joint angles `q`, by an arm whose certainty is there. Empty where the arm does not come to rest there.
-std::optional<PointStiffness> pointStiffness(const DeflectingArm& arm, const Vector6d& q);
+std::optional<PointStiffness> pointStiffness(const DeflectingArm& arm, const JointVector& q);
 
 /// Whether a joint's stiffness is of use: found by the day or known from elsewhere, and not negative.
 bool hasUsableStiffness(const identification::StiffnessEstimate& estimate, int joint);

@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "core/compensation/joint_correction.h"
 #include "core/io/input_error.h"
 #include "core/io/units.h"
 #include "core/numerics/parallel.h"
@@ -19,12 +20,38 @@ namespace stiffscope::workspace {
 
 namespace {
 
-bool withinLimits(const robot::Robot& arm, const Vector6d& q) {
-  for (int joint = 0; joint < 6; ++joint) {
+bool withinLimits(const robot::Robot& arm, const JointVector& q) {
+  for (int joint = 0; joint < arm.joints(); ++joint) {
     const robot::JointLimits& limits = arm.limits[static_cast<std::size_t>(joint)];
     if (q[joint] < limits.lower || q[joint] > limits.upper) return false;
   }
   return true;
+}
+
+/// Joint angles of an arm of fewer than six joints at which a point of the flange is where it is to be, and the flange
+/// turned by no more than `most_turned` from its pose. Steps are shortened, so that they stay on their branch.
+std::optional<JointVector> positionFirstAngles(const robot::Robot& arm, const Eigen::Isometry3d& base_from_flange,
+                                               const Eigen::Vector3d& tcp_in_flange, const JointVector& start,
+                                               double most_turned) {
+  constexpr int kMostSteps = 100;
+  constexpr double kLongest = 0.3, kClose = 1e-10;  // rad; m and rad
+  JointVector q = start;
+  for (int step = 0; step < kMostSteps; ++step) {
+    const robot::ArmPosture posture = robot::postureAt(arm, q);
+    const Eigen::Isometry3d flange = robot::flangeAt(arm, posture);
+    const Eigen::Vector3d point = flange * tcp_in_flange;
+    Vector6d left;
+    left << base_from_flange * tcp_in_flange - point,
+        robot::rotationVector(base_from_flange.linear() * flange.linear().transpose());
+    JointVector change = compensation::jointStep(robot::jacobianAt(arm, posture, point), left, q - start);
+    if (!change.allFinite()) return std::nullopt;
+    const double longest = change.cwiseAbs().maxCoeff();
+    if (longest < kClose && left.head<3>().cwiseAbs().maxCoeff() < kClose)
+      return left.tail<3>().norm() <= most_turned ? std::optional<JointVector>(q) : std::nullopt;
+    if (longest > kLongest) change *= kLongest / longest;
+    q += change;
+  }
+  return std::nullopt;
 }
 
 double niceSpacing(double about) {
@@ -36,16 +63,24 @@ double niceSpacing(double about) {
 
 }  // namespace
 
-std::optional<Vector6d> continuedAngles(const robot::Robot& arm, const Eigen::Isometry3d& base_from_flange,
-                                        const Vector6d& start, double least_conditioning) {
+std::optional<JointVector> continuedAngles(const robot::Robot& arm, const Eigen::Isometry3d& base_from_flange,
+                                           const Eigen::Vector3d& tcp_in_flange, const JointVector& start,
+                                           double least_conditioning, double most_turned) {
   constexpr double kFarthest = 90.0 * io::kDegree;  // of all steps together: the arm has turned over
-  const robot::InverseKinematics found =
-      robot::inverseKinematics(arm, base_from_flange, Eigen::Isometry3d::Identity(), start);
-  if (!found.reached || (found.q - start).cwiseAbs().maxCoeff() >= kFarthest || !withinLimits(arm, found.q))
-    return std::nullopt;
-  const robot::ArmAxes axes = robot::axesAt(arm, robot::postureAt(arm, found.q));
-  if (robot::conditioningAt(axes, base_from_flange.translation()) < least_conditioning) return std::nullopt;
-  return found.q;
+  std::optional<JointVector> q;
+  Eigen::Vector3d point = base_from_flange.translation();
+  if (arm.joints() < 6) {
+    point = base_from_flange * tcp_in_flange;
+    q = positionFirstAngles(arm, base_from_flange, tcp_in_flange, start, most_turned);
+  } else {
+    const robot::InverseKinematics found =
+        robot::inverseKinematics(arm, base_from_flange, Eigen::Isometry3d::Identity(), start);
+    if (found.reached) q = found.q;
+  }
+  if (!q || (*q - start).cwiseAbs().maxCoeff() >= kFarthest || !withinLimits(arm, *q)) return std::nullopt;
+  const robot::ArmAxes axes = robot::axesAt(arm, robot::postureAt(arm, *q));
+  if (compensation::stepConditioning(axes, point) < least_conditioning) return std::nullopt;
+  return q;
 }
 
 std::vector<NamedPosture> identifiedPostures(const campaign::Campaign& campaign,
@@ -60,7 +95,7 @@ std::vector<NamedPosture> identifiedPostures(const campaign::Campaign& campaign,
 }
 
 const NamedPosture& middlePosture(const std::vector<NamedPosture>& postures) {
-  Vector6d mean = Vector6d::Zero();
+  JointVector mean = JointVector::Zero(postures.front().q.size());
   for (const NamedPosture& one : postures) mean += one.q / static_cast<double>(postures.size());
   return *std::min_element(postures.begin(), postures.end(), [&](const NamedPosture& a, const NamedPosture& b) {
     return (a.q - mean).squaredNorm() < (b.q - mean).squaredNorm();
@@ -101,16 +136,17 @@ StiffnessSlice stiffnessSlice(const DeflectingArm& arm, const std::vector<NamedP
   // Places are multiples of the spacing, so that slices of two days lie on one grid. Neighbours are reached from each
   // other, the nearest to the posture first.
   using Cell = std::pair<int, int>;  // height, radius
-  const auto angles = [&](const Cell& cell, const Vector6d& start) {
+  constexpr double kTurned = 10.0 * io::kDegree;
+  const auto angles = [&](const Cell& cell, const JointVector& start) {
     Eigen::Isometry3d wanted = flange;
     const Eigen::Vector3d at =
         cell.second * slice.spacing * slice.outward + cell.first * slice.spacing * Eigen::Vector3d::UnitZ();
     wanted.pretranslate(at - tcp);
-    return continuedAngles(machine, wanted, start, options.least_conditioning);
+    return continuedAngles(machine, wanted, arm.tcp_in_flange, start, options.least_conditioning, kTurned);
   };
-  std::map<Cell, Vector6d> reached;
+  std::map<Cell, JointVector> reached;
   std::deque<Cell> open;
-  const auto visit = [&](const Cell& cell, const Vector6d& start) {
+  const auto visit = [&](const Cell& cell, const JointVector& start) {
     if (cell.second < 0 || reached.contains(cell)) return;
     const auto q = angles(cell, start);
     if (!q) return;
@@ -127,12 +163,12 @@ StiffnessSlice stiffnessSlice(const DeflectingArm& arm, const std::vector<NamedP
   while (!open.empty()) {
     const Cell cell = open.front();
     open.pop_front();
-    const Vector6d start = reached.at(cell);
+    const JointVector start = reached.at(cell);
     for (const Cell& step : {Cell{0, 1}, Cell{0, -1}, Cell{1, 0}, Cell{-1, 0}})
       visit({cell.first + step.first, cell.second + step.second}, start);
   }
 
-  std::vector<std::pair<Cell, Vector6d>> cells(reached.begin(), reached.end());
+  std::vector<std::pair<Cell, JointVector>> cells(reached.begin(), reached.end());
   std::vector<std::optional<PointStiffness>> found(cells.size());
   numerics::onAllCores(cells.size(), [&](std::size_t i) { found[i] = pointStiffness(arm, cells[i].second); });
   for (std::size_t i = 0; i < cells.size(); ++i) {

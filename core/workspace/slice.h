@@ -12,8 +12,14 @@ namespace stiffscope::workspace {
 /// Joint angles at which the flange of the rigid arm stands at `base_from_flange`, nearest to `start` along the way:
 /// Newton's steps with the Jacobian from there, so that the arm keeps its branch (elbow, wrist). Empty where they do
 /// not converge, where a joint would leave its limits, or near a singularity (conditioning below `least_conditioning`).
-std::optional<Vector6d> continuedAngles(const robot::Robot& arm, const Eigen::Isometry3d& base_from_flange,
-                                        const Vector6d& start, double least_conditioning);
+///
+/// Of more than six joints the steps are the least that lead there; the freedom that is left is not used. Fewer cannot
+/// hold every pose: they bring the point `tcp_in_flange` of the flange where it is to be, the orientation as near as
+/// the freedom that is left allows (compensation::jointStep), and empty where that turns it by more than `most_turned`,
+/// rad.
+std::optional<JointVector> continuedAngles(const robot::Robot& arm, const Eigen::Isometry3d& base_from_flange,
+                                           const Eigen::Vector3d& tcp_in_flange, const JointVector& start,
+                                           double least_conditioning, double most_turned);
 
 struct SliceOptions {
   std::string pose;      ///< whose tool orientation and direction from axis 1 are held; empty: middlePosture
@@ -30,10 +36,11 @@ struct SlicePlace {
 
 /// Stiffness in the vertical plane through axis 1 and the P_TCP of one posture, the tool turned as there: places on a
 /// grid of radius and height that the arm reaches from that posture without leaving its branch, within its joint
-/// limits. Of collisions nothing is known.
+/// limits. Arms of fewer than six joints may turn the tool by 10 deg from that, which C_x hardly feels. Of collisions
+/// nothing is known.
 struct StiffnessSlice {
   std::string pose;
-  Vector6d q = Vector6d::Zero();                       ///< of that posture, rad
+  JointVector q;                                       ///< of that posture, rad
   double azimuth = 0.0;                                ///< of the plane about z0, from x0, rad
   double spacing = 0.0;                                ///< m
   Eigen::Vector3d outward = Eigen::Vector3d::UnitX();  ///< from axis 1, level; z0 is the other direction of the plane
@@ -43,7 +50,7 @@ struct StiffnessSlice {
 /// A posture of the campaign by its name.
 struct NamedPosture {
   std::string pose;
-  Vector6d q = Vector6d::Zero();  ///< rad
+  JointVector q;  ///< rad
 };
 
 /// The postures of the load cases, each once.

@@ -17,7 +17,7 @@ WorkspaceStiffness workspaceStiffness(const DeflectingArm& arm, const identifica
       if (effects::natureOf(one.effect) == effects::EffectNature::machine) found.held.push_back(one.effect);
     }
   }
-  for (int joint = 0; joint < 6; ++joint) {
+  for (int joint = 0; joint < arm.geometry.arm.joints(); ++joint) {
     if (!hasUsableStiffness(arm.estimate, joint)) found.unknown.push_back(joint);
   }
   const std::vector<NamedPosture> postures = identifiedPostures(arm.campaign, result);

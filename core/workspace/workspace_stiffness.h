@@ -30,8 +30,9 @@ std::vector<Offset> readOffsets(const std::filesystem::path& file, std::vector<s
 /// The workpiece at one offset: all of its postures moved along, the tool turned as in each.
 struct Placement {
   Offset offset;
-  std::size_t reached = 0;  ///< postures that the arm reaches there (continuedAngles)
-  std::string worst;        ///< the posture that deflects most, by name
+  std::size_t reached =
+      0;              ///< postures that the arm reaches there (continuedAngles), the tool turned by 1e-3 rad at most
+  std::string worst;  ///< the posture that deflects most, by name
   /// Of that posture, predicted by the model as `compensate` does; deflections of P_TCP, m.
   compensation::CompensatedPosture prediction;
   Remark reason;  ///< why it is not judged: the first refusal of a posture; empty where it is, or out of reach
@@ -68,7 +69,7 @@ struct WorkspaceStiffness {
   identification::Method method{};
   /// Effects of the machine in the model: what PointStiffness::model holds besides the springs of the joints.
   std::vector<effects::Effect> held;
-  std::vector<int> unknown;              ///< joints (0..5) of unknown stiffness
+  std::vector<int> unknown;              ///< joints (from 0) of unknown stiffness
   std::vector<PointStiffness> postures;  ///< those that identified, in their order
   StiffnessSlice slice;
   std::optional<PlacementStudy> placement;

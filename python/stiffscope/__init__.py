@@ -3,7 +3,7 @@
     import stiffscope
     day = stiffscope.open("samples/active")
     found = day.identify(method="dpp")
-    found.methods.dpp.stiffness_nm_per_rad      # numpy array of six, NaN where a joint is not identifiable
+    found.methods.dpp.stiffness_nm_per_rad      # numpy array, one a joint, NaN where a joint is not identifiable
     print(found)                                # what the command prints
 
 Every function does what the command of its name does, by the same code: arguments are the command's options, results

@@ -77,6 +77,7 @@ class Campaign:
         self.name = self._core.name
         self.date = self._core.date
         self.robot = self._core.robot
+        self.joints = self._core.joints  # how many the machine has
         self.folder = pathlib.Path(self._core.folder)
 
     def __repr__(self):
@@ -165,19 +166,20 @@ def compensate(campaign, postures=None, wrenches=None, *, names=None, method="",
                springs_only=False, raw=False):
     """Predicted deflection and the joint commands that cancel it, a row a posture under `rows`.
 
-    postures: an array of rows of six joint angles (deg) with `wrenches`, rows of the load cell's expected reading
+    postures: an array of rows of joint angles (deg) with `wrenches`, rows of the load cell's expected reading
     (fx, fy, fz in N, mx, my, mz in Nm; one row for all postures will do); or a CSV file of both; or a table of both with
     the file's columns (a dict of arrays or a DataFrame); None: the campaign's own. names: of the postures, else 1, 2 ...
     """
-    file, ids, angles, readings = "", None, numpy.zeros((0, 6)), numpy.zeros((0, 6))
+    file, ids, angles, readings = "", None, numpy.zeros((0, 0)), numpy.zeros((0, 6))
+    opened = _opened(campaign)
     if postures is not None and (isinstance(postures, (str, os.PathLike))):
         file = os.fspath(postures)
     elif postures is not None:
         if hasattr(postures, "keys"):
-            names, postures, wrenches = _posture_table(postures)
+            names, postures, wrenches = _posture_table(postures, opened.joints)
         if wrenches is None:
             _refuse("wrenches", None, "expected the load cell's reading of each posture")
-        angles = _rows("postures", postures, 6)
+        angles = _rows("postures", postures, opened.joints)
         readings = _rows("wrenches", wrenches, 6)
         if len(readings) == 1:
             readings = numpy.repeat(readings, len(angles), axis=0)
@@ -188,12 +190,12 @@ def compensate(campaign, postures=None, wrenches=None, *, names=None, method="",
             _refuse("names", f"{len(ids)} names", f"expected {len(angles)} different names")
     return _result(
         "compensate",
-        _core.compensate(_opened(campaign), raw, _words(with_), springs_only, method or "", _step(step), file, ids, angles,
+        _core.compensate(opened, raw, _words(with_), springs_only, method or "", _step(step), file, ids, angles,
                          readings))
 
 
-def _posture_table(table):
-    angles = [f"q{j}_deg" for j in range(1, 7)]
+def _posture_table(table, joints):
+    angles = [f"q{j}_deg" for j in range(1, joints + 1)]
     wrench = ["fx_n", "fy_n", "fz_n", "mx_nm", "my_nm", "mz_nm"]
     missing = [name for name in ["pose", *angles, *wrench] if name not in table.keys()]
     if missing:
@@ -227,11 +229,12 @@ def plan(campaign, *, postures=None, add=None, load=None, pull=None, hook=None, 
     given = [name for name, value in loaded.items() if unloaded and value is not None]
     if given or (unloaded and (springs_only or criterion != "balanced")):
         _refuse("unloaded", True, f"expected without {given[0] if given else 'springs_only or criterion'}")
+    opened = _opened(campaign)
     return _result(
         "plan",
-        _core.plan(_opened(campaign), _words(with_), springs_only, postures, add, _number("load", load),
+        _core.plan(opened, _words(with_), springs_only, postures, add, _number("load", load),
                    _number("pull", pull), _vector("hook", hook, 3), _vector("tracker", tracker, 3),
-                   _vector("min_deg", min_deg, 6), _vector("max_deg", max_deg, 6),
+                   _vector("min_deg", min_deg, opened.joints), _vector("max_deg", max_deg, opened.joints),
                    _core.default_repeats if repeats is None else repeats, unloaded, criterion, candidates, seed,
                    _path(out)))
 

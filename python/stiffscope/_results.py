@@ -108,7 +108,7 @@ def _stiffnesses(result):
     """A row a method and joint."""
     rows = []
     for method, values in result.get("methods", {}).items():
-        for joint in range(6):
+        for joint in range(len(values["stiffness_nm_per_rad"])):
             low, high = values["interval_nm_per_rad"][joint] if values.get("interval_nm_per_rad") is not None else (
                 None, None)
             rows.append({

@@ -105,7 +105,7 @@ void addAdministrativeData(XMLElement& root, const DccContent& content) {
 std::vector<int> listedJoints(const DccContent& content) {
   const identification::StiffnessEstimate& estimate = content.result.of(content.method).estimate;
   std::vector<int> joints;
-  for (int joint = 0; joint < 6; ++joint) {
+  for (int joint = 0; joint < estimate.joints(); ++joint) {
     if (estimate.identifiable[static_cast<std::size_t>(joint)] && estimate.compliance[joint] > 0.0 &&
         std::isfinite(identification::expandedUncertainty(estimate, joint)))
       joints.push_back(joint);
@@ -191,7 +191,7 @@ void addResults(XMLElement& root, const DccContent& content) {
   XMLElement& data = *result.InsertNewChildElement("dcc:data");
   const std::vector<int> joints = listedJoints(content);
   if (!joints.empty()) addStiffnessList(data, content, joints);
-  for (int joint = 0; joint < 6; ++joint) {
+  for (int joint = 0; joint < content.result.of(content.method).estimate.joints(); ++joint) {
     if (std::find(joints.begin(), joints.end(), joint) == joints.end())
       addText(data, "dcc:text", notListedWords(content, joint));
   }

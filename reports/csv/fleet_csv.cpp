@@ -27,11 +27,13 @@ void addStated(DataRow& row, const fleet::Stated& one) { row.insert(row.end(), {
 
 void addEmpty(DataRow& row, std::size_t count) { row.insert(row.end(), count, std::monostate()); }
 
-void addCampaign(DataRow& row, const fleet::CampaignResult& one) {
+/// `joints`: whose columns the table has.
+void addCampaign(DataRow& row, const fleet::CampaignResult& one, int joints) {
   row.insert(row.end(), {std::string(keyOf(one.kind)), std::string(nameOf(one.encoders)),
                          std::string(nameOf(one.audit)), static_cast<double>(one.postures)});
   row.push_back(one.method ? DataCell(std::string(namesOf(*one.method).key)) : DataCell());
   for (const fleet::Stated& k : one.stiffness) addStated(row, k);
+  addEmpty(row, 3 * (static_cast<std::size_t>(joints) - one.stiffness.size()));
   row.push_back(one.deflection);
   addStated(row, one.compensated);
   addStated(row, one.nominal);
@@ -45,7 +47,8 @@ void addCampaign(DataRow& row, const fleet::CampaignResult& one) {
 std::string fleetCsv(const fleet::Fleet& fleet) {
   DataTable table{{"machine", "date", "folder", "failure", "kind", "double_encoders", "audit", "postures", "method"},
                   {}};
-  for (int j = 1; j <= 6; ++j) addColumns(table, fmt::format("k{}", j), "nm_per_rad");
+  const int joints = mostJointsOf(fleet);
+  for (int j = 1; j <= joints; ++j) addColumns(table, fmt::format("k{}", j), "nm_per_rad");
   table.columns.emplace_back("deflection_m");
   addColumns(table, "compensated", "");
   addColumns(table, "nominal_rms", "m");
@@ -53,7 +56,7 @@ std::string fleetCsv(const fleet::Fleet& fleet) {
   for (const char* name : {"gap_before_m", "gap_noise_m", "gap_after_m", "effects"}) table.columns.emplace_back(name);
   for (const fleet::FleetCampaign& one : fleet.campaigns) {
     DataRow row{one.machine, one.date, one.folder, one.failure};
-    if (one.result) addCampaign(row, *one.result);
+    if (one.result) addCampaign(row, *one.result, joints);
     addEmpty(row, table.columns.size() - row.size());
     table.rows.push_back(std::move(row));
   }
@@ -79,7 +82,7 @@ std::string changesCsv(const fleet::Fleet& fleet) {
       table.rows.push_back(std::move(row));
       continue;
     }
-    for (std::size_t j = 0; j < 6; ++j) {
+    for (std::size_t j = 0; j < pair.result->difference.size(); ++j) {
       if (!std::isfinite(pair.result->difference[j].value)) continue;
       DataRow row = head;
       row.insert(row.end(), {std::string("compliance"), static_cast<double>(j + 1)});

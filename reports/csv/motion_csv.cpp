@@ -44,7 +44,7 @@ class MotionLine {
   std::vector<std::string> names_, cells_;
 };
 
-constexpr const char *kJoints = "123456", *kAxes = "xyz";
+constexpr const char *kJoints = "12345678", *kAxes = "xyz";
 constexpr int kAngleDecimals = 6, kLengthDecimals = 5;
 
 void addAngles(const compensation::CompensatedPosture& posture, const campaign::JointConvention* convention,
@@ -82,7 +82,7 @@ std::string table(std::size_t count, const std::function<MotionLine(std::size_t)
 
 std::optional<campaign::JointConvention> conventionOf(const campaign::Campaign& campaign) {
   if (campaign.joint_readings.empty()) return std::nullopt;
-  return campaign::JointConvention(campaign.joint_readings);
+  return campaign::JointConvention(campaign.joint_readings, campaign.robot.joints());
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace {
 
 /// Three rows of a point's equations b = A c.
 void addPoint(const std::vector<DataCell>& which, const identification::CaseEquations& rows, Eigen::Index point,
-              identification::Method method, const Vector6d& compliance, DataTable& table) {
+              identification::Method method, const JointVector& compliance, DataTable& table) {
   const Eigen::Vector3d measured = rows.right.segment<3>(3 * point);
   const Eigen::Vector3d predicted = rows.matrix.middleRows<3>(3 * point) * compliance;
   std::vector<DataCell> cells = which;

@@ -7,9 +7,9 @@
 namespace stiffscope::reports {
 
 /// A row a posture, then a row a place of the slice: joint angles, P_TCP in R0, and in each the softest, middle and
-/// stiffest direction of K_x and of the whole model with the ends of their intervals. `postures`, `slice`: which of
-/// them.
-DataTable stiffnessPlaces(const workspace::WorkspaceStiffness& found, bool postures, bool slice);
+/// stiffest direction of K_x and of the whole model with the ends of their intervals. `joints`: of the machine.
+/// `postures`, `slice`: which of them.
+DataTable stiffnessPlaces(const workspace::WorkspaceStiffness& found, int joints, bool postures, bool slice);
 
 /// A row an offset of the workpiece.
 DataTable placementTable(const workspace::PlacementStudy& study);

@@ -60,10 +60,12 @@ void addPlace(const char* kind, const std::string& pose, const workspace::PointS
 
 }  // namespace
 
-DataTable stiffnessPlaces(const workspace::WorkspaceStiffness& found, bool postures, bool slice) {
+DataTable stiffnessPlaces(const workspace::WorkspaceStiffness& found, int joints, bool postures, bool slice) {
   DataTable table;
-  table.columns = {"place",  "pose",     "q1_deg",   "q2_deg",   "q3_deg",    "q4_deg",       "q5_deg",
-                   "q6_deg", "tcp_x_mm", "tcp_y_mm", "tcp_z_mm", "radius_mm", "conditioning", "unknown_joints"};
+  table.columns = {"place", "pose"};
+  for (int joint = 1; joint <= joints; ++joint) table.columns.push_back(fmt::format("q{}_deg", joint));
+  for (const char* column : {"tcp_x_mm", "tcp_y_mm", "tcp_z_mm", "radius_mm", "conditioning", "unknown_joints"})
+    table.columns.emplace_back(column);
   addPrincipalColumns("springs", table.columns);
   addPrincipalColumns("model", table.columns);
   if (postures) {

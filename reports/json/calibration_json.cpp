@@ -149,12 +149,12 @@ Json calibrationJson(const campaign::Campaign& campaign, const calibration::Cali
   json["models"] = models;
   json["rejected"] = rejectedJson(calibration.rejected);
   Json axes = Json::array();
-  for (std::size_t j = 0; j < 6; ++j) axes.push_back(axisJson(day, fit, arm, j));
+  for (std::size_t j = 0; j < fit.start.size(); ++j) axes.push_back(axisJson(day, fit, arm, j));
   json["axes"] = axes;
   const ArmFit& best = calibration.best().fit;
   const robot::Robot arm_with_effects = best.arm(day.arm);
   Json with_effects = Json::array();
-  for (std::size_t j = 0; j < 6; ++j) with_effects.push_back(axisJson(day, best, arm_with_effects, j));
+  for (std::size_t j = 0; j < best.start.size(); ++j) with_effects.push_back(axisJson(day, best, arm_with_effects, j));
   json["axes_with_effects"] = with_effects;
   json["not_identifiable"] = words(calibration.not_identifiable);
   json["base_link_from_tracker"] = matrix(fit.basePointsMotion());

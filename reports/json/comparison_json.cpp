@@ -27,7 +27,7 @@ void addDifference(const comparison::JointChange& joint, Json& row) {
 
 Json jointsJson(const comparison::StiffnessChange& change, bool ratios_hold) {
   Json joints = Json::array();
-  for (std::size_t j = 0; j < 6; ++j) {
+  for (std::size_t j = 0; j < change.joints.size(); ++j) {
     const comparison::JointChange& joint = change.joints[j];
     Json row{{"joint", j + 1}};
     if (joint.comparable) {

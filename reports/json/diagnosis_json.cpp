@@ -45,9 +45,9 @@ Json gapJson(const diagnosis::Gap& gap) {
           {"after_um", micrometres(gap.after)}};
 }
 
-Json stiffnessJson(const diagnosis::Diagnosis& diagnosis, const Vector6d& values) {
+Json stiffnessJson(const diagnosis::Diagnosis& diagnosis, const JointVector& values) {
   Json list = Json::array();
-  for (int j = 0; j < 6; ++j) {
+  for (Eigen::Index j = 0; j < values.size(); ++j) {
     list.push_back(diagnosis.identifiable[static_cast<std::size_t>(j)] ? number(values[j]) : Json(nullptr));
   }
   return list;
@@ -115,7 +115,7 @@ Json diagnosisJson(const campaign::Campaign& campaign, const diagnosis::Diagnosi
     json["stiffness_by"] = namesOf(diagnosis.stated->method).key;
     json["stiffness_u_nm_per_rad"] = stiffnessJson(diagnosis, diagnosis.stated->expanded);
     Json intervals = Json::array();
-    for (std::size_t j = 0; j < 6; ++j) {
+    for (std::size_t j = 0; j < diagnosis.identifiable.size(); ++j) {
       const identification::CoverageInterval& one = diagnosis.stated->interval[j];
       intervals.push_back(diagnosis.identifiable[j] ? Json{number(one.low), number(one.high)} : Json(nullptr));
     }

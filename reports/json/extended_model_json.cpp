@@ -64,7 +64,7 @@ Json shownMethodJson(const identification::MethodResult& method) {
   const identification::StiffnessEstimate& estimate = method.estimate;
   const auto byJoint = [&](const auto& entry) {
     Json list = Json::array();
-    for (int joint = 0; joint < 6; ++joint)
+    for (int joint = 0; joint < estimate.joints(); ++joint)
       list.push_back(estimate.identifiable[static_cast<std::size_t>(joint)] ? number(entry(joint)) : Json(nullptr));
     return list;
   };
@@ -112,7 +112,7 @@ Json budgetJson(const std::vector<extended_model::BudgetLine>& budget,
   Json rows = Json::array();
   for (const extended_model::BudgetLine& line : budget) {
     Json u = Json::array(), dof = Json::array();
-    for (int j = 0; j < 6; ++j) {
+    for (int j = 0; j < estimate.joints(); ++j) {
       const bool seen = estimate.identifiable[static_cast<std::size_t>(j)];
       const double slope = 1.0 / (estimate.compliance[j] * estimate.compliance[j]);
       const double sd = std::copysign(std::sqrt(std::abs(line.variance[j])), line.variance[j]);

@@ -47,19 +47,27 @@ Stated stated(const Json& json) {
   return one;
 }
 
-Json statedJson(const std::array<Stated, 6>& joints) {
+Json statedJson(const PerJoint<Stated>& joints) {
   Json list = Json::array();
   for (const Stated& one : joints) list.push_back(statedJson(one));
   return list;
 }
 
-void readStated(const Json& json, std::array<Stated, 6>& joints) {
-  for (std::size_t j = 0; j < 6; ++j) joints[j] = stated(json.at(j));
+void readStated(const Json& json, PerJoint<Stated>& joints) {
+  for (std::size_t j = 0; j < joints.size(); ++j) joints[j] = stated(json.at(j));
 }
 
-Vector6d vectorOf(const Json& json) {
-  Vector6d values;
-  for (std::size_t j = 0; j < 6; ++j) values[static_cast<Eigen::Index>(j)] = keptNumber(json.at(j));
+/// Of as many joints as the campaign has, whose stiffnesses are a list of that length.
+int jointsIn(const Json& stiffnesses) {
+  const std::size_t joints = stiffnesses.size();
+  if (joints < static_cast<std::size_t>(kFewestJoints) || joints > static_cast<std::size_t>(kMostJoints))
+    throw std::runtime_error("no result of a fleet's campaign: stiffnesses of " + std::to_string(joints) + " joints");
+  return static_cast<int>(joints);
+}
+
+JointVector vectorOf(const Json& json, int joints) {
+  JointVector values(joints);
+  for (Eigen::Index j = 0; j < joints; ++j) values[j] = keptNumber(json.at(static_cast<std::size_t>(j)));
   return values;
 }
 
@@ -80,19 +88,19 @@ Json springsJson(const SpringsOfDay& springs) {
   json["shared_variance"] = array(springs.shared);
   json["degrees_of_freedom"] = array(springs.dof);
   json["influences"] = Json::array();
-  for (const Vector6d& one : springs.influences) json["influences"].push_back(array(one));
+  for (const JointVector& one : springs.influences) json["influences"].push_back(array(one));
   return json;
 }
 
-SpringsOfDay springsOf(const Json& json) {
-  SpringsOfDay springs;
+SpringsOfDay springsOf(const Json& json, int joints) {
+  SpringsOfDay springs(joints);
   springs.available = !json.is_null();
   if (!springs.available) return springs;
-  springs.compliance = vectorOf(json.at("compliance_rad_per_nm"));
-  for (std::size_t j = 0; j < 6; ++j) springs.identifiable[j] = json.at("identifiable").at(j).get<bool>();
-  springs.shared = vectorOf(json.at("shared_variance"));
-  springs.dof = vectorOf(json.at("degrees_of_freedom"));
-  for (const Json& one : json.at("influences")) springs.influences.push_back(vectorOf(one));
+  springs.compliance = vectorOf(json.at("compliance_rad_per_nm"), joints);
+  for (std::size_t j = 0; j < springs.identifiable.size(); ++j) springs.identifiable[j] = json.at("identifiable").at(j).get<bool>();
+  springs.shared = vectorOf(json.at("shared_variance"), joints);
+  springs.dof = vectorOf(json.at("degrees_of_freedom"), joints);
+  for (const Json& one : json.at("influences")) springs.influences.push_back(vectorOf(one, joints));
   return springs;
 }
 
@@ -144,7 +152,8 @@ Json keptJson(const CampaignResult& result) {
 }
 
 CampaignResult keptCampaign(const Json& json) {
-  CampaignResult result;
+  const int joints = jointsIn(json.at("stiffness_nm_per_rad"));
+  CampaignResult result(joints);
   result.name = json.at("name"), result.date = json.at("date"), result.robot = json.at("robot");
   result.kind = valueNamed(kDayKinds, json.at("kind"), [](fleet::DayKind kind) { return keyOf(kind); });
   result.encoders = valueNamed(kEncoderStates, json.at("double_encoders"),
@@ -163,11 +172,11 @@ CampaignResult keptCampaign(const Json& json) {
   for (const Json& one : json.at("effects"))
     result.effects.push_back({one.at("effects").get<std::vector<std::string>>(), one.at("detail")});
   result.springs_method = methodOf(json.at("springs_method"));
-  for (std::size_t m = 0; m < 3; ++m) result.springs[m] = springsOf(json.at("springs").at(m));
+  for (std::size_t m = 0; m < 3; ++m) result.springs[m] = springsOf(json.at("springs").at(m), joints);
   for (const Json& one : json.at("loaded_postures")) {
     const Json& force = one.at("force_n");
     result.loaded_postures.push_back({one.at("pose"),
-                                      vectorOf(one.at("q_rad")),
+                                      vectorOf(one.at("q_rad"), joints),
                                       {keptNumber(force.at(0)), keptNumber(force.at(1)), keptNumber(force.at(2))}});
   }
   return result;
@@ -183,8 +192,8 @@ Json keptJson(const PairResult& result) {
           {"cause", result.cause}};
 }
 
-PairResult keptPair(const Json& json) {
-  PairResult result;
+PairResult keptPair(const Json& json, int joints) {
+  PairResult result(joints);
   result.kind = fleet::DayKind::unloaded;
   result.reason = json.at("reason"), result.same_postures = json.at("same_postures");
   result.postures = json.at("postures"), result.machine_p = keptNumber(json.at("machine_p"));

@@ -13,9 +13,9 @@ namespace stiffscope::reports {
 Json keptJson(const fleet::CampaignResult& result);
 fleet::CampaignResult keptCampaign(const Json& json);
 
-/// The same of two days without a load.
+/// The same of two days without a load, of a machine of so many joints.
 Json keptJson(const fleet::PairResult& result);
-fleet::PairResult keptPair(const Json& json);
+fleet::PairResult keptPair(const Json& json, int joints);
 
 /// fleet.jsonl: one object a campaign, in the fleet's order, a line each.
 std::string fleetJsonLines(const fleet::Fleet& fleet);

@@ -37,8 +37,9 @@ void addCovariances(const frames::Frames& frames, Json& json) {
       {"order", {"rotation_x_rad", "rotation_y_rad", "rotation_z_rad", "origin_x_m", "origin_y_m", "origin_z_m"}},
       {"frame", "R0: rotation vector and origin of R0 as measured against the true one, in its own axes"},
       {"matrix", rows(total.topLeftCorner<6, 6>(), 1.0)}};
+  const auto links = static_cast<Eigen::Index>(frames.links.size());
   json["link_lengths_covariance_mm2"] =
-      rows(total.block<5, 5>(frames::FramesCovariance::kDistances, frames::FramesCovariance::kDistances),
+      rows(total.block(frames::FramesLayout::kDistances, frames::FramesLayout::kDistances, links, links),
            1.0 / (io::kMillimetre * io::kMillimetre));
 }
 
@@ -91,18 +92,35 @@ Json linkJson(const frames::Frames& frames, std::size_t i) {
   return json;
 }
 
+/// "axes_5_6" of the two from that one on, counted from 0.
+std::string axesKey(int first) { return "axes_" + std::to_string(first + 1) + "_" + std::to_string(first + 2); }
+
+Json missesJson(const frames::Frames& frames) {
+  Json json;
+  for (const frames::WristAxesMiss& one : frames.wrist.misses) {
+    const std::string axes = axesKey(one.first);
+    const auto at = static_cast<std::size_t>(one.first);
+    json[axes] = one.distance / io::kMillimetre;
+    json["sd_" + axes] = one.sd / io::kMillimetre;
+    json["from_" + axes] = sourceOf(frames, {at, at + 1});
+  }
+  return json;
+}
+
 Json wristJson(const campaign::Campaign& campaign, const frames::Frames& frames) {
   const frames::WristCentre& wrist = frames.wrist;
   Json json{{"measured", wrist.measured}};
   if (!wrist.measured) json["reason"] = words(wrist.reason);
   json["center_m"] = wrist.measured ? array(wrist.centre_in_r0) : Json(nullptr);
-  json["center_at_q1_q2_q3_deg"] = array(Eigen::Vector3d(wrist.q.head<3>()), 1.0 / io::kDegree);
-  json["miss_mm"] = {
-      {"axes_4_5", wrist.miss_45 / io::kMillimetre},       {"sd_axes_4_5", wrist.miss_45_sd / io::kMillimetre},
-      {"from_axes_4_5", sourceOf(frames, {3, 4})},         {"axes_5_6", wrist.miss_56 / io::kMillimetre},
-      {"sd_axes_5_6", wrist.miss_56_sd / io::kMillimetre}, {"from_axes_5_6", sourceOf(frames, {4, 5})}};
-  json["nearest_axes_5_6_from"] = sourceOf(frames, {4, 5});
-  json["nearest_axes_5_6_m"] = array(wrist.nearest_axes_56_in_r0);
+  const int joints = campaign.robot.joints(), arm = robot::armJointsOf(joints);
+  std::string carried = "center_at";
+  for (int joint = 1; joint <= arm; ++joint) carried += "_q" + std::to_string(joint);
+  json[carried + "_deg"] = array(JointVector(wrist.q.head(arm)), 1.0 / io::kDegree);
+  json["miss_mm"] = missesJson(frames);
+  const auto last = static_cast<std::size_t>(joints) - 1;
+  const std::string nearest = "nearest_" + axesKey(joints - 2);
+  json[nearest + "_from"] = sourceOf(frames, {last - 1, last});
+  json[nearest + "_m"] = array(wrist.nearest_last_axes_in_r0);
   json["reflector_barycenter_m"] = array(wrist.reflector_barycentre_in_r0);
   if (!wrist.measured) return json;
   json["sd_center_um"] = array(Eigen::Vector3d(wrist.covariance.diagonal().cwiseSqrt()), 1.0 / io::kMicrometre);
@@ -151,7 +169,7 @@ Json framesJson(const campaign::Campaign& campaign, const frames::Frames& frames
   addCovariances(frames, json);
   json["own_weight"] = {{"removed", frames.sag_removed}, {"note", words(frames.sag_note)}};
   Json axes = Json::array();
-  for (std::size_t i = 0; i < 6; ++i) axes.push_back(axisJson(campaign, frames, i));
+  for (std::size_t i = 0; i < frames.axes.size(); ++i) axes.push_back(axisJson(campaign, frames, i));
   json["axes"] = axes;
   Json lengths = Json::array(), sources = Json::array(), links = Json::array();
   for (std::size_t i = 0; i < frames.links.size(); ++i) {
@@ -164,7 +182,8 @@ Json framesJson(const campaign::Campaign& campaign, const frames::Frames& frames
   json["links"] = links;
   json["wrist"] = wristJson(campaign, frames);
   json["tcp_in_flange_m"] = array(frames.tcp_in_flange);
-  json["tcp_in_flange_from"] = sourceOf(frames, {4, 5});
+  const std::size_t last = frames.axes.size() - 1;
+  json["tcp_in_flange_from"] = sourceOf(frames, {frames::axisAcrossLast(frames.arm.arm.axes_in_base_at_zero), last});
   Json targets = Json::object();
   for (std::size_t k = 0; k < campaign.targets.size(); ++k) {
     const auto& target = frames.targets_in_r0_at_zero[k];

@@ -38,7 +38,7 @@ Json numberJson(const comparison::NumberChange& one) {
 
 Json causeJson(const comparison::CauseEvidence& one) {
   using comparison::ChangeCause;
-  Json json{{"cause", nameOf(one.cause)}};
+  Json json{{"cause", nameOf(one)}};
   if (one.cause == ChangeCause::joint_zero) json["joint"] = one.axis;
   if (one.cause == ChangeCause::link) json["link"] = one.axis;
   if (one.cause == ChangeCause::axis) json["axis"] = one.axis;

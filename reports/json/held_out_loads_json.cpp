@@ -18,8 +18,8 @@ Json loadsJson(const std::vector<identification::HeldOutLoad>& loads) {
     row["at_wrist"] = share(one.at_wrist);
     row["at_targets"] = share(one.at_targets);
     Json joints = Json::array();
-    for (int j = 0; j < 6; ++j)
-      if (one.not_by_the_others[static_cast<std::size_t>(j)]) joints.push_back(j + 1);
+    for (std::size_t j = 0; j < one.not_by_the_others.size(); ++j)
+      if (one.not_by_the_others[j]) joints.push_back(j + 1);
     row["joints_not_turned_by_the_others"] = std::move(joints);
     list.push_back(std::move(row));
   }

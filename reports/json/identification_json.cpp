@@ -52,21 +52,21 @@ namespace {
 
 Json maskedByJoint(const robot::JointMask& identifiable, const auto& entry) {
   Json list = Json::array();
-  for (int joint = 0; joint < 6; ++joint) {
-    list.push_back(identifiable[static_cast<std::size_t>(joint)] ? Json(entry(joint)) : Json(nullptr));
+  for (std::size_t joint = 0; joint < identifiable.size(); ++joint) {
+    list.push_back(identifiable[joint] ? Json(entry(static_cast<int>(joint))) : Json(nullptr));
   }
   return list;
 }
 
 Json correlationJson(const identification::StiffnessEstimate& estimate) {
-  const Matrix6d matrix = identification::correlation(estimate);
+  const JointMatrix matrix = identification::correlation(estimate);
   return maskedByJoint(estimate.identifiable, [&](int row) {
     return maskedByJoint(estimate.identifiable, [&](int column) { return number(matrix(row, column)); });
   });
 }
 
 Json contributionsJson(const identification::StiffnessEstimate& estimate) {
-  const auto part = [&](const Matrix6d& covariance) {
+  const auto part = [&](const JointMatrix& covariance) {
     return maskedByJoint(estimate.identifiable, [&](int j) { return number(std::sqrt(covariance(j, j))); });
   };
   Json json{{"scatter_rad_per_nm", part(estimate.parts.scatter)},
@@ -148,11 +148,7 @@ Json withSteps(Json json, const identification::StepStudy& study, const identifi
 namespace {
 
 Json byJoint(const identification::StiffnessEstimate& estimate, const auto& entry) {
-  Json list = Json::array();
-  for (int joint = 0; joint < 6; ++joint) {
-    list.push_back(estimate.identifiable[static_cast<std::size_t>(joint)] ? Json(entry(joint)) : Json(nullptr));
-  }
-  return list;
+  return maskedByJoint(estimate.identifiable, entry);
 }
 
 /// `used`, `held_out` and `all` are means over the subsets, `sd_held_out` the standard deviation over them;
@@ -174,7 +170,7 @@ Json spreadJson(const identification::MethodResult& method) {
             {"subsets", study.compliances.size()},
             {"every_subset", study.every_subset}};
   Json joints = Json::array();
-  for (int joint = 0; joint < 6; ++joint) {
+  for (int joint = 0; joint < method.estimate.joints(); ++joint) {
     if (!method.estimate.identifiable[static_cast<std::size_t>(joint)]) {
       joints.push_back(nullptr);
       continue;
@@ -215,7 +211,7 @@ Json methodJson(const identification::MethodResult& method) {
 
 Json identifiabilityJson(const identification::Identifiability& judged) {
   Json joints = Json::array();
-  for (std::size_t j = 0; j < 6; ++j) {
+  for (std::size_t j = 0; j < judged.joints.size(); ++j) {
     const identification::JointIdentifiability& joint = judged.joints[j];
     Json one{{"joint", j + 1}, {"identifiable", joint.identifiable}};
     if (!joint.identifiable) one["reason"] = words(joint.reason);
@@ -277,7 +273,7 @@ JsonDocument cartesianJson(const campaign::Campaign& campaign, const identificat
 
 Json lengthJson(const identification::LengthSensitivity& at) {
   Json stiffness = Json::array();
-  for (int j = 0; j < 6; ++j)
+  for (Eigen::Index j = 0; j < at.compliance.size(); ++j)
     stiffness.push_back(at.compliance[j] == 0.0 ? Json(nullptr) : number(1.0 / at.compliance[j]));
   return {{"length_m", at.length},
           {"jacobian_condition", at.condition},

@@ -10,11 +10,11 @@ namespace stiffscope::reports {
 namespace {
 
 /// Standard deviations of c, and of k = 1/c where an identified campaign has c.
-void addUncertainties(const planning::Plan& plan, const Vector6d& sd, Json& row) {
+void addUncertainties(const planning::Plan& plan, const JointVector& sd, Json& row) {
   row["sd_compliance_rad_per_nm"] = array(sd);
   if (!plan.compliance) return;
-  Vector6d of_k = sd;
-  for (int j = 0; j < 6; ++j) of_k[j] /= (*plan.compliance)[j] * (*plan.compliance)[j];
+  JointVector of_k = sd;
+  for (Eigen::Index j = 0; j < of_k.size(); ++j) of_k[j] /= (*plan.compliance)[j] * (*plan.compliance)[j];
   row["sd_nm_per_rad"] = array(of_k);
 }
 
@@ -56,7 +56,7 @@ Json planJson(const campaign::Campaign& campaign, const planning::Plan& plan) {
     return json;
   }
   Json identifiable = Json::array(), reasons = Json::object();
-  for (std::size_t j = 0; j < 6; ++j) {
+  for (std::size_t j = 0; j < plan.unknown.size(); ++j) {
     identifiable.push_back(static_cast<bool>(plan.unknown[j]));
     if (!plan.unknown[j]) reasons["k" + std::to_string(j + 1)] = words(plan.not_seen[j]);
   }

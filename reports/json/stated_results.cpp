@@ -44,8 +44,8 @@ Json partsOf(const Json& json) {
 }
 
 std::vector<std::optional<comparison::StatedCompliance>> compliancesOf(const Json& method) {
-  std::vector<std::optional<comparison::StatedCompliance>> compliances(6);
   const Json& values = method.at("compliance_rad_per_nm");
+  std::vector<std::optional<comparison::StatedCompliance>> compliances(values.size());
   const Json& intervals = method.at("interval_compliance_rad_per_nm");
   for (std::size_t j = 0; j < compliances.size(); ++j) {
     if (!values.at(j).is_number() || !intervals.at(j).is_array()) continue;

@@ -73,7 +73,8 @@ Json gearJson(const identification::Identification& result, const std::vector<id
 Json transmissionJson(const identification::Identification& result,
                       const std::vector<identification::Method>& methods) {
   Json joints = Json::array();
-  for (int joint = 0; joint < 6; ++joint) joints.push_back(gearJson(result, methods, joint));
+  for (int joint = 0; joint < result.transmission->estimate.joints(); ++joint)
+    joints.push_back(gearJson(result, methods, joint));
   return {{"coverage", identification::kStatedCoverage}, {"joints", joints}};
 }
 

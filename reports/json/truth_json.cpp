@@ -88,7 +88,7 @@ Json linkEffect(const simulation::LinkBeam& link, const simulation::SimulationSp
   const auto& axes = spec.nominal.axes_in_base_at_zero;
   const auto at = static_cast<std::size_t>(link.joint);
   const Eigen::Vector3d tip =
-      at < 5 ? axes[at + 1].point : Eigen::Vector3d(spec.nominal.base_from_flange_at_zero.translation());
+      at + 1 < axes.size() ? axes[at + 1].point : Eigen::Vector3d(spec.nominal.base_from_flange_at_zero.translation());
   return {{"effect", "link_compliance"},
           {"part", "link " + std::to_string(link.joint + 1)},
           {"length_m", (tip - axes[at].point).norm()},
@@ -258,8 +258,8 @@ void addStation(const simulation::SimulationSpec& spec, Json& list) {
 
 /// R0 and axes by the rules of `frames`, of a machine whose axes are known.
 frames::ArmInR0 trueArm(const simulation::SimulationSpec& spec, const robot::Robot& geometry) {
-  std::array<frames::MeasuredAxis, 6> axes;
-  for (std::size_t i = 0; i < 6; ++i) {
+  frames::MeasuredAxes axes(static_cast<std::size_t>(geometry.joints()), frames::MeasuredAxis(geometry.joints()));
+  for (std::size_t i = 0; i < axes.size(); ++i) {
     axes[i].measured = true;
     axes[i].at_zero.line = geometry.axes_in_base_at_zero[i];
   }
@@ -268,7 +268,7 @@ frames::ArmInR0 trueArm(const simulation::SimulationSpec& spec, const robot::Rob
 
 Json linksJson(const robot::Robot& nominal, const frames::ArmInR0& arm) {
   Json list = Json::array();
-  const std::array<frames::LinkGeometry, 5> links = frames::linkGeometry(nominal, arm);
+  const frames::Links links = frames::linkGeometry(nominal, arm);
   for (std::size_t i = 0; i < links.size(); ++i) {
     list.push_back({{"between_axes", {i + 1, i + 2}},
                     {"length_mm", links[i].distance / io::kMillimetre},
@@ -283,8 +283,8 @@ Json linksJson(const robot::Robot& nominal, const frames::ArmInR0& arm) {
 /// True less nominal, as the specification states it or as it was drawn.
 Json axisErrorsJson(const simulation::SimulationSpec& spec) {
   Json list = Json::array();
-  const std::array<simulation::AxisError, 6> errors = simulation::drawAxisErrors(spec);
-  for (std::size_t i = 0; i < 6; ++i) {
+  const PerJoint<simulation::AxisError> errors = simulation::drawAxisErrors(spec);
+  for (std::size_t i = 0; i < errors.size(); ++i) {
     list.push_back({{"axis", i + 1},
                     {"offset_m", array(errors[i].offset)},
                     {"tilt_rad", array(errors[i].tilt)},
@@ -318,7 +318,7 @@ Json noiseJson(const simulation::SimulationSpec& spec) {
 
 Json trueEffectsJson(const simulation::SimulationSpec& spec) {
   Json list = Json::array();
-  for (std::size_t i = 0; i < 6; ++i) {
+  for (std::size_t i = 0; i < spec.machine.joints.size(); ++i) {
     for (Json& one : effectsOfJoint(spec.machine.joints[i], spec.loading.has_value())) {
       Json named{{"effect", one["effect"]}, {"part", jointName(i)}};
       named.update(one);
@@ -353,7 +353,7 @@ Json truthJson(const simulation::SimulationSpec& spec) {
   json["r0_from_base_link"] = matrix(arm.r0_from_base_link);
   json["r0_from_tracker"] = matrix(arm.r0_from_points * spec.tracker.base_from_tracker);
   json["axes"] = Json::array();
-  for (std::size_t i = 0; i < 6; ++i) {
+  for (std::size_t i = 0; i < arm.arm.axes_in_base_at_zero.size(); ++i) {
     const metrology::Line& axis = arm.arm.axes_in_base_at_zero[i];
     json["axes"].push_back({{"axis", i + 1}, {"point_m", array(axis.point)}, {"direction", array(axis.direction)}});
   }

@@ -172,16 +172,19 @@ std::string statedCell(const Stated& one, double unit) {
                      reports::toPlaceOf(one.low / unit, width), reports::toPlaceOf(one.high / unit, width));
 }
 
-reports::Row campaignRow(const fleet::FleetCampaign& one, const reports::StiffnessUnit& unit) {
+/// `joints`: whose columns the table has.
+reports::Row campaignRow(const fleet::FleetCampaign& one, int joints, const reports::StiffnessUnit& unit) {
   reports::Row row{asIs(one.date)};
   if (!one.result) {
     row.emplace_back("no result");
-    for (int i = 0; i < 9; ++i) row.emplace_back("–");
+    constexpr int kBeside = 3;  // compensated, accuracy, besides joint springs
+    for (int i = 0; i < joints + kBeside; ++i) row.emplace_back("–");
     return row;
   }
   const fleet::CampaignResult& day = *one.result;
   row.emplace_back(reports::auditWord(day.audit));
   for (const Stated& k : day.stiffness) row.emplace_back(statedCell(k, unit.size));
+  for (int joint = day.joints(); joint < joints; ++joint) row.emplace_back("–");
   row.emplace_back(statedCell(day.compensated, 0.01));
   row.emplace_back(
       statedCell(day.kind == fleet::DayKind::unloaded ? day.calibrated : Stated{}, 1.0 / reports::kMmPerM));
@@ -208,14 +211,16 @@ void writeDays(Html& html, const Fleet& fleet) {
                   "in\u00a0mm; in brackets the 95\u00a0% interval",
                   units.empty() || one_unit ? (units.empty() ? reports::StiffnessUnit{} : units.front()).name
                                             : "the unit beside the machine"),
-      {"", "date", "audit", "k_{1}", "k_{2}", "k_{3}", "k_{4}", "k_{5}", "k_{6}", "compensated", "accuracy",
-       "besides joint springs"},
+      {"", "date", "audit"},
       {}};
+  const int joints = reports::mostJointsOf(fleet);
+  for (int joint = 0; joint < joints; ++joint) table.columns.push_back(reports::jointName(joint));
+  table.columns.insert(table.columns.end(), {"compensated", "accuracy", "besides joint springs"});
   for (const fleet::Machine& machine : fleet.machines) {
     if (table.groups.size() == kMostMachinesShown) break;
     const reports::StiffnessUnit& unit = units[table.groups.size()];
     reports::RowGroup group{asIs(machine.name) + (one_unit ? std::string() : fmt::format(" ({})", unit.name)), {}};
-    for (const std::size_t one : machine.campaigns) group.rows.push_back(campaignRow(fleet.campaigns[one], unit));
+    for (const std::size_t one : machine.campaigns) group.rows.push_back(campaignRow(fleet.campaigns[one], joints, unit));
     table.groups.push_back(std::move(group));
   }
   writeTable(html, table);

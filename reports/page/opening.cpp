@@ -78,11 +78,13 @@ KeyNumber compensated(const reports::ReportCampaign& one, bool paper) {
 /// The joints that the verdict does not doubt.
 KeyNumber trusted(const identification::Identification& identification) {
   const auto shown = reports::shownMethod(identification);
-  if (!shown) return {"0 of 6", "joint stiffnesses: no method is available, see the stiffnesses"};
+  if (!shown)
+    return {fmt::format("0 of {}", identification.identifiability.joints.size()),
+            "joint stiffnesses: no method is available, see the stiffnesses"};
   const identification::StiffnessEstimate& estimate = identification.of(*shown).estimate;
   int count = 0;
   std::vector<std::string> doubtful;
-  for (int joint = 0; joint < 6; ++joint) {
+  for (int joint = 0; joint < estimate.joints(); ++joint) {
     if (!estimate.identifiable[static_cast<std::size_t>(joint)]) continue;
     if (estimate.mark(joint).empty()) {
       ++count;
@@ -95,7 +97,7 @@ KeyNumber trusted(const identification::Identification& identification) {
     words += fmt::format("; {} {} not to be trusted and not counted", fmt::join(doubtful, ", "),
                          doubtful.size() == 1 ? "is" : "are");
   }
-  return {fmt::format("{} of 6", count), words};
+  return {fmt::format("{} of {}", count, estimate.joints()), words};
 }
 
 KeyNumber third(const reports::ReportContent& content, const reports::ReportCampaign& one) {
@@ -114,7 +116,7 @@ std::vector<KeyNumber> sweepNumbers(const frames::Frames& frames) {
   double rms = 0.0;
   for (const frames::MeasuredAxis& axis : frames.axes) rms = std::max(rms, axis.measured ? axis.fit.rms : 0.0);
   const double off = reports::largestLinkDifference(frames);
-  return {{fmt::format("{} of 6", measured), "joint axes found from their sweeps"},
+  return {{fmt::format("{} of {}", measured, frames.axes.size()), "joint axes found from their sweeps"},
           {fmt::format("{}\u00a0mm", reports::significant(reports::kMmPerM * off, 2)),
            "largest difference of a distance between axes from the nominal one"},
           {fmt::format("{}\u00a0µm", reports::significant(1e6 * rms, 2)),
@@ -211,6 +213,7 @@ std::string stiffnessWords(const reports::ReportCampaign& one, int joint, const 
   const auto shown = reports::shownMethod(one.identification);
   if (!shown) return "–";
   const identification::StiffnessEstimate& estimate = one.identification.of(*shown).estimate;
+  if (joint >= estimate.joints()) return "–";
   if (!estimate.identifiable[static_cast<std::size_t>(joint)]) return "not seen";
   const double u = identification::expandedUncertainty(estimate, joint);
   const double k = estimate.stiffness(joint) / unit.size;
@@ -249,8 +252,9 @@ void addStiffnesses(const reports::ReportContent& content, reports::Table& table
   std::vector<double> stiffnesses;
   for (const reports::ReportCampaign& one : content.campaigns) {
     const auto shown = reports::shownMethod(one.identification);
-    for (int joint = 0; isLoaded(one) && shown && joint < 6; ++joint) {
-      const identification::StiffnessEstimate& estimate = one.identification.of(*shown).estimate;
+    if (!isLoaded(one) || !shown) continue;
+    const identification::StiffnessEstimate& estimate = one.identification.of(*shown).estimate;
+    for (int joint = 0; joint < estimate.joints(); ++joint) {
       if (estimate.identifiable[static_cast<std::size_t>(joint)]) stiffnesses.push_back(estimate.stiffness(joint));
     }
   }
@@ -267,7 +271,8 @@ void addStiffnesses(const reports::ReportContent& content, reports::Table& table
       if (isLoaded(one)) ++column;
     }
   }
-  for (int joint = 0; joint < 6; ++joint) {
+  const int joints = reports::mostJointsOf(reports::ofKind(content.campaigns, reports::DayKind::loaded));
+  for (int joint = 0; joint < joints; ++joint) {
     reports::Row row{reports::jointName(joint)};
     for (const reports::ReportCampaign& one : content.campaigns) {
       if (isLoaded(one)) row.emplace_back(stiffnessWords(one, joint, unit));
@@ -310,10 +315,15 @@ void addDistances(const reports::ReportContent& content, reports::Table& table) 
   table.caption = "Distance of axes from the URDF's ± U, mm";
   table.columns = {"Axes"};
   for (const std::string& head : headsOf(content, isAny, "Difference")) table.columns.push_back(head);
-  for (std::size_t i = 0; i < 5; ++i) {
+  const auto links = static_cast<std::size_t>(reports::mostJointsOf(content.campaigns)) - 1;
+  for (std::size_t i = 0; i < links; ++i) {
     reports::Row row{fmt::format("{} and {}", i + 1, i + 2)};
     bool any = false;
     for (const reports::ReportCampaign& one : content.campaigns) {
+      if (i >= one.identification.frames.links.size()) {
+        row.emplace_back("–");
+        continue;
+      }
       const frames::LinkGeometry& link = one.identification.frames.links[i];
       any = any || link.distance_sd.has_value();
       row.emplace_back(link.distance_sd

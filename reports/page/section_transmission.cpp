@@ -48,7 +48,7 @@ reports::Table gearTable(const identification::Identification& result) {
     table.columns.emplace_back("Gear's share");
     table.columns.emplace_back("Encoders and tracker");
   }
-  for (int joint = 0; joint < 6; ++joint) {
+  for (int joint = 0; joint < transmission.estimate.joints(); ++joint) {
     const identification::GearTorsion& gear = transmission.joints[static_cast<std::size_t>(joint)];
     if (!gear.measured) continue;
     const identification::StiffnessEstimate& gears = transmission.estimate;

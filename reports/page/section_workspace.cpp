@@ -30,13 +30,13 @@ std::string directionCell(const std::vector<workspace::DirectionalCompliance>& f
   return fmt::format("{}, {}, {}", reports::fixed(d.x(), 2), reports::fixed(d.y(), 2), reports::fixed(d.z(), 2));
 }
 
-reports::Table placesTable(const workspace::WorkspaceStiffness& found) {
+reports::Table placesTable(const workspace::WorkspaceStiffness& found, int joints) {
   reports::Table table{"Stiffness at P_{TCP} in the postures, N/µm (95\u00a0% interval)",
                        {"Posture", "Softest", "in direction (R_{0})", "Stiffest", "K_{x} alone, softest"},
                        {{}}};
   table.id = "posture-stiffness";
   constexpr bool kPostures = true, kSlice = true;
-  table.data = reports::stiffnessPlaces(found, kPostures, !kSlice);
+  table.data = reports::stiffnessPlaces(found, joints, kPostures, !kSlice);
   for (const workspace::PointStiffness& one : found.postures)
     table.groups.front().rows.push_back(
         {reports::asIs(one.pose), principalCell(one.of_model, true), directionCell(one.of_model),
@@ -55,10 +55,11 @@ void writeWorkspace(Html& html, const reports::ReportContent& content) {
                  const workspace::WorkspaceStiffness& found = *one.workspace;
                  for (const std::string& note : reports::workspaceNotes(found))
                    html.paragraph(reports::withSubscripts(note));
-                 writeTable(html, placesTable(found));
+                 const int joints = one.campaign.robot.joints();
+                 writeTable(html, placesTable(found, joints));
                  constexpr bool kPostures = true, kSlice = true;
                  html.keepTable("stiffness-slice",
-                                reports::csvTable(reports::stiffnessPlaces(found, !kPostures, kSlice)));
+                                reports::csvTable(reports::stiffnessPlaces(found, joints, !kPostures, kSlice)));
                  html.paragraph(fmt::format("By {}; the slice is in {}.", reports::longName(found.method),
                                             reports::asIs(reports::sliceWords(found.slice))),
                                 "faint");

@@ -48,9 +48,9 @@ reports::Table modelsTable(const calibration::Calibration& calibration,
   return table;
 }
 
-std::string anglesOf(const Vector6d& q) {
+std::string anglesOf(const JointVector& q) {
   std::string text;
-  for (int j = 0; j < 6; ++j)
+  for (Eigen::Index j = 0; j < q.size(); ++j)
     text += (j > 0 ? ", " : "") + reports::fixed(reports::unsignedZero(q[j] / io::kDegree, 0), 0);
   return text;
 }

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <algorithm>
 #include <cmath>
 
 #include "reports/csv/posture_tables.h"
@@ -151,7 +152,7 @@ reports::Table takenTable(const reports::AvoidedByEncoders& avoided) {
                   "deflection_at_reflectors_percent",
                   "u_deflection_at_reflectors_percent",
                   "p_value_holm"};
-  for (std::size_t j = 0; j < 6; ++j) {
+  for (std::size_t j = 0; j < avoided.by_joint.joints.size(); ++j) {
     const comparison::JointChange& joint = avoided.by_joint.joints[j];
     if (!joint.comparable) continue;
     const comparison::Uncertain gone{-joint.difference.value, joint.difference.sd, joint.difference.dof};
@@ -186,6 +187,16 @@ void writeTaken(Html& html, const reports::AvoidedByEncoders& avoided) {
   html.paragraph(words, "faint");
 }
 
+/// Which joints P_wrist and the reflectors see.
+std::string whatIsSeen(const reports::ReportContent& content) {
+  const int joints = content.campaigns.front().campaign.robot.joints();
+  const bool same = std::all_of(content.campaigns.begin(), content.campaigns.end(),
+                                [joints](const auto& one) { return one.campaign.robot.joints() == joints; });
+  if (!same) return "the joints before the wrist's only, the reflectors all.";
+  return fmt::format("joints {} only, the reflectors all {}.",
+                     reports::countsFromTo(1, robot::armJointsOf(joints)), reports::countWord(joints));
+}
+
 void writeAvoided(Html& html, const reports::ReportContent& content) {
   std::string words;
   if (!content.avoided) return;  // the two states were not both measured: there is nothing to explain
@@ -211,8 +222,8 @@ void writeCompensation(Html& html, const reports::ReportContent& content) {
   html.leaf("h2", "Deflection compensated and avoided");
   html.paragraph(
       "Compensated is 1 − Σ|what is left| / Σ|displacement|. Over the subsets of postures it is "
-      "the mean: on the postures a subset used, on those it held out, and on all. P_{wrist} sees "
-      "joints 1 to 3 only, the reflectors all six.");
+      "the mean: on the postures a subset used, on those it held out, and on all. P_{wrist} sees " +
+      whatIsSeen(content));
   writeAvoided(html, content);
   writeEach(html, content, "compensation", isLoaded, [&](const reports::ReportCampaign& one) {
     if (!reports::shownMethod(one.identification)) {

@@ -111,7 +111,13 @@ void writeConditions(Html& html, const reports::ReportContent& content) {
   html.leaf("h2", "Method and conditions");
   using reports::DayKind;
   for (const DayKind kind : {DayKind::unloaded, DayKind::loaded, DayKind::sweeps}) {
-    if (reports::anyOfKind(content.campaigns, kind)) html.paragraph(reports::methodWords(kind));
+    std::vector<std::string> said;  // of machines of several numbers of joints one a number
+    for (const reports::ReportCampaign& one : reports::ofKind(content.campaigns, kind)) {
+      const std::string words = reports::methodWords(kind, one.campaign.robot.joints());
+      if (std::find(said.begin(), said.end(), words) != said.end()) continue;
+      html.paragraph(words);
+      said.push_back(words);
+    }
   }
   std::vector<Facts> facts;
   for (std::size_t i = 0; i < content.campaigns.size(); ++i) {
@@ -264,7 +270,7 @@ reports::Table sideBySide(const frames::WristCentre& wrist) {
                        {"Point", "X (mm)", "Y (mm)", "Z (mm)", "From the sphere centre (mm)"},
                        {{}}};
   table.id = "wrist-centres";
-  const auto add = [&](const char* name, const Eigen::Vector3d& point) {
+  const auto add = [&](const std::string& name, const Eigen::Vector3d& point) {
     reports::Row row{name};
     addPoint(row, point);
     row.emplace_back(reports::fixed((point - wrist.centre_in_r0).norm() / io::kMillimetre, 3));
@@ -278,7 +284,8 @@ reports::Table sideBySide(const frames::WristCentre& wrist) {
   }
   sphere.emplace_back("–");
   table.groups.front().rows.push_back(std::move(sphere));
-  add("Nearest axes 5 and 6", wrist.nearest_axes_56_in_r0);
+  const int last = static_cast<int>(wrist.q.size());
+  add(fmt::format("Nearest axes {} and {}", last - 1, last), wrist.nearest_last_axes_in_r0);
   add("Barycentre of the reflectors (Dumas et al.)", wrist.reflector_barycentre_in_r0);
   return table;
 }
@@ -302,8 +309,12 @@ void writeMeasured(Html& html, const reports::ReportContent& content, const repo
   html.paragraph(words);
   writeTable(html, tableOne(one, wrist));
   writeTable(html, sideBySide(wrist));
-  html.paragraph(fmt::format("Axes 4 and 5 miss each other by {}, axes 5 and 6 by {}; ± is U, about 95\u00a0%.",
-                             missWords(wrist.miss_45, wrist.miss_45_sd), missWords(wrist.miss_56, wrist.miss_56_sd)));
+  std::string misses;
+  for (const frames::WristAxesMiss& miss : wrist.misses) {
+    misses += fmt::format("{} {} and {}{} by {}", misses.empty() ? "Axes" : ", axes", miss.first + 1, miss.first + 2,
+                          misses.empty() ? " miss each other" : "", missWords(miss.distance, miss.sd));
+  }
+  html.paragraph(misses + "; ± is U, about 95\u00a0%.");
 }
 
 }  // namespace

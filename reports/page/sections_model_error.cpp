@@ -119,7 +119,7 @@ reports::Table stiffnessTable(const diagnosis::Diagnosis& diagnosis) {
   data.columns = {"joint", "alone_nm_per_rad", "with_effects_nm_per_rad",
                   stated ? "u_expanded_nm_per_rad" : "u_standard_nm_per_rad"};
   reports::RowGroup group;
-  for (int j = 0; j < 6; ++j) {
+  for (int j = 0; j < static_cast<int>(diagnosis.identifiable.size()); ++j) {
     if (!diagnosis.identifiable[static_cast<std::size_t>(j)]) continue;
     const double u = stated ? diagnosis.stated->expanded[j] : diagnosis.stiffness_after_sd[j];
     group.rows.push_back({reports::jointName(j),
@@ -200,7 +200,7 @@ reports::Table stiffnessWithEffectsTable(const extended_model::ExtendedModel& mo
   reports::DataTable& data = table.data.emplace();
   data.columns = {"joint",           "method",           "without_nm_per_rad", "u_without_nm_per_rad",
                   "with_nm_per_rad", "u_with_nm_per_rad"};
-  for (int joint = 0; joint < 6; ++joint) {
+  for (int joint = 0; joint < static_cast<int>(model.with.identifiability.joints.size()); ++joint) {
     reports::Row shown{reports::jointName(joint)};
     bool any = false;
     for (const identification::Method method : identification::kMethods) {
@@ -271,16 +271,16 @@ reports::Table budgetTable(const extended_model::ExtendedModel& model) {
   table.id = "budget";
   reports::DataTable& data = table.data.emplace();
   data.columns = {"source", "shown_on_page"};
-  for (int j = 0; j < 6; ++j) data.columns.push_back(fmt::format("u_k{}_percent", j + 1));
-  for (int j = 0; j < 6; ++j) {
+  for (int j = 0; j < estimate.joints(); ++j) data.columns.push_back(fmt::format("u_k{}_percent", j + 1));
+  for (int j = 0; j < estimate.joints(); ++j) {
     if (estimate.identifiable[static_cast<std::size_t>(j)]) table.columns.push_back(reports::jointName(j));
   }
-  const auto add = [&](const std::string& name, const Vector6d& variance, bool always) {
+  const auto add = [&](const std::string& name, const JointVector& variance, bool always) {
     reports::Row row{name};
-    std::vector<reports::DataCell> cells(6);
+    std::vector<reports::DataCell> cells(estimate.identifiable.size());
     constexpr double kShown = 0.05 * 0.05;  // a twentieth of the whole
     bool shown = always;
-    for (int j = 0; j < 6; ++j) {
+    for (int j = 0; j < estimate.joints(); ++j) {
       if (!estimate.identifiable[static_cast<std::size_t>(j)]) continue;
       shown = shown || std::abs(variance[j]) > kShown * estimate.covariance(j, j);
       const double share = 100.0 * std::sqrt(std::abs(variance[j])) / std::abs(estimate.compliance[j]);

@@ -57,7 +57,7 @@ reports::Table axesTable(const calibration::Calibration& calibration) {
                   "sd_tilted_u_mdeg",
                   "tilted_v_mdeg",
                   "sd_tilted_v_mdeg"};
-  for (int j = 0; j < 6; ++j) {
+  for (int j = 0; j < static_cast<int>(fit.start.size()); ++j) {
     const metrology::MeasuredLine& start = fit.start[static_cast<std::size_t>(j)];
     reports::Row row{fmt::format("{}", j + 1), directionWords(start.across_u), directionWords(start.across_v)};
     std::vector<reports::DataCell> cells{j + 1.0};

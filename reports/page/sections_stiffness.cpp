@@ -18,6 +18,10 @@ namespace stiffscope::page {
 
 namespace {
 
+int jointsOf(const identification::Identification& result) {
+  return static_cast<int>(result.identifiability.joints.size());
+}
+
 std::string unavailable(const identification::Identification& result, identification::Method method) {
   return fmt::format("{} is not available: {}.", reports::longName(method), reports::words(result.of(method).reason));
 }
@@ -50,7 +54,7 @@ reports::DataTable stiffnessData(const identification::Identification& result) {
   reports::DataTable data{{"joint", "method", "identifiable", "stiffness_nm_per_rad", "u_nm_per_rad", "low_nm_per_rad",
                            "high_nm_per_rad", "mark", "reason"},
                           {}};
-  for (int joint = 0; joint < 6; ++joint) {
+  for (int joint = 0; joint < jointsOf(result); ++joint) {
     for (const identification::Method method : identification::kMethods) {
       const identification::MethodResult& one = result.of(method);
       const bool there = one.available && one.estimate.identifiable[static_cast<std::size_t>(joint)];
@@ -78,7 +82,7 @@ reports::Table stiffnessTable(const identification::Identification& result, Note
   table.data = stiffnessData(result);
   for (const identification::Method method : identification::kMethods)
     table.columns.push_back(reports::longName(method));
-  for (int joint = 0; joint < 6; ++joint) {
+  for (int joint = 0; joint < jointsOf(result); ++joint) {
     reports::Row row{reports::jointName(joint)};
     for (const identification::Method method : identification::kMethods)
       row.push_back(stiffnessCell(result, method, joint, unit, notes));
@@ -96,7 +100,7 @@ reports::Table complianceTable(const identification::Identification& result) {
   for (const identification::Method method : identification::kMethods) {
     if (result.of(method).available) table.columns.push_back(reports::longName(method));
   }
-  for (int joint = 0; joint < 6 && table.columns.size() > 1; ++joint) {
+  for (int joint = 0; joint < jointsOf(result) && table.columns.size() > 1; ++joint) {
     if (!result.identifiability.joints[static_cast<std::size_t>(joint)].identifiable) continue;
     reports::Row row{fmt::format("1/{}", reports::jointName(joint))};
     for (const identification::Method method : identification::kMethods) {
@@ -140,13 +144,13 @@ reports::Table lengthTable(const identification::Identification& result) {
   table.id = "characteristic-length";
   reports::DataTable& data = table.data.emplace();
   data.columns = {"length_m", "jacobian_condition"};
-  for (int joint = 0; joint < 6; ++joint) data.columns.push_back(fmt::format("k{}_nm_per_rad", joint + 1));
+  for (int joint = 0; joint < jointsOf(result); ++joint) data.columns.push_back(fmt::format("k{}_nm_per_rad", joint + 1));
   for (const char* column : {"held_out_at_wrist_percent", "sd_at_wrist_percent", "held_out_at_reflectors_percent",
                              "sd_at_reflectors_percent", "chosen_by"})
     data.columns.emplace_back(column);
   const identification::MethodResult& own = result.of(identification::Method::complete_pose);
   const auto& seen = result.of(identification::Method::complete_pose).estimate.identifiable;
-  for (int joint = 0; joint < 6; ++joint) {
+  for (int joint = 0; joint < jointsOf(result); ++joint) {
     if (seen[static_cast<std::size_t>(joint)]) table.columns.push_back(reports::jointName(joint));
   }
   table.columns.insert(table.columns.end(), {"At P_{wrist}", "At the reflectors", "Chosen by"});
@@ -157,14 +161,14 @@ reports::Table lengthTable(const identification::Identification& result) {
   };
   const auto add = [&](const identification::LengthSensitivity& at, const char* chosen_by) {
     reports::Row row{reports::significant(at.length, 3), reports::significant(at.condition, 3)};
-    for (int joint = 0; joint < 6; ++joint) {
+    for (int joint = 0; joint < jointsOf(result); ++joint) {
       if (seen[static_cast<std::size_t>(joint)])
         row.emplace_back(reports::significant(1.0 / (unit.size * at.compliance[joint]), 3));
     }
     for (const auto& cell : {share(at.at_wrist), share(at.at_targets), std::string(chosen_by)}) row.emplace_back(cell);
     table.groups.front().rows.push_back(std::move(row));
     std::vector<reports::DataCell> cells{at.length, at.condition};
-    for (int joint = 0; joint < 6; ++joint)
+    for (int joint = 0; joint < jointsOf(result); ++joint)
       cells.push_back(seen[static_cast<std::size_t>(joint)] ? reports::DataCell(1.0 / at.compliance[joint])
                                                             : reports::DataCell());
     for (const auto& judged : {at.at_wrist, at.at_targets}) {
@@ -211,7 +215,7 @@ std::string uncertaintyWords(const identification::Identification& result) {
   for (const identification::Method method : identification::kMethods) {
     const identification::StiffnessEstimate& estimate = result.of(method).estimate;
     reports::Coverage least{std::numeric_limits<double>::infinity(), 0.0}, most;
-    for (int joint = 0; joint < 6 && result.of(method).available; ++joint) {
+    for (int joint = 0; joint < estimate.joints() && result.of(method).available; ++joint) {
       if (!estimate.identifiable[static_cast<std::size_t>(joint)]) continue;
       const reports::Coverage own = reports::coverageOf(estimate, joint);
       if (own.factor < least.factor) least = own;
@@ -239,7 +243,7 @@ std::string wideIntervals(const identification::Identification& result) {
   std::vector<std::string> wide;
   for (const identification::Method method : identification::kMethods) {
     const identification::StiffnessEstimate& estimate = result.of(method).estimate;
-    for (int joint = 0; joint < 6 && result.of(method).available; ++joint) {
+    for (int joint = 0; joint < estimate.joints() && result.of(method).available; ++joint) {
       if (!estimate.identifiable[static_cast<std::size_t>(joint)]) continue;
       const identification::CoverageInterval compliance = identification::complianceInterval(estimate, joint);
       const double c = estimate.compliance[joint];
@@ -291,7 +295,7 @@ reports::Row spreadRow(const reports::ReportContent& content, const reports::Rep
                                reports::toPlaceOf(spread.high / unit.size, width)),
                    reports::percent(spread.share_negative)};
   if (content.compare_with_paper) {
-    const auto paper = reports::paperStiffness(one.campaign.double_encoder, method, joint);
+    const auto paper = reports::paperStiffness(one.campaign, method, joint);
     const double printed = reports::kMega / unit.size;
     row.emplace_back(paper ? fmt::format("{} & {}", reports::asPrinted(printed * paper->mean),
                                          reports::asPrinted(printed * paper->sd))
@@ -312,7 +316,7 @@ reports::Table tableTwo(const reports::ReportContent& content, const reports::Re
       "joint",          "method",          "mean_nm_per_rad",  "sd_nm_per_rad",         "median_nm_per_rad",
       "low_nm_per_rad", "high_nm_per_rad", "negative_percent", "paper_mean_nm_per_rad", "paper_sd_nm_per_rad"};
   if (content.compare_with_paper) table.columns.emplace_back("Paper, mean & sd");
-  for (int joint = 0; joint < 6; ++joint) {
+  for (int joint = 0; joint < jointsOf(one.identification); ++joint) {
     reports::RowGroup group{reports::jointName(joint), {}};
     for (const identification::Method method : identification::kMethods) {
       const identification::MethodResult& result = one.identification.of(method);
@@ -322,7 +326,7 @@ reports::Table tableTwo(const reports::ReportContent& content, const reports::Re
       group.rows.push_back(spreadRow(content, one, method, joint, unit));
       const identification::StiffnessSpread spread = identification::spreadOf(result.subsets, joint);
       const auto paper = content.compare_with_paper
-                             ? reports::paperStiffness(one.campaign.double_encoder, method, joint)
+                             ? reports::paperStiffness(one.campaign, method, joint)
                              : std::nullopt;
       data.rows.push_back({joint + 1.0, std::string(reports::namesOf(method).key), spread.mean, spread.sd,
                            spread.median, spread.low, spread.high, 100.0 * spread.share_negative,

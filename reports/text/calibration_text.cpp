@@ -54,7 +54,7 @@ void writeAxes(const calibration::Calibration& calibration, Out out) {
                  "  {:<6}{:>38}{:>42}\n",
                  "axis", "moved, mm", "tilted, mdeg");
   constexpr double kMillidegree = 1e-3 * io::kDegree;
-  for (int j = 0; j < 6; ++j) {
+  for (int j = 0; j < arm.joints(); ++j) {
     fmt::format_to(out, "  {:<6}", j + 1);
     for (int k = 0; k < 4; ++k) {
       const int at = 4 * j + k;
@@ -130,7 +130,7 @@ std::string calibrationCsv(const calibration::Calibration& calibration) {
     fmt::format_to(out, ",{:.9f},{:.6f},{:.6f},{:.9f},{:.9f}", of.theta / io::kDegree, of.d / io::kMillimetre,
                    of.a / io::kMillimetre, of.alpha / io::kDegree, of.beta / io::kDegree);
   };
-  for (std::size_t j = 0; j < 6; ++j) {
+  for (std::size_t j = 0; j < arm.axes_in_base_at_zero.size(); ++j) {
     const metrology::Line& axis = arm.axes_in_base_at_zero[j];
     fmt::format_to(out, "{},{:.9f},{:.9f},{:.9f},{:.12f},{:.12f},{:.12f}", j + 1, axis.point.x(), axis.point.y(),
                    axis.point.z(), axis.direction.x(), axis.direction.y(), axis.direction.z());

@@ -35,7 +35,7 @@ constexpr double kMicroradian = 1e-6;
 void writeDifferences(const comparison::StiffnessChange& change, Out out) {
   fmt::format_to(out, "  {:<4}{:>26}{:>11}{:>11}{:>20}{:>20}\n", "", "difference (µrad/Nm)", "p", "Holm",
                  "taken away, %", "of deflection, %");
-  for (std::size_t j = 0; j < 6; ++j) {
+  for (std::size_t j = 0; j < change.joints.size(); ++j) {
     const comparison::JointChange& joint = change.joints[j];
     if (!joint.comparable) {
       fmt::format_to(out, "  {}\n", wrapped(fmt::format("c{}  {}", j + 1, words(joint.reason)), 6));
@@ -59,7 +59,7 @@ void writeStiffnesses(const comparison::StiffnessChange& change, bool ratios_hol
   const StiffnessUnit unit = stiffnessUnit(stiffnesses);
   fmt::format_to(out, "  {:<4}{:>22}{:>22}{:>24}{:>8}\n", "", fmt::format("before ({})", unit.text),
                  fmt::format("after ({})", unit.text), "ratio", "corr.");
-  for (std::size_t j = 0; j < 6; ++j) {
+  for (std::size_t j = 0; j < change.joints.size(); ++j) {
     const comparison::JointChange& joint = change.joints[j];
     if (!joint.comparable) continue;
     const std::string ratio = withU(joint.ratio, 1.0, 4);

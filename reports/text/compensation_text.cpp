@@ -90,7 +90,7 @@ std::string compensationText(const campaign::Campaign& campaign, identification:
     fmt::format_to(out, "  {:<10}{:>9.3f}{:>9.3f}{:>9.3f}{:>9.3f}   ", posture.posture.id, unsignedZero(mm.x(), 3),
                    unsignedZero(mm.y(), 3), unsignedZero(mm.z(), 3), posture.tcp.expanded / io::kMillimetre);
     if (posture.solved) {
-      for (int joint = 0; joint < 6; ++joint)
+      for (Eigen::Index joint = 0; joint < posture.commands.size(); ++joint)
         fmt::format_to(out, "{:>10.4f}", unsignedZero(posture.commands[joint] / io::kDegree, 4));
       fmt::format_to(out, "\n");
     } else {
@@ -101,7 +101,8 @@ std::string compensationText(const campaign::Campaign& campaign, identification:
       out,
       "\n  Deflection of P_TCP under each row's load; U (coverage 95 %): it is within U of what is predicted, by "
       "the\n  stiffnesses, the effects in the model, those that could hide, and what the day left unexplained. "
-      "Commands\n  are joints 1 to 6.\n");
+      "Commands\n  are joints 1 to {}.\n",
+      campaign.robot.joints());
   addKnowledge(postures, known, cautions, text);
   return text;
 }

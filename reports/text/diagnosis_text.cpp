@@ -85,7 +85,7 @@ void writeStiffnesses(const diagnosis::Diagnosis& diagnosis, Out out) {
                    "uncertainty)\n",
                    unit.text);
   }
-  for (int j = 0; j < 6; ++j) {
+  for (int j = 0; j < static_cast<int>(diagnosis.identifiable.size()); ++j) {
     if (!diagnosis.identifiable[static_cast<std::size_t>(j)]) {
       fmt::format_to(out, "  joint {}           not identifiable\n", j + 1);
     } else if (diagnosis.stated) {

@@ -75,13 +75,14 @@ void writeStiffnesses(const extended_model::ExtendedModel& model, const std::vec
                  "\nStiffness without and with, {}, with its expanded uncertainty U; by effects: their part of "
                  "the\n  standard uncertainty\n  {:<14}",
                  unit.text, "");
-  for (int joint = 1; joint <= 6; ++joint) fmt::format_to(out, " {:>17}", fmt::format("k{}", joint));
+  const auto joints = static_cast<int>(model.with.identifiability.joints.size());
+  for (int joint = 1; joint <= joints; ++joint) fmt::format_to(out, " {:>17}", fmt::format("k{}", joint));
   fmt::format_to(out, "\n");
   for (const identification::Method which : methods) {
     const auto row = [&](const char* name, const identification::MethodResult& method, const auto& cell) {
       if (!method.available) return;
       fmt::format_to(out, "  {:<14}", fmt::format("{} {}", namesOf(which).brief, name));
-      for (int joint = 0; joint < 6; ++joint) fmt::format_to(out, " {:>17}", cell(method.estimate, joint, unit));
+      for (int joint = 0; joint < joints; ++joint) fmt::format_to(out, " {:>17}", cell(method.estimate, joint, unit));
       fmt::format_to(out, "\n");
     };
     row(model.hidden ? "apparent" : "without", model.without.of(which), stiffnessCell);
@@ -113,22 +114,22 @@ void writeBudget(const std::vector<extended_model::BudgetLine>& budget,
   if (budget.empty()) return;
   fmt::format_to(out, "\nWhere the uncertainty of {} comes from: standard uncertainty of k, %\n  {:<34}",
                  namesOf(which).brief, "");
-  for (int joint = 1; joint <= 6; ++joint) fmt::format_to(out, "{:>10}", fmt::format("k{}", joint));
+  for (int joint = 1; joint <= estimate.joints(); ++joint) fmt::format_to(out, "{:>10}", fmt::format("k{}", joint));
   fmt::format_to(out, "\n");
   const auto cell = [&](int j, double variance) {
     if (!estimate.identifiable[static_cast<std::size_t>(j)]) return std::string("-");
     const double share = std::sqrt(std::abs(variance)) / std::abs(estimate.compliance[j]);
     return fmt::format("{}{:.2f}", variance < 0.0 ? "-" : "", 100.0 * share);
   };
-  const auto row = [&](const std::string& name, const Vector6d& variance) {
+  const auto row = [&](const std::string& name, const JointVector& variance) {
     fmt::format_to(out, "  {:<34}", name);
-    for (int j = 0; j < 6; ++j) fmt::format_to(out, "{:>10}", cell(j, variance[j]));
+    for (int j = 0; j < estimate.joints(); ++j) fmt::format_to(out, "{:>10}", cell(j, variance[j]));
     fmt::format_to(out, "\n");
   };
   constexpr double kShown = 0.05 * 0.05;
   for (const extended_model::BudgetLine& line : budget) {
     bool shown = line.in_model;
-    for (int j = 0; j < 6; ++j)
+    for (int j = 0; j < estimate.joints(); ++j)
       shown = shown || (estimate.identifiable[static_cast<std::size_t>(j)] &&
                         std::abs(line.variance[j]) > kShown * estimate.covariance(j, j));
     if (shown) row(budgetWords(line), line.variance);

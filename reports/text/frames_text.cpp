@@ -30,7 +30,7 @@ std::string plusMinus(double value, const std::optional<double>& sd, int decimal
 void writeAxes(const frames::Frames& frames, Out out) {
   fmt::format_to(out, "\nAxes, in R0 with all joints at zero\n");
   fmt::format_to(out, "  {:<5}{:>32}{:>34}{:>7}{:>9}\n", "axis", "point (m)", "direction", "arc", "rms");
-  for (std::size_t i = 0; i < 6; ++i) {
+  for (std::size_t i = 0; i < frames.axes.size(); ++i) {
     const metrology::Line& line = frames.arm.arm.axes_in_base_at_zero[i];
     const Eigen::Vector3d point = shown(line.point, 6), direction = shown(line.direction, 6);
     fmt::format_to(out, "  {:<5}{:>12.6f}{:>10.6f}{:>10.6f}{:>12.6f}{:>11.6f}{:>11.6f}", i + 1, point.x(), point.y(),
@@ -97,7 +97,7 @@ void writeWrist(const campaign::Campaign& campaign, const frames::Frames& frames
                    campaign.targets[static_cast<std::size_t>(row.target)].id, mm.x(), mm.y(), mm.z(),
                    row.offset / io::kMillimetre, row.radius / io::kMillimetre, row.readings);
   }
-  const auto place = [&](const char* name, const Eigen::Vector3d& point) {
+  const auto place = [&](const std::string& name, const Eigen::Vector3d& point) {
     const Eigen::Vector3d mm = shown(point / io::kMillimetre, 3);
     fmt::format_to(out, "  {:<42}{:>11.3f}{:>11.3f}{:>11.3f}\n", name, mm.x(), mm.y(), mm.z());
   };
@@ -109,13 +109,19 @@ void writeWrist(const campaign::Campaign& campaign, const frames::Frames& frames
   uncertain(wrist.table_mean_covariance);
   place("common sphere centre", wrist.centre_in_r0);
   uncertain(wrist.covariance);
-  place("nearest to axes 5 and 6", wrist.nearest_axes_56_in_r0);
+  const int last = campaign.robot.joints();
+  place(fmt::format("nearest to axes {} and {}", last - 1, last), wrist.nearest_last_axes_in_r0);
   place("barycentre of the reflectors (Dumas et al.)", wrist.reflector_barycentre_in_r0);
   const auto miss = [](double value, double sd) {
     return fmt::format("{:.3f} +- {:.3f} mm", value / io::kMillimetre, expanded(sd) / io::kMillimetre);
   };
-  fmt::format_to(out, "  axes 4 and 5 miss by {}{}, 5 and 6 by {}{}\n", miss(wrist.miss_45, wrist.miss_45_sd),
-                 sourceMark(frames, {3, 4}), miss(wrist.miss_56, wrist.miss_56_sd), sourceMark(frames, {4, 5}));
+  std::string misses;
+  for (const frames::WristAxesMiss& one : wrist.misses) {
+    const auto at = static_cast<std::size_t>(one.first);
+    misses += fmt::format("{} {} and {}{} by {}{}", misses.empty() ? "  axes" : ",", one.first + 1, one.first + 2,
+                          misses.empty() ? " miss" : "", miss(one.distance, one.sd), sourceMark(frames, {at, at + 1}));
+  }
+  fmt::format_to(out, "{}\n", misses);
 }
 
 void writeR0(const frames::Frames& frames, Out out) {
@@ -148,8 +154,10 @@ std::string framesText(const campaign::Campaign& campaign, const frames::Frames&
   writeAxes(frames, out);
   writeLinks(frames, out);
   const Eigen::Vector3d tcp = shown(frames.tcp_in_flange / io::kMillimetre, 3);
-  fmt::format_to(out, "\nP_TCP, where axis 6 pierces the flange plane: ({:.3f}, {:.3f}, {:.3f}) mm in the flange{}\n",
-                 tcp.x(), tcp.y(), tcp.z(), sourceMark(frames, {4, 5}));
+  const std::size_t last = frames.axes.size() - 1;
+  const std::size_t across = frames::axisAcrossLast(frames.arm.arm.axes_in_base_at_zero);
+  fmt::format_to(out, "\nP_TCP, where axis {} pierces the flange plane: ({:.3f}, {:.3f}, {:.3f}) mm in the flange{}\n",
+                 last + 1, tcp.x(), tcp.y(), tcp.z(), sourceMark(frames, {across, last}));
   writeWrist(campaign, frames, out);
   fmt::format_to(out, "\n{}\n", wrapped("Own weight: " + words(frames.sag_note) + ".", 0));
   return text;

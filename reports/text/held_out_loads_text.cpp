@@ -29,8 +29,8 @@ std::string shareCell(const HeldOutLoad& one) {
 
 std::string jointsNotSeen(const HeldOutLoad& one) {
   std::vector<int> joints;
-  for (int j = 0; j < 6; ++j)
-    if (one.not_by_the_others[static_cast<std::size_t>(j)]) joints.push_back(j + 1);
+  for (std::size_t j = 0; j < one.not_by_the_others.size(); ++j)
+    if (one.not_by_the_others[j]) joints.push_back(static_cast<int>(j) + 1);
   if (joints.empty()) return {};
   return fmt::format("  the other loads do not turn joint {}, here taken as stiff", fmt::join(joints, ", "));
 }

@@ -41,7 +41,7 @@ void forEachSeen(const identification::Identification& result, const std::vector
                  const Write& write) {
   for (const identification::Method which : methods) {
     const identification::MethodResult& method = result.of(which);
-    for (int joint = 0; method.available && joint < 6; ++joint) {
+    for (int joint = 0; method.available && joint < method.estimate.joints(); ++joint) {
       if (method.estimate.identifiable[static_cast<std::size_t>(joint)]) write(which, method, joint);
     }
   }
@@ -99,7 +99,7 @@ std::string stepsText(const identification::StepStudy& study, const identificati
     const robot::JointMask& seen = result.of(which).estimate.identifiable;
     const auto row = [&](const std::string& name, const auto& cell) {
       fmt::format_to(out, "  {:<14}", name);
-      for (int j = 0; j < 6; ++j) {
+      for (int j = 0; j < static_cast<int>(seen.size()); ++j) {
         fmt::format_to(out, " {:>17}", seen[static_cast<std::size_t>(j)] ? cell(j) : "-");
       }
       fmt::format_to(out, "\n");
@@ -119,10 +119,11 @@ std::string stepsText(const identification::StepStudy& study, const identificati
     row("p, linear", [&](int j) { return fmt::format("{:.3g}", own.joints[static_cast<std::size_t>(j)].p_linear); });
   }
   if (!text.empty()) {
-    text +=
-        "  p: how often steps of equal stiffness would differ as much by chance; below 0.05 / 6 the stiffness depends "
+    text += fmt::format(
+        "  p: how often steps of equal stiffness would differ as much by chance; below 0.05 / {} the stiffness depends "
         "on "
-        "the load\n";
+        "the load\n",
+        result.identifiability.joints.size());
   }
   return text;
 }
@@ -168,14 +169,15 @@ void writeStiffness(const identification::Identification& result, const std::vec
                                    [](const auto& method) { return !method.estimate.stated.empty(); });
   fmt::format_to(out, "\nStiffness, {}, with its expanded uncertainty U (coverage 95 %, {})\n  {:<5}", unit.text,
                  weighed ? "effects that could hide in it" : "Student's t", "");
-  for (int joint = 1; joint <= 6; ++joint) fmt::format_to(out, " {:>17}", fmt::format("k{}", joint));
+  const int joints = static_cast<int>(result.identifiability.joints.size());
+  for (int joint = 1; joint <= joints; ++joint) fmt::format_to(out, " {:>17}", fmt::format("k{}", joint));
   fmt::format_to(out, "\n");
   bool negative = false, imprecise = false;
   for (const identification::Method which : methods) {
     const identification::MethodResult& method = result.of(which);
     if (!method.available) continue;
     fmt::format_to(out, "  {:<5}", namesOf(which).brief);
-    for (int joint = 0; joint < 6; ++joint) {
+    for (int joint = 0; joint < joints; ++joint) {
       fmt::format_to(out, " {:>17}", markedStiffnessCell(method.estimate, joint, unit));
       if (!method.estimate.identifiable[static_cast<std::size_t>(joint)]) continue;
       negative |= method.estimate.mark(joint).is(identification::RemarkId::negative);
@@ -186,7 +188,7 @@ void writeStiffness(const identification::Identification& result, const std::vec
   fmt::format_to(out, "{}", wideIntervals(result, methods));
   if (negative) fmt::format_to(out, "  ! negative: no spring has that, something else is in the data\n");
   if (imprecise) fmt::format_to(out, "  ? imprecise: the standard uncertainty exceeds the value\n");
-  for (std::size_t j = 0; j < 6; ++j) {
+  for (std::size_t j = 0; j < result.identifiability.joints.size(); ++j) {
     const identification::JointIdentifiability& joint = result.identifiability.joints[j];
     if (joint.identifiable || joint.reason.empty()) continue;
     fmt::format_to(out, "  {}\n", wrapped(fmt::format("k{} is not identifiable: {}", j + 1, words(joint.reason)), 4));
@@ -255,8 +257,9 @@ void writeCompensation(const identification::Identification& result, const std::
   const bool any = std::any_of(methods.begin(), methods.end(),
                                [&](identification::Method which) { return result.of(which).available; });
   if (!any) return;
+  const int arm = robot::armJointsOf(static_cast<int>(result.identifiability.joints.size()));
   fmt::format_to(out, "\nShare of the deflection compensated, %\n  {:<5} |{:^44} |{:^44}\n  {:<5} |{} |{}\n", "",
-                 "at P_wrist, which sees joints 1-3", "at the reflectors, which see all joints", "", kShareColumns,
+                 fmt::format("at P_wrist, which sees joints 1-{}", arm), "at the reflectors, which see all joints", "", kShareColumns,
                  kShareColumns);
   for (const identification::Method which : methods) {
     const identification::MethodResult& method = result.of(which);

@@ -16,9 +16,9 @@ namespace {
 using Out = std::back_insert_iterator<std::string>;
 
 /// Uncertainties of the joints that would be seen, in 1e-9 rad/Nm, or per cent of k where k is known.
-void writeUncertainties(const planning::Plan& plan, const std::string& name, const Vector6d& sd, Out out) {
+void writeUncertainties(const planning::Plan& plan, const std::string& name, const JointVector& sd, Out out) {
   fmt::format_to(out, "  {:<28}", name);
-  for (std::size_t j = 0; j < 6; ++j) {
+  for (std::size_t j = 0; j < plan.unknown.size(); ++j) {
     const auto joint = static_cast<Eigen::Index>(j);
     if (!plan.unknown[j]) {
       fmt::format_to(out, "{:>10}", "-");
@@ -33,11 +33,12 @@ void writeUncertainties(const planning::Plan& plan, const std::string& name, con
 
 void writePostures(const planning::Plan& plan, Out out) {
   fmt::format_to(out, "\n  {:<8}", "pose");
-  for (int joint = 1; joint <= 6; ++joint) fmt::format_to(out, "{:>9}", fmt::format("q{} (deg)", joint));
+  const int joints = plan.arm.geometry.arm.joints();
+  for (int joint = 1; joint <= joints; ++joint) fmt::format_to(out, "{:>9}", fmt::format("q{} (deg)", joint));
   fmt::format_to(out, "{:>11}{}\n", "log det +", plan.arm.pull ? "   pull in base_link" : "");
   for (const planning::PlannedPosture& posture : plan.postures) {
     fmt::format_to(out, "  {:<8}", posture.id);
-    for (int joint = 0; joint < 6; ++joint)
+    for (int joint = 0; joint < joints; ++joint)
       fmt::format_to(out, "{:>9.2f}", unsignedZero(posture.candidate.q[joint] / io::kDegree, 2));
     fmt::format_to(out, "{:>11}",
                    std::isfinite(posture.log_det_gain) ? fmt::format("{:.2f}", posture.log_det_gain) : "-");
@@ -53,7 +54,7 @@ void writePostures(const planning::Plan& plan, Out out) {
 void writeGain(const planning::Plan& plan, Out out) {
   fmt::format_to(out, "\nExpected standard uncertainty, {}\n  {:<28}",
                  plan.compliance ? "per cent of the identified k" : "of 1/k, 1e-9 rad/Nm", "");
-  for (int joint = 1; joint <= 6; ++joint) fmt::format_to(out, "{:>10}", fmt::format("k{}", joint));
+  for (std::size_t joint = 1; joint <= plan.unknown.size(); ++joint) fmt::format_to(out, "{:>10}", fmt::format("k{}", joint));
   fmt::format_to(out, "\n");
   if (plan.measured > 0)
     writeUncertainties(plan, fmt::format("measured, {} postures", plan.measured), plan.sd_measured, out);
@@ -92,7 +93,7 @@ std::string planText(const campaign::Campaign& campaign, const planning::Plan& p
     fmt::format_to(out, "  no plan: {}\n", words(plan.reason));
     return text;
   }
-  for (std::size_t j = 0; j < 6; ++j) {
+  for (std::size_t j = 0; j < plan.unknown.size(); ++j) {
     if (!plan.unknown[j]) {
       fmt::format_to(out, "  {}\n",
                      wrapped(fmt::format("k{} will not be seen: {}", j + 1, words(plan.not_seen[j])), 4));
@@ -108,9 +109,9 @@ std::string planText(const campaign::Campaign& campaign, const planning::Plan& p
 }
 
 std::string planCsv(const planning::Plan& plan) {
-  std::string text =
-      "pose,q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg,fx_n,fy_n,fz_n,mx_nm,my_nm,mz_nm,pull_x,pull_y,pull_"
-      "z\n";
+  std::string text = "pose";
+  for (int joint = 1; joint <= plan.arm.geometry.arm.joints(); ++joint) text += fmt::format(",q{}_deg", joint);
+  text += ",fx_n,fy_n,fz_n,mx_nm,my_nm,mz_nm,pull_x,pull_y,pull_z\n";
   for (const planning::PlannedPosture& posture : plan.postures) {
     text += fmt::format("{},{},{},{}\n", posture.id, joined(posture.candidate.q, 5, ",", 1.0 / io::kDegree),
                         joined(posture.reading, 3, ","), joined(posture.pull_in_base, 6, ","));

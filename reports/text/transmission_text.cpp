@@ -45,7 +45,7 @@ std::string transmissionText(const identification::Identification& result,
       fmt::format_to(out, "{:>24}{:>14}  gear of both", "structure (" + std::string(namesOf(*method).brief) + ")", "");
     }
     fmt::format_to(out, "\n");
-    for (int joint = 0; joint < 6; ++joint) {
+    for (int joint = 0; joint < transmission.estimate.joints(); ++joint) {
       const identification::GearTorsion& gear = transmission.joints[static_cast<std::size_t>(joint)];
       if (!gear.measured) continue;
       fmt::format_to(out, "  k{:<3}{:>20}{:>8}{:>11}", joint + 1, gearCell(transmission.estimate, joint, unit),

@@ -15,20 +15,21 @@ namespace {
 
 using Out = std::back_insert_iterator<std::string>;
 
-std::string angles(const Vector6d& q, const char* between) {
+std::string angles(const JointVector& q, const char* between) {
   std::string text;
-  for (int j = 0; j < 6; ++j)
+  for (Eigen::Index j = 0; j < q.size(); ++j)
     text += fmt::format("{}{:.5f}", j > 0 ? between : "", unsignedZero(q[j] / io::kDegree, 5));
   return text;
 }
 
 void writePostures(const planning::UnloadedPlan& plan, Out out) {
   fmt::format_to(out, "\n  {:<8}", "pose");
-  for (int joint = 1; joint <= 6; ++joint) fmt::format_to(out, "{:>9}", fmt::format("q{} (deg)", joint));
+  const int joints = plan.arm.geometry.arm.joints();
+  for (int joint = 1; joint <= joints; ++joint) fmt::format_to(out, "{:>9}", fmt::format("q{} (deg)", joint));
   fmt::format_to(out, "{:>15}{:>10}\n", "predicted, mm", "gain, %");
   for (const planning::UnloadedPosture& posture : plan.postures) {
     fmt::format_to(out, "  {:<8}", posture.id);
-    for (int j = 0; j < 6; ++j) fmt::format_to(out, "{:>9.2f}", unsignedZero(posture.q[j] / io::kDegree, 2));
+    for (int j = 0; j < joints; ++j) fmt::format_to(out, "{:>9.2f}", unsignedZero(posture.q[j] / io::kDegree, 2));
     fmt::format_to(out, "{:>15.4f}{:>10.1f}\n", posture.predicted / io::kMillimetre, 100.0 * posture.gain);
   }
   fmt::format_to(out, "  {}\n",
@@ -90,7 +91,9 @@ std::string unloadedPlanText(const campaign::Campaign& campaign, const planning:
 }
 
 std::string unloadedPlanCsv(const planning::UnloadedPlan& plan) {
-  std::string text = "pose,q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg\n";
+  std::string text = "pose";
+  for (int joint = 1; joint <= plan.arm.geometry.arm.joints(); ++joint) text += fmt::format(",q{}_deg", joint);
+  text += "\n";
   for (const planning::UnloadedPosture& posture : plan.postures)
     text += fmt::format("{},{}\n", posture.id, angles(posture.q, ","));
   return text;

@@ -98,7 +98,7 @@ std::string sweepsVerdict(const ReportCampaign& one) {
       std::count_if(frames.axes.begin(), frames.axes.end(), [](const auto& axis) { return axis.measured; });
   std::string text;
   if (one.campaign.circle_sweeps) {
-    text = fmt::format("{} of 6 joint axes are found from their circle sweeps", measured);
+    text = fmt::format("{} of {} joint axes are found from their circle sweeps", measured, frames.axes.size());
     const double off = largestLinkDifference(frames);
     if (off > 0.0) text += fmt::format("; distances between neighbours are up to {} off the URDF's", millimetres(off));
     text += ".";

@@ -7,6 +7,18 @@
 
 namespace stiffscope::reports {
 
+namespace {
+
+/// "4, 5 and 6"
+std::string axesFromTo(std::int64_t first, std::int64_t last) {
+  std::string text = fmt::format("{}", first);
+  for (std::int64_t axis = first + 1; axis <= last; ++axis)
+    text += fmt::format("{}{}", axis == last ? " and " : ", ", axis);
+  return text;
+}
+
+}  // namespace
+
 std::string auditLimitWords(audit::LimitId id, const RemarkValues& values) {
   switch (id) {
     case audit::LimitId::chi_square:
@@ -16,7 +28,8 @@ std::string auditLimitWords(audit::LimitId id, const RemarkValues& values) {
     case audit::LimitId::chi_square_and_postures:
       return fmt::format("chi-square of {} degrees of freedom, and of each posture", values.count(0));
     case audit::LimitId::chi_square_held_axes:
-      return fmt::format("chi-square of {} degrees of freedom, axes 4-6 held by their own sweeps", values.count(0));
+      return fmt::format("chi-square of {} degrees of freedom, axes {}-{} held by their own sweeps", values.count(0),
+                         values.count(1), values.count(2));
     case audit::LimitId::chi_square_of_axes:
       return "chi-square of each axis's residuals";
     case audit::LimitId::chi_square_of_pairs:
@@ -61,7 +74,9 @@ std::string auditLimitWords(audit::LimitId id, const RemarkValues& values) {
     case audit::LimitId::built_to_drawing:
       return "20 mm, where machines are built to a few; or, where that is larger, five standard uncertainties";
     case audit::LimitId::leak_that_decoupling_bears:
-      return "the miss at which joints 4-6 would put 2 % into P_wrist's displacement: what decoupling bears";
+      return fmt::format(
+          "the miss at which joints {}-{} would put 2 % into P_wrist's displacement: what decoupling bears",
+          values.count(0), values.count(1));
     case audit::LimitId::places_or_sweeps:
       return "how far identification trusts places (0.2 mm), or what the sweeps' uncertainty would show";
     case audit::LimitId::turn_at_lever:
@@ -164,7 +179,7 @@ std::string auditMissingWords(audit::MissingId id, const RemarkValues& values) {
     case audit::MissingId::few_wrist_readings:
       return "too few readings: more than centre and radii take";
     case audit::MissingId::wrist_axes_not_swept:
-      return "axes 4, 5 and 6 are not all measured: sweep each";
+      return fmt::format("axes {} are not all measured: sweep each", axesFromTo(values.count(0), values.count(1)));
     case audit::MissingId::no_readings_of_arm:
       return "too few readings of the unloaded arm in several postures to hold it against the URDF";
     case audit::MissingId::few_loads_of_model:

@@ -50,10 +50,14 @@ std::string millimetres(const std::vector<double>& place, int decimals) {
 }
 
 std::string wristAxesMiss(const RemarkValues& values) {
-  const std::vector<double>& miss = values.numbers(0);
-  return fmt::format("axes 4 and 5 miss by {:.3f} +- {:.3f} mm, axes 5 and 6 by {:.3f} +- {:.3f} mm (U, 95 %){}",
-                     1e3 * miss.at(0), 1e3 * expanded(miss.at(1)), 1e3 * miss.at(2), 1e3 * expanded(miss.at(3)),
-                     more(values, 1));
+  const std::vector<double>& miss = values.numbers(0);  // each with its standard uncertainty
+  std::string text;
+  std::int64_t axis = values.count(2);
+  for (std::size_t k = 0; k + 1 < miss.size(); k += 2, ++axis) {
+    text += fmt::format("{}axes {} and {}{} by {:.3f} +- {:.3f} mm", k > 0 ? ", " : "", axis, axis + 1,
+                        k > 0 ? "" : " miss", 1e3 * miss[k], 1e3 * expanded(miss[k + 1]));
+  }
+  return text + " (U, 95 %)" + more(values, 1);
 }
 
 std::string mending(std::int64_t cures) {
@@ -307,7 +311,8 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
     case audit::RemarkId::wrist_axes_miss:
       return wristAxesMiss(values);
     case audit::RemarkId::wrist_leak:
-      return fmt::format(": joints 4-6 put {:.2f} % into P_wrist's displacement", 100.0 * values.number(0));
+      return fmt::format(": joints {}-{} put {:.2f} % into P_wrist's displacement", values.count(1), values.count(2),
+                         100.0 * values.number(0));
     case audit::RemarkId::decoupling_needs_one_point:
       return "; Decoupled Partial Pose takes them to meet in one point";
     case audit::RemarkId::loading_shifted:

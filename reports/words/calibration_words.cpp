@@ -73,7 +73,7 @@ std::string partName(const calibration::EffectPart& part) {
 }
 
 std::vector<JointStiffness> stiffnessOf(const calibration::ArmFit& fit) {
-  std::vector<JointStiffness> joints(6);
+  std::vector<JointStiffness> joints(fit.start.size());
   Eigen::Index k = 0;
   for (const calibration::EffectPart& part : fit.parts) {
     for (const calibration::EffectTerm& term : part.terms) {

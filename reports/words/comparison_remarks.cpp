@@ -25,6 +25,8 @@ std::string comparisonWords(comparison::RemarkId id, const RemarkValues& values)
     return "in either campaign";
   };
   switch (id) {
+    case other_joint_count:
+      return fmt::format("the URDFs describe different machines: {} joints and {}", values.count(0), values.count(1));
     case axis_turned:
       return fmt::format("the URDFs describe different machines: axis {} is turned by {:.2f} deg", values.count(0),
                          degrees(1));
@@ -75,8 +77,9 @@ std::string comparisonWords(comparison::RemarkId id, const RemarkValues& values)
       return "no reflector has the same id in both campaigns: whether reflectors moved is not asked";
     case zero_1_with_base:
       return "joint 1's zero is not compared: a base that turned about axis 1 looks the same";
-    case zero_6_with_reflectors:
-      return "joint 6's zero is not compared: reflectors that all turned about axis 6 look the same";
+    case zero_of_last_with_reflectors:
+      return fmt::format("joint {0}'s zero is not compared: reflectors that all turned about axis {0} look the same",
+                         values.count(0));
     case nothing_comparable:
       return fmt::format("{}; {}", words(values.remark(0)), words(values.remark(1)));
     case of_one_campaign:

@@ -64,6 +64,22 @@ std::string compensationWords(compensation::RemarkId id, const RemarkValues& val
     case uncertain:
       return fmt::format("U is {:.3f} mm, more than half of the deflection of {:.3f} mm",
                          values.number(0) / io::kMillimetre, values.number(1) / io::kMillimetre);
+    case turn_left:
+      return fmt::format(
+          "the commands leave the flange turned by {:.4f} deg: {:+.4f} deg about x0, {:+.4f} deg about y0, {:+.4f} deg "
+          "about z0",
+          degrees(0), degrees(1), degrees(2), degrees(3));
+    case position_first:
+      return fmt::format(
+          "a machine of {} joints cannot bring the flange back in position and orientation: the commands bring "
+          "P_TCP "
+          "back, and the orientation as far as the remaining freedom allows; what is left is said of each posture",
+          values.count(0));
+    case least_turns:
+      return fmt::format(
+          "of the many corrections that {} joints allow the commands are the one with the least sum of squares of the "
+          "joints' turns",
+          values.count(0));
     case implausible_command:
       return fmt::format(
           "posture {} would turn joint {} by {:.1f} deg, which no load does to a sound arm: its wrench "

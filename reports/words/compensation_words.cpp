@@ -38,6 +38,9 @@ const char* refusalWords(compensation::RemarkId reason) {
     case torque_beyond:
     case posture_beyond:
     case uncertain:
+    case turn_left:
+    case position_first:
+    case least_turns:
     case implausible_command:
       break;  // no reasons to refuse
   }
@@ -55,6 +58,8 @@ const char* refusalWords(toolpath::RemarkId reason) {
       return "the process load has no direction of feed";
     case arm_does_not_rest:
       return "the arm does not come to rest";
+    case fewer_than_six_joints:
+      return "the machine has fewer than six joints";
   }
   return "";
 }

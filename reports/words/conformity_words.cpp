@@ -33,6 +33,8 @@ const char* nameOf(Missing missing) {
   switch (missing) {
     case Missing::not_of_such_a_day:
       return "not_of_such_a_day";
+    case Missing::no_such_joint:
+      return "no_such_joint";
     case Missing::not_identified:
       return "not_identified";
     case Missing::no_uncertainty:
@@ -99,6 +101,8 @@ std::string foundWords(const Decision& one) {
   switch (one.missing) {
     case Missing::not_of_such_a_day:
       return "not measured on such a day";
+    case Missing::no_such_joint:
+      return "the machine has no such joint";
     case Missing::not_identified:
       return "not found on this day";
     case Missing::no_uncertainty:

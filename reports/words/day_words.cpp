@@ -51,7 +51,7 @@ std::string reportTitle(const std::vector<ReportCampaign>& campaigns) {
   return title;
 }
 
-std::string methodWords(DayKind kind) {
+std::string methodWords(DayKind kind, int joints) {
   switch (kind) {
     case DayKind::unloaded:
       return "Positions of the reflectors in unloaded postures, read by a laser tracker, are held against what the "
@@ -67,12 +67,15 @@ std::string methodWords(DayKind kind) {
     case DayKind::loaded:
       break;
   }
-  return "Displacements of the reflectors under a known load, read by a laser tracker, give the "
-         "compliance of each joint by least squares. Complete Pose (CP) uses position and rotation of "
-         "P_{TCP}; Partial Pose (PP) the reflectors' positions on a calibrated geometry; Decoupled "
-         "Partial Pose (DPP) first joints 1 to 3 from P_{wrist}, which joints 4 to 6 do not move, "
-         "then joints 4 to 6 from what is left. Stiffness is that of the closed loop, at the joint "
-         "angles which the controller reports.";
+  const int arm = robot::armJointsOf(joints);
+  return fmt::format(
+      "Displacements of the reflectors under a known load, read by a laser tracker, give the "
+      "compliance of each joint by least squares. Complete Pose (CP) uses position and rotation of "
+      "P_{{TCP}}; Partial Pose (PP) the reflectors' positions on a calibrated geometry; Decoupled "
+      "Partial Pose (DPP) first joints {0} from P_{{wrist}}, which joints {1} do not move, "
+      "then joints {1} from what is left. Stiffness is that of the closed loop, at the joint "
+      "angles which the controller reports.",
+      countsFromTo(1, arm), countsFromTo(arm + 1, joints));
 }
 
 namespace {

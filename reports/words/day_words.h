@@ -12,8 +12,8 @@ namespace stiffscope::reports {
 /// "Joint stiffness", "Absolute accuracy", "Geometry by circle sweeps"; of days of several kinds all of theirs.
 std::string reportTitle(const std::vector<ReportCampaign>& campaigns);
 
-/// How such a day becomes results, a paragraph.
-std::string methodWords(DayKind kind);
+/// How such a day of a machine of so many joints becomes results, a paragraph.
+std::string methodWords(DayKind kind, int joints);
 
 /// What the audit's verdict means for such a day, a sentence.
 std::string auditMeaning(const audit::AuditReport& audit, DayKind kind);

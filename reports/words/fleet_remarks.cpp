@@ -30,6 +30,15 @@ std::string effectsKey(const fleet::CampaignResult& result) {
   return entries.empty() ? "none" : fmt::format("{}", fmt::join(entries, "+"));
 }
 
+int mostJointsOf(const fleet::Fleet& fleet) {
+  int most = 0;
+  for (const fleet::FleetCampaign& one : fleet.campaigns) {
+    if (one.result) most = std::max(most, one.result->joints());
+  }
+  constexpr int kUsual = 6;
+  return most > 0 ? most : kUsual;
+}
+
 std::string needName(fleet::NeedId id) {
   switch (id) {
     case fleet::NeedId::no_result:

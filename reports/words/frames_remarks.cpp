@@ -27,7 +27,7 @@ std::string framesWords(frames::RemarkId id, const RemarkValues& values) {
     case RemarkId::wrist_sweep_in_other_frame:
       return "the wrist sweep's readings are in another frame than the circle sweeps'";
     case RemarkId::arm_moved_in_wrist_sweep:
-      return "axes 1-3 moved during the wrist sweep";
+      return fmt::format("axes 1-{} moved during the wrist sweep", values.count(0));
     case RemarkId::wrist_reflectors_under_four:
       return "no reflector has four readings in the wrist sweep";
     case RemarkId::sag_without_stiffness:

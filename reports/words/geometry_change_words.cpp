@@ -54,8 +54,8 @@ const char* nameOf(NumberKind kind) {
   return "tilt";
 }
 
-const char* nameOf(ChangeCause cause) {
-  switch (cause) {
+std::string nameOf(const CauseEvidence& evidence) {
+  switch (evidence.cause) {
     case ChangeCause::joint_zero:
       return "joint_zero";
     case ChangeCause::link:
@@ -66,10 +66,10 @@ const char* nameOf(ChangeCause cause) {
       return "growth";
     case ChangeCause::reflectors:
       return "reflectors";
-    case ChangeCause::turn_about_6:
+    case ChangeCause::turn_about_last:
       break;
   }
-  return "turn_about_6";
+  return fmt::format("turn_about_{}", evidence.axis);
 }
 
 std::string numberName(const comparison::GeometryNumber& number) {
@@ -103,11 +103,11 @@ std::string causeWords(const CauseEvidence& evidence) {
                          evidence.size->expanded() / kPartPerMillion);
     case ChangeCause::reflectors:
       return "reflectors sit elsewhere on the flange";
-    case ChangeCause::turn_about_6:
+    case ChangeCause::turn_about_last:
       break;
   }
-  return fmt::format("all reflectors turned about axis 6, or the zero of joint 6 moved, which looks the same: {}",
-                     turnWords(*evidence.size));
+  return fmt::format("all reflectors turned about axis {0}, or the zero of joint {0} moved, which looks the same: {1}",
+                     evidence.axis, turnWords(*evidence.size));
 }
 
 std::vector<std::string> changeWords(const comparison::GeometryChange& change) {
@@ -131,9 +131,9 @@ std::vector<std::string> changeWords(const comparison::GeometryChange& change) {
   if (change.reflectors_moved) {
     sentences.push_back(fmt::format("Reflectors moved on the flange ({}), which is no change of the machine{}.",
                                     probability(change.reflectors_p),
-                                    change.causes.empty() || change.causes.front().cause != ChangeCause::turn_about_6
-                                        ? ""
-                                        : " unless joint 6's zero moved"));
+                                    change.causes.empty() || change.causes.front().cause != ChangeCause::turn_about_last
+                                        ? std::string()
+                                        : fmt::format(" unless joint {}'s zero moved", change.causes.front().axis)));
   } else if (!change.reflectors.empty()) {
     sentences.push_back(fmt::format("Reflectors did not move beyond chance ({}).", probability(change.reflectors_p)));
   }

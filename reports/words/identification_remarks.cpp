@@ -43,6 +43,23 @@ std::string jointsWords(const RemarkValues& values) {
                      fmt::join(joints, ", "), terms);
 }
 
+/// Values: see RemarkId::wrist_axes_apart.
+std::string wristAxesApart(const RemarkValues& values) {
+  const std::vector<double>& misses = values.numbers(0);
+  const std::int64_t first = values.count(3);
+  std::string apart;
+  for (std::size_t k = 0; k < misses.size(); ++k) {
+    const std::int64_t axis = first + static_cast<std::int64_t>(k);
+    apart += fmt::format("{}{} and {}{} by {:.3f} mm", k > 0 ? ", " : "", axis, axis + 1, k > 0 ? "" : " miss",
+                         1e3 * misses[k]);
+  }
+  return fmt::format(
+      "the wrist's axes do not meet ({}): turning in joints {}-{} moves P_wrist by {:.1f} % of its displacement, more "
+      "than the {:.0f} % that decoupling bears",
+      apart, first, first + static_cast<std::int64_t>(misses.size()), 100.0 * values.number(1),
+      100.0 * values.number(2));
+}
+
 std::string implausibleWords(const identification::ApparentStiffness& apparent) {
   using namespace identification;
   const double value = apparent.value();
@@ -131,14 +148,13 @@ std::string identificationWords(identification::RemarkId id, const RemarkValues&
     case RemarkId::wrist_centre_not_measured:
       return "the wrist centre is not measured: " + words(values.remark(0));
     case RemarkId::wrist_sweep_wanted:
-      return words(values.remark(0)) + "; measure a wrist sweep (axes 4-6 moving) and `loading` with three reflectors";
+      return fmt::format("{}; measure a wrist sweep (axes {}-{} moving) and `loading` with three reflectors",
+                         words(values.remark(0)), values.count(1), values.count(2));
     case RemarkId::wrist_sweep_wanted_too:
-      return words(values.remark(0)) + "; and P_wrist needs a wrist sweep (axes 4-6 moving) with three reflectors";
+      return fmt::format("{}; and P_wrist needs a wrist sweep (axes {}-{} moving) with three reflectors",
+                         words(values.remark(0)), values.count(1), values.count(2));
     case RemarkId::wrist_axes_apart:
-      return fmt::format(
-          "the wrist's axes do not meet (4 and 5 miss by {:.3f} mm, 5 and 6 by {:.3f} mm): turning in joints 4-6 moves "
-          "P_wrist by {:.1f} % of its displacement, more than the {:.0f} % that decoupling bears",
-          1e3 * values.number(0), 1e3 * values.number(1), 100.0 * values.number(2), 100.0 * values.number(3));
+      return wristAxesApart(values);
     case RemarkId::geometry_not_calibrated:
       return "the geometry cannot be calibrated: " + words(values.remark(0));
     case RemarkId::displacements_by_model_only:

@@ -63,6 +63,16 @@ std::string shortName(identification::Method method) { return namesOf(method).br
 
 std::string jointName(int joint) { return fmt::format("k_{{{}}}", joint + 1); }
 
+std::string countsFromTo(int first, int last) {
+  return fmt::format("{} {} {}", first, last == first + 1 ? "and" : "to", last);
+}
+
+const char* countWord(int joints) {
+  static constexpr std::array<const char*, kMostJoints - kFewestJoints + 1> kWords{"four", "five", "six", "seven",
+                                                                                   "eight"};
+  return kWords.at(static_cast<std::size_t>(joints - kFewestJoints));
+}
+
 std::string pointName(const std::string& target_id) {
   const bool numbered =
       target_id.size() > 1 && std::isalpha(static_cast<unsigned char>(target_id[0])) != 0 &&

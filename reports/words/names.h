@@ -43,6 +43,8 @@ const char* nameOfDirection(identification::LoadDirection direction);  ///< "dow
 std::string longName(identification::Method method);       ///< "Decoupled Partial Pose (DPP)"
 std::string shortName(identification::Method method);      ///< "DPP"
 std::string jointName(int joint);                          ///< 0-based: "k_{1}"
+std::string countsFromTo(int first, int last);             ///< "1 to 3", "4 and 5"
+const char* countWord(int joints);                         ///< "six"; of four to eight
 std::string pointName(const std::string& target_id);       ///< "P10" as "P_{10}"; other names to the letter
 std::string auditName(const std::string& check_id);        ///< "station drift"
 std::string auditWord(preparation::AuditVerdict verdict);  ///< "warns"

@@ -34,7 +34,7 @@ StiffnessUnit stiffnessUnit(const std::vector<double>& stiffnesses) {
 StiffnessUnit stiffnessUnit(const identification::Identification& result) {
   std::vector<double> stiffnesses;
   for (const identification::MethodResult& method : result.methods) {
-    for (int joint = 0; method.available && joint < 6; ++joint) {
+    for (int joint = 0; method.available && joint < method.estimate.joints(); ++joint) {
       if (method.estimate.identifiable[static_cast<std::size_t>(joint)])
         stiffnesses.push_back(method.estimate.stiffness(joint));
     }
@@ -44,7 +44,7 @@ StiffnessUnit stiffnessUnit(const identification::Identification& result) {
 
 StiffnessUnit stiffnessUnit(const identification::Transmission& transmission) {
   std::vector<double> gears;
-  for (int joint = 0; joint < 6; ++joint) {
+  for (int joint = 0; joint < transmission.estimate.joints(); ++joint) {
     if (transmission.joints[static_cast<std::size_t>(joint)].measured)
       gears.push_back(transmission.estimate.stiffness(joint));
   }
@@ -53,8 +53,8 @@ StiffnessUnit stiffnessUnit(const identification::Transmission& transmission) {
 
 StiffnessUnit stiffnessUnit(const diagnosis::Diagnosis& diagnosis) {
   std::vector<double> stiffnesses;
-  for (int j = 0; j < 6; ++j) {
-    if (diagnosis.identifiable[static_cast<std::size_t>(j)]) stiffnesses.push_back(diagnosis.stiffness_after[j]);
+  for (std::size_t j = 0; j < diagnosis.identifiable.size(); ++j) {
+    if (diagnosis.identifiable[j]) stiffnesses.push_back(diagnosis.stiffness_after[static_cast<Eigen::Index>(j)]);
   }
   return stiffnessUnit(stiffnesses);
 }

@@ -20,7 +20,11 @@ constexpr std::array<Joints2To6, 3> kActive{{
 
 }  // namespace
 
-std::optional<PaperStiffness> paperStiffness(campaign::DoubleEncoder state, identification::Method method, int joint) {
+std::optional<PaperStiffness> paperStiffness(const campaign::Campaign& campaign, identification::Method method,
+                                             int joint) {
+  constexpr int kPapersJoints = 6;
+  const campaign::DoubleEncoder state = campaign.double_encoder;
+  if (campaign.robot.joints() != kPapersJoints) return std::nullopt;
   if (state == campaign::DoubleEncoder::unspecified || joint < 1 || joint > 5) return std::nullopt;
   const auto& table = state == campaign::DoubleEncoder::active ? kActive : kInactive;
   return table[static_cast<std::size_t>(method)][static_cast<std::size_t>(joint) - 1];

@@ -14,9 +14,10 @@ struct PaperStiffness {
   double mean = 0.0, sd = 0.0;  ///< 10^6 Nm/rad
 };
 
-/// Table II; empty for joint 1 (0-based joint 0), which it does not have, and where the state of the double
-/// encoders is not declared.
-std::optional<PaperStiffness> paperStiffness(campaign::DoubleEncoder state, identification::Method method, int joint);
+/// Table II; empty for joint 1 (0-based joint 0), which it does not have, where the state of the double encoders is not
+/// declared, and beside a machine that has not six joints as the paper's.
+std::optional<PaperStiffness> paperStiffness(const campaign::Campaign& campaign, identification::Method method,
+                                             int joint);
 
 /// IV.E: share of P_wrist's deflection compensated, from 10 postures judged on 19, double encoders active.
 inline constexpr std::array<double, 3> kPaperCompensated{0.50, 0.80, 0.84};

@@ -46,7 +46,7 @@ std::vector<RichStretch> richStretches(const std::string& rich_text) {
 }
 
 std::string withSubscripts(const std::string& sentence) {
-  static const std::regex point(R"(\b([PK])_(TCP|wrist|x|c)\b)"), stiffness(R"(\bk([1-6])\b)");
+  static const std::regex point(R"(\b([PK])_(TCP|wrist|x|c)\b)"), stiffness(R"(\bk([1-8])\b)");
   return std::regex_replace(std::regex_replace(sentence, point, "$1_{$2}"), stiffness, "k_{$1}");
 }
 

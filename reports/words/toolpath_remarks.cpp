@@ -20,6 +20,11 @@ std::string toolpathWords(toolpath::RemarkId id, const RemarkValues& values) {
       return "the tool moves along its axis, or not at all: the process load has no direction of feed";
     case arm_does_not_rest:
       return "the arm that its own weight bends does not come to rest at the pose";
+    case fewer_than_six_joints:
+      return fmt::format(
+          "a machine of {} joints holds a tool at some poses only, and which one is meant a path does not say: give "
+          "joint angles, as postures or as a program",
+          values.count(0));
   }
   return {};
 }

@@ -66,7 +66,7 @@ const char* wordsOf(identification::GearAgreement agreement) {
 std::vector<std::string> transmissionNotes(const identification::Transmission& transmission) {
   std::vector<std::string> notes;
   std::map<std::string, std::vector<int>> not_measured;  // one sentence for joints of one reason
-  for (std::size_t j = 0; j < 6; ++j) {
+  for (std::size_t j = 0; j < transmission.joints.size(); ++j) {
     const identification::GearTorsion& joint = transmission.joints[j];
     if (!joint.measured) {
       not_measured[words(joint.reason)].push_back(static_cast<int>(j) + 1);

@@ -36,12 +36,13 @@ std::string jointsSentence(const identification::Identification& identification)
   }
   const identification::StiffnessEstimate& estimate = identification.of(*shown).estimate;
   std::vector<std::string> unseen, doubtful;
-  for (int joint = 0; joint < 6; ++joint) {
+  for (int joint = 0; joint < estimate.joints(); ++joint) {
     const bool seen = estimate.identifiable[static_cast<std::size_t>(joint)];
     if (!seen) unseen.push_back(jointName(joint));
     if (seen && !estimate.mark(joint).empty()) doubtful.push_back(jointName(joint));
   }
-  std::string text = fmt::format("{} finds the stiffness of {} of 6 joints", longName(*shown), 6 - unseen.size());
+  std::string text = fmt::format("{} finds the stiffness of {} of {} joints", longName(*shown),
+                                 estimate.identifiable.size() - unseen.size(), estimate.joints());
   if (!unseen.empty()) {
     text += fmt::format("; {} cannot be seen{}", fmt::join(unseen, ", "),
                         identification.identifiability.load_hangs ? " under a load that only hangs" : " in this data");
