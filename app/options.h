@@ -33,8 +33,8 @@ void checkOptionValues(CLI::App& app);
 /// anything but a whole number; `also` is what the command takes besides, as its words say it (", or all").
 std::optional<int> loadStepNamed(const std::string& step, const std::string& also = {});
 
-/// Joint angles as an option gives them, in its unit. Throws InputError, naming the option, where they are of no machine:
-/// fewer than kFewestJoints, more than kMostJoints.
+/// Joint angles as an option gives them, in its unit. Throws InputError, naming the option, where they are of no
+/// machine: fewer than kFewestJoints, more than kMostJoints.
 JointVector anglesGiven(const std::string& option, const std::vector<double>& angles);
 
 /// Throws InputError, naming the option, for angles that are given and are not one for each joint of the machine.

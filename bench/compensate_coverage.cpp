@@ -64,12 +64,12 @@ struct TrueCase {
 };
 
 std::vector<TrueCase> trueCases(const simulation::SimulationSpec& spec, double force,
-                                const std::vector<Vector6d>& postures) {
+                                const std::vector<JointVector>& postures) {
   const simulation::ElasticMachine machine = simulation::buildMachine(spec);
   const auto parent = std::find_if(spec.nominal.links.begin(), spec.nominal.links.end(),
                                    [&](const auto& link) { return link.name == spec.load_cell->declared.parent; });
   std::vector<TrueCase> cases;
-  for (const Vector6d& q : postures) {
+  for (const JointVector& q : postures) {
     const simulation::MachineState unloaded = simulation::equilibrium(machine, q);
     const Eigen::VectorXd anchors = simulation::arrivedAnchors(machine, unloaded);
     const Eigen::Vector3d hook = unloaded.base_from_flange * spec.loading->hook_in_flange;

@@ -104,7 +104,7 @@ std::vector<identification::CaseEquations> drawnEquations(int n) {
 
 identification::SubsetStudy allSubsets(const std::vector<identification::CaseEquations>& equations) {
   identification::SubsetMethod method;
-  method.unknown.fill(true);
+  method.unknown.assign(static_cast<std::size_t>(equations.front().matrix.cols()), true);
   for (const identification::CaseEquations& one : equations)
     method.normal.push_back(identification::normalEquations(one));
   identification::SubsetOptions options;
@@ -129,15 +129,16 @@ void Diagnosis(benchmark::State& state) {
 }
 BENCHMARK(Diagnosis)->Apply(sizes)->MeasureProcessCPUTime()->Iterations(1)->Repetitions(1);
 
-std::vector<Vector6d> drawnPostures(std::int64_t count) {
+std::vector<JointVector> drawnPostures(Eigen::Index joints, std::int64_t count) {
   std::mt19937_64 random(2);
   std::uniform_real_distribution<double> angle(-2.0, 2.0);
-  std::vector<Vector6d> postures;
-  for (std::int64_t i = 0; i < count; ++i) postures.push_back(Vector6d::NullaryExpr([&] { return angle(random); }));
+  std::vector<JointVector> postures;
+  for (std::int64_t i = 0; i < count; ++i)
+    postures.push_back(JointVector::NullaryExpr(joints, [&] { return angle(random); }));
   return postures;
 }
 
-Matrix6d ownJacobian(const robot::Robot& robot, const Vector6d& q) {
+Jacobian ownJacobian(const robot::Robot& robot, const JointVector& q) {
   const robot::ArmPosture posture = robot::postureAt(robot, q);
   return robot::jacobianAt(robot, posture, robot::flangeAt(robot, posture).translation());
 }
@@ -145,12 +146,13 @@ Matrix6d ownJacobian(const robot::Robot& robot, const Vector6d& q) {
 /// The same arm for KDL: a joint about each axis where it stands at zero, the flange behind the last.
 KDL::Chain kdlChain(const robot::Robot& robot) {
   KDL::Chain chain;
-  for (std::size_t i = 0; i < 6; ++i) {
+  for (std::size_t i = 0; i < robot.axes_in_base_at_zero.size(); ++i) {
     const metrology::Line& axis = robot.axes_in_base_at_zero[i];
     const KDL::Vector point(axis.point.x(), axis.point.y(), axis.point.z());
     const KDL::Vector direction(axis.direction.x(), axis.direction.y(), axis.direction.z());
     const Eigen::Vector3d flange = robot.base_from_flange_at_zero.translation();
-    const KDL::Vector tip = i == 5 ? KDL::Vector(flange.x(), flange.y(), flange.z()) : KDL::Vector::Zero();
+    const KDL::Vector tip = i + 1 == robot.axes_in_base_at_zero.size() ? KDL::Vector(flange.x(), flange.y(), flange.z())
+                                                                       : KDL::Vector::Zero();
     chain.addSegment(KDL::Segment(KDL::Joint("joint", point, direction, KDL::Joint::RotAxis), KDL::Frame(tip)));
   }
   return chain;
@@ -158,22 +160,22 @@ KDL::Chain kdlChain(const robot::Robot& robot) {
 
 void Jacobian(benchmark::State& state) {
   const robot::Robot robot = spec().nominal;
-  const auto postures = drawnPostures(state.range(0));
+  const auto postures = drawnPostures(robot.joints(), state.range(0));
   for (auto _ : state) {
-    for (const Vector6d& q : postures) benchmark::DoNotOptimize(ownJacobian(robot, q));
+    for (const JointVector& q : postures) benchmark::DoNotOptimize(ownJacobian(robot, q));
   }
 }
 BENCHMARK(Jacobian)->Arg(100)->Arg(1000)->Arg(10000)->Unit(benchmark::kMicrosecond);
 
 void JacobianByKdl(benchmark::State& state) {
   const robot::Robot robot = spec().nominal;
-  const auto postures = drawnPostures(state.range(0));
+  const auto postures = drawnPostures(robot.joints(), state.range(0));
   KDL::Chain chain = kdlChain(robot);
   KDL::ChainJntToJacSolver solver(chain);
-  KDL::JntArray angles(6);
-  KDL::Jacobian jacobian(6);
+  KDL::JntArray angles(static_cast<unsigned int>(robot.joints()));
+  KDL::Jacobian jacobian(static_cast<unsigned int>(robot.joints()));
   double apart = 0.0;
-  for (const Vector6d& q : postures) {
+  for (const JointVector& q : postures) {
     angles.data = q;
     solver.JntToJac(angles, jacobian);
     apart = std::max(apart, (jacobian.data - ownJacobian(robot, q)).cwiseAbs().maxCoeff());
@@ -181,7 +183,7 @@ void JacobianByKdl(benchmark::State& state) {
   // Metres and pure numbers of size one to three: a hundred roundings.
   if (!(apart < 1e-12)) state.SkipWithError("KDL and stiffscope disagree");
   for (auto _ : state) {
-    for (const Vector6d& q : postures) {
+    for (const JointVector& q : postures) {
       angles.data = q;
       solver.JntToJac(angles, jacobian);
       benchmark::DoNotOptimize(jacobian.data.data());
@@ -199,13 +201,13 @@ void writeSubsets(const std::filesystem::path& folder) {
     std::vector<double> rows;
     for (const identification::CaseEquations& one : equations) {
       for (Eigen::Index row = 0; row < one.right.size(); ++row) {
-        for (Eigen::Index column = 0; column < 6; ++column) rows.push_back(one.matrix(row, column));
+        for (Eigen::Index column = 0; column < one.matrix.cols(); ++column) rows.push_back(one.matrix(row, column));
         rows.push_back(one.right[row]);
       }
     }
     const identification::SubsetStudy study = allSubsets(equations);
-    Vector6d mean = Vector6d::Zero();
-    for (const Vector6d& one : study.compliances) mean += one / static_cast<double>(study.compliances.size());
+    JointVector mean = JointVector::Zero(equations.front().matrix.cols());
+    for (const JointVector& one : study.compliances) mean += one / static_cast<double>(study.compliances.size());
     bench::writeDoubles(folder / (name + ".equations"), rows);
     bench::writeDoubles(folder / (name + ".mean"), {mean.begin(), mean.end()});
   }

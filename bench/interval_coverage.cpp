@@ -36,12 +36,13 @@ using namespace stiffscope;
 struct Lengths {
   int holds = 0;
   std::vector<double> half_widths, errors;  ///< m
-  std::array<std::array<int, 2>, 5> by_link{};
+  std::vector<std::array<int, 2>> by_link;
 
   void add(const frames::Frames& found, const simulation::SimulationSpec& spec) {
     frames::ArmInR0 truth;
     truth.arm = simulation::rigidGeometry(simulation::buildMachine(spec));
-    const std::array<frames::LinkGeometry, 5> links = frames::linkGeometry(spec.nominal, truth);
+    const frames::Links links = frames::linkGeometry(spec.nominal, truth);
+    by_link.resize(std::max(by_link.size(), links.size()));
     for (std::size_t i = 0; i < links.size(); ++i) {
       if (!found.links[i].distance_sd) continue;
       constexpr double kNormal = 1.96;  // of 95 %
@@ -55,11 +56,12 @@ struct Lengths {
 };
 
 /// What each joint gives when it alone is loaded: springs that two joints share are part of it.
-Vector6d trueCompliance(const simulation::MachineSpec& machine) {
-  Matrix6d stiffness = Matrix6d::Zero();
-  for (int j = 0; j < 6; ++j) stiffness(j, j) = *machine.joints[static_cast<std::size_t>(j)].torsion;
+JointVector trueCompliance(const simulation::MachineSpec& machine) {
+  const auto joints = static_cast<Eigen::Index>(machine.joints.size());
+  JointMatrix stiffness = JointMatrix::Zero(joints, joints);
+  for (Eigen::Index j = 0; j < joints; ++j) stiffness(j, j) = *machine.joints[static_cast<std::size_t>(j)].torsion;
   for (const simulation::SharedSpring& spring : machine.shared_springs) {
-    Vector6d arms = Vector6d::Zero();
+    JointVector arms = JointVector::Zero(joints);
     for (std::size_t k = 0; k < 2; ++k) arms[spring.joints[k]] += spring.arms[k];
     stiffness += spring.rate * arms * arms.transpose();
   }
@@ -73,12 +75,12 @@ struct Row {
   bool holds = false;
 };
 
-void addRows(const identification::Identification& result, const char* model, const Vector6d& truth, const Row& like,
+void addRows(const identification::Identification& result, const char* model, const JointVector& truth, const Row& like,
              std::vector<Row>& rows) {
   for (const identification::Method which : identification::kMethods) {
     if (!result.of(which).available) continue;
     const identification::StiffnessEstimate& estimate = result.of(which).estimate;
-    for (int j = 0; j < 6; ++j) {
+    for (int j = 0; j < estimate.joints(); ++j) {
       if (!estimate.identifiable[static_cast<std::size_t>(j)]) continue;
       const identification::CoverageInterval k = identification::stiffnessInterval(estimate, j);
       Row row = like;
@@ -113,13 +115,14 @@ void print(const std::string& family, const std::string& model, const Lengths& l
 
 void print(const std::string& family, const std::string& model, const std::vector<Row>& rows) {
   std::vector<double> errors, widths;
-  std::array<std::array<int, 2>, 6> by_joint{};
+  std::vector<std::array<int, 2>> by_joint;
   int holds = 0;
   for (const Row& row : rows) {
     if (row.model != model) continue;
     errors.push_back(std::abs(row.error));
     widths.push_back(row.half_width);
     holds += row.holds;
+    by_joint.resize(std::max(by_joint.size(), static_cast<std::size_t>(row.joint)));
     auto& own = by_joint[static_cast<std::size_t>(row.joint - 1)];
     own[0] += row.holds, ++own[1];
   }
@@ -154,7 +157,7 @@ int main(int argc, char** argv) {
         Row like;
         like.machine = i;
         like.effects = bench::effectsOf(one);
-        const Vector6d truth = trueCompliance(one.spec.machine);
+        const JointVector truth = trueCompliance(one.spec.machine);
         const std::lock_guard<std::mutex> lock(mutex);
         addRows(model.without, "springs", truth, like, rows);
         addRows(model.with, "default", truth, like, rows);

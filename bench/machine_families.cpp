@@ -52,7 +52,7 @@ void addBearingsAndLinks(numerics::RandomStream& random, simulation::MachineSpec
 void addBaseAndFriction(numerics::RandomStream& random, simulation::SimulationSpec& spec) {
   simulation::MachineSpec& machine = spec.machine;
   machine.base_rotation = Eigen::Vector3d::Constant(*machine.joints[1].torsion * logUniform(random, 16, 40));
-  for (int j = 0; j < 6; ++j) {
+  for (int j = 0; j < static_cast<int>(machine.joints.size()); ++j) {
     simulation::JointStiffness& joint = machine.joints[static_cast<std::size_t>(j)];
     simulation::JointFriction friction;
     friction.torque = logUniform(random, 0.0025, 0.01) * validation::usualTorque(spec, j);
@@ -117,19 +117,19 @@ double hangWeights(simulation::LoadingSpec& loading) {
   return kGravity * *std::max_element(masses.begin(), masses.end());
 }
 
-std::vector<Vector6d> heldOutPostures(simulation::SimulationSpec spec, int count, double least_sin_q5) {
-  simulation::PostureDraw draw;
+std::vector<JointVector> heldOutPostures(simulation::SimulationSpec spec, int count, double least_sin_bend) {
+  simulation::PostureDraw draw(spec.nominal.joints());
   draw.count = count;
   draw.low = draw.high = spec.postures.front().q;
   for (const simulation::ListedPosture& one : spec.postures) {
     draw.low = draw.low.cwiseMin(one.q);
     draw.high = draw.high.cwiseMax(one.q);
   }
-  draw.min_abs_sin_q5 = least_sin_q5;
+  draw.min_abs_sin_bend = least_sin_bend;
   spec.seed += 0x5eed;
   spec.postures.clear();
   spec.posture_draw = draw;
-  std::vector<Vector6d> postures;
+  std::vector<JointVector> postures;
   for (const simulation::Posture& one : simulation::loadingPostures(spec)) postures.push_back(one.q);
   return postures;
 }

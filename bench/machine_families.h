@@ -28,9 +28,9 @@ validation::BlindCase drawMachine(const std::string& family, int i, std::uint64_
 /// Weights in place of whatever load was drawn, of the same sizes. Returns the largest, N.
 double hangWeights(simulation::LoadingSpec& loading);
 
-/// Postures drawn from the box of joint angles that the day's own span, by other draws than the day's; |sin q5| at
-/// least that.
-std::vector<Vector6d> heldOutPostures(simulation::SimulationSpec spec, int count, double least_sin_q5 = 0.0);
+/// Postures drawn from the box of joint angles that the day's own span, by other draws than the day's; |sin| of the
+/// wrist's bend (q5 of six joints) at least that.
+std::vector<JointVector> heldOutPostures(simulation::SimulationSpec spec, int count, double least_sin_bend = 0.0);
 
 /// The day of a machine; of the masses' family with a URDF whose masses are all off by one factor.
 campaign::Campaign dayOf(const std::string& family, const validation::BlindCase& one, std::uint64_t seed);

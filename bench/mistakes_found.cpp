@@ -61,7 +61,7 @@ bool changes(const identification::Identification& good, const identification::I
     const identification::MethodResult &was = good.of(method), &is = spoilt.of(method);
     if (!was.available) continue;
     if (!is.available) return true;
-    for (int j = 0; j < 6; ++j) {
+    for (int j = 0; j < was.estimate.joints(); ++j) {
       const auto joint = static_cast<std::size_t>(j);
       if (!was.estimate.identifiable[joint]) continue;
       if (!is.estimate.identifiable[joint]) return true;

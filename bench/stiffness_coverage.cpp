@@ -39,7 +39,7 @@ constexpr std::array kModels{"springs", "model"};
 constexpr std::array kPlaces{"of the day", "others"};
 
 /// What the machine does under a force at P_TCP and its opposite, m/N along `direction` (base_link).
-double trueCompliance(const simulation::ElasticMachine& machine, const Vector6d& q, const Eigen::Vector3d& tcp,
+double trueCompliance(const simulation::ElasticMachine& machine, const JointVector& q, const Eigen::Vector3d& tcp,
                       const Eigen::Vector3d& direction, double force) {
   const simulation::MachineState unloaded = simulation::equilibrium(machine, q);
   const Eigen::VectorXd anchors = simulation::arrivedAnchors(machine, unloaded);
@@ -84,18 +84,18 @@ void judge(const simulation::SimulationSpec& spec, std::uint64_t seed, const Row
   const simulation::ElasticMachine machine = simulation::buildMachine(spec);
   const Eigen::Matrix3d base_from_r0 = own.geometry.r0_from_base_link.linear().transpose();
   constexpr int kPostures = 6;
-  std::vector<std::vector<Vector6d>> postures(kPlaces.size());
+  std::vector<std::vector<JointVector>> postures(kPlaces.size());
   for (const identification::LoadCase& one : model.with.cases) {
     if (postures[0].size() < kPostures && (postures[0].empty() || postures[0].back() != one.q))
       postures[0].push_back(one.q);
   }
   postures[1] = bench::heldOutPostures(spec, kPostures);
   for (std::size_t place = 0; place < kPlaces.size(); ++place) {
-    for (const Vector6d& q : postures[place]) {
+    for (const JointVector& q : postures[place]) {
       const auto found = workspace::pointStiffness(arm, q);
       if (!found) continue;
       const robot::ArmPosture at = robot::postureAt(own.geometry.arm, own.geometry.sagged(q));
-      const Matrix6d jacobian = robot::jacobianAt(own.geometry.arm, at, found->tcp);
+      const Jacobian jacobian = robot::jacobianAt(own.geometry.arm, at, found->tcp);
       for (std::size_t kind = 0; kind < kModels.size(); ++kind) {
         const auto& stated = kind == 0 ? found->of_springs : found->of_model;
         for (std::size_t k = 0; k < stated.size(); ++k) {
@@ -104,8 +104,8 @@ void judge(const simulation::SimulationSpec& spec, std::uint64_t seed, const Row
           row.model = kind, row.place = place, row.order = static_cast<int>(k);
           row.stated = stated[k].compliance, row.low = stated[k].interval.low, row.high = stated[k].interval.high;
           if (kind == 0) {
-            const Vector6d moves = jacobian.topRows<3>().transpose() * direction;
-            for (int j = 0; j < 6; ++j)
+            const JointVector moves = jacobian.topRows<3>().transpose() * direction;
+            for (Eigen::Index j = 0; j < moves.size(); ++j)
               row.truth += moves[j] * moves[j] / *spec.machine.joints[static_cast<std::size_t>(j)].torsion;
           } else {
             row.truth = trueCompliance(machine, q, tcp, base_from_r0 * direction, certainty.range.force);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -24,15 +25,15 @@ Vector3d turned(const Vector3d& point, const Vector3d& about, const Vector3d& ro
 }
 
 /// Joints off by `errors`: the outermost turns first, about where the axes stand as reported.
-Vector3d turnedByJoints(const NominalPosture& posture, Vector3d point, const Vector6d& errors) {
-  for (std::size_t j = 6; j-- > 0;) {
+Vector3d turnedByJoints(const NominalPosture& posture, Vector3d point, const JointVector& errors) {
+  for (std::size_t j = posture.axis.size(); j-- > 0;) {
     const double error = errors[static_cast<Eigen::Index>(j)];
     if (error != 0.0) point = turned(point, posture.on_axis[j], posture.axis[j], error);
   }
   return point;
 }
 
-/// Moment of everything beyond joint j (0..5) about a point, Nm.
+/// Moment of everything beyond joint j (from 0) about a point, Nm.
 Vector3d momentBeyond(const NominalDay& day, const NominalPosture& posture, std::size_t j, const Vector3d& about) {
   return (posture.weight_at[j] - about).cross(day.mass_beyond[j] * day.gravity);
 }
@@ -45,8 +46,10 @@ Value oneOf(const std::array<Value, kCount>& values, numerics::RandomStream& ran
   return values[std::min(kCount - 1, static_cast<std::size_t>(random.uniform() * kCount))];
 }
 
-std::size_t randomJoint(numerics::RandomStream& random, std::size_t first = 0) {
-  return oneOf(std::array<std::size_t, 6>{0, 1, 2, 3, 4, 5}, random) % (6 - first) + first;
+std::size_t randomJoint(const NominalDay& day, numerics::RandomStream& random, std::size_t first = 0) {
+  const std::size_t joints = day.mass_beyond.size();
+  const auto drawn = static_cast<std::size_t>(random.uniform() * static_cast<double>(joints));
+  return std::min(joints - 1, drawn) % (joints - first) + first;
 }
 
 std::string jointName(std::size_t j) { return fmt::format("joint {}", j + 1); }
@@ -74,8 +77,8 @@ Cause stationCause(UnloadedEffect effect, const NominalDay& day, numerics::Rando
           }};
 }
 
-Cause drawTransmission(numerics::RandomStream& random) {
-  const std::size_t j = randomJoint(random);
+Cause drawTransmission(const NominalDay& day, numerics::RandomStream& random) {
+  const std::size_t j = randomJoint(day, random);
   // An eccentric gear or ring, or a gear's own order.
   const double order = random.uniform() < 0.5 ? oneOf(std::array{1.0, 2.0}, random) : random.uniform(5.0, 40.0);
   const double phase = random.uniform(0.0, 2.0 * std::numbers::pi);
@@ -85,10 +88,10 @@ Cause drawTransmission(numerics::RandomStream& random) {
           })};
 }
 
-Cause drawRatio(numerics::RandomStream& random) {
-  const std::size_t j = randomJoint(random);
+Cause drawRatio(const NominalDay& day, numerics::RandomStream& random) {
+  const std::size_t j = randomJoint(day, random), last = day.mass_beyond.size() - 1;
   std::size_t of = j;
-  if (random.uniform() < 0.5) of = j == 0 ? 1 : j == 5 ? 4 : random.uniform() < 0.5 ? j - 1 : j + 1;
+  if (random.uniform() < 0.5) of = j == 0 ? 1 : j == last ? last - 1 : random.uniform() < 0.5 ? j - 1 : j + 1;
   const std::string detail =
       of == j ? jointName(j) : fmt::format("joints {} and {}", std::min(j, of) + 1, std::max(j, of) + 1);
   return {UnloadedEffect::ratio_error, detail, fmt::format("joint {} by joint {}", j + 1, of + 1),
@@ -102,7 +105,7 @@ Cause drawTargetMotion(const NominalDay& day, numerics::RandomStream& random, do
   return {UnloadedEffect::target_motion, day.targets[target], fmt::format("from {:.2f} of the day", from),
           [=](const NominalPosture& posture, int of, const Vector3d& point, double size) {
             if (of != static_cast<int>(target) || posture.time < from) return point;
-            return Vector3d(point + size * (posture.motion[6].linear() * direction));
+            return Vector3d(point + size * (posture.motion.back().linear() * direction));
           }};
 }
 
@@ -130,7 +133,7 @@ std::optional<Cause> drawOwnWeight(UnloadedEffect effect, const NominalDay& day,
                    return turned(point, middle, size * across(momentBeyond(day, posture, link + 1, middle), along));
                  }};
   }
-  const std::size_t j = randomJoint(random, effect == UnloadedEffect::joint_compliance ? 1 : 0);
+  const std::size_t j = randomJoint(day, random, effect == UnloadedEffect::joint_compliance ? 1 : 0);
   const bool tilts = effect == UnloadedEffect::bearing_tilt;
   return Cause{effect, jointName(j), "",
                [&day, j, tilts](const NominalPosture& posture, int, const Vector3d& point, double size) {
@@ -151,9 +154,11 @@ NominalDay nominalDay(const campaign::Campaign& campaign, const calibration::Cal
   day.gravity = campaign.gravity_in_base;
   day.masses_known = calibration.day.masses_known;
   day.targets = calibration.day.targets;
-  day.postures.resize(campaign.pose_ids.size());
-  for (std::size_t j = 6; j-- > 0;)
-    day.mass_beyond[j] = arm.bodies[j + 1].mass_kg + (j < 5 ? day.mass_beyond[j + 1] : 0.0);
+  day.postures.assign(campaign.pose_ids.size(), NominalPosture(arm.joints()));
+  const auto joints = static_cast<std::size_t>(arm.joints());
+  day.mass_beyond.resize(joints);
+  for (std::size_t j = joints; j-- > 0;)
+    day.mass_beyond[j] = arm.bodies[j + 1].mass_kg + (j + 1 < joints ? day.mass_beyond[j + 1] : 0.0);
 
   const std::vector<campaign::State>& states = campaign.states->rows;
   double first = 1e300, last = -1e300;
@@ -163,11 +168,12 @@ NominalDay nominalDay(const campaign::Campaign& campaign, const calibration::Cal
     first = std::min(first, state.time_s), last = std::max(last, state.time_s);
   }
   timed = timed && last > first;
-  Vector6d side = Vector6d::Zero();
+  const JointVector still = JointVector::Zero(arm.joints());
+  JointVector side = still;
   for (std::size_t s = 0; s < states.size(); ++s) {
-    const Vector6d move = s > 0 ? Vector6d(states[s].q - states[s - 1].q) : Vector6d(Vector6d::Zero());
+    const JointVector move = s > 0 ? JointVector(states[s].q - states[s - 1].q) : still;
     constexpr double kStill = 1e-5;  // rad
-    for (Eigen::Index j = 0; j < 6; ++j) {
+    for (Eigen::Index j = 0; j < move.size(); ++j) {
       if (std::abs(move[j]) >= kStill) side[j] = move[j] > 0.0 ? 1.0 : -1.0;
     }
     if (states[s].step != 0) continue;
@@ -176,8 +182,7 @@ NominalDay nominalDay(const campaign::Campaign& campaign, const calibration::Cal
     posture.time = timed ? (states[s].time_s - first) / (last - first)
                          : static_cast<double>(s) / static_cast<double>(std::max<std::size_t>(1, states.size() - 1));
     Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
-    posture.motion[0] = motion;
-    for (std::size_t j = 0; j < 6; ++j) {
+    for (std::size_t j = 0; j < joints; ++j) {
       const metrology::Line& axis = arm.axes_in_base_at_zero[j];
       posture.on_axis[j] = motion * axis.point;
       posture.axis[j] = motion.linear() * axis.direction;
@@ -187,7 +192,7 @@ NominalDay nominalDay(const campaign::Campaign& campaign, const calibration::Cal
       posture.motion[j + 1] = motion;
     }
     Vector3d weighed = Vector3d::Zero();
-    for (std::size_t j = 6; j-- > 0;) {
+    for (std::size_t j = joints; j-- > 0;) {
       weighed += arm.bodies[j + 1].mass_kg * (posture.motion[j + 1] * arm.bodies[j + 1].com_in_base_at_zero);
       if (day.mass_beyond[j] > 0.0) posture.weight_at[j] = weighed / day.mass_beyond[j];
     }
@@ -234,18 +239,18 @@ std::optional<Cause> drawCause(UnloadedEffect effect, const NominalDay& day, num
     case UnloadedEffect::base_compliance:
       return drawOwnWeight(effect, day, random);
     case UnloadedEffect::transmission_error:
-      return drawTransmission(random);
+      return drawTransmission(day, random);
     case UnloadedEffect::ratio_error:
-      return drawRatio(random);
+      return drawRatio(day, random);
     case UnloadedEffect::backlash: {
-      const std::size_t j = randomJoint(random);
+      const std::size_t j = randomJoint(day, random);
       return Cause{effect, jointName(j), "", onJoint(j, [j](const NominalPosture& posture) {
                      return posture.side[static_cast<Eigen::Index>(j)];
                    })};
     }
     case UnloadedEffect::read_back_error: {
       // Behind the move or before it, no joint as much as the other.
-      Vector6d share;
+      JointVector share(static_cast<Eigen::Index>(day.mass_beyond.size()));
       const double sign = random.uniform() < 0.5 ? -1.0 : 1.0;
       for (double& one : share) one = sign * random.uniform(0.5, 1.5);
       return Cause{effect, "", sign < 0.0 ? "behind" : "before",
@@ -268,7 +273,7 @@ std::optional<Cause> drawCause(UnloadedEffect effect, const NominalDay& day, num
       return Cause{effect, "", fmt::format("time constant {:.2f} of the day", constant),
                    [&day, constant](const NominalPosture& posture, int, const Vector3d& point, double size) {
                      const double warm = 1.0 - std::exp(-posture.time / constant);
-                     return Vector3d(point + size * warm * (posture.motion[6] * day.flange_at_zero));
+                     return Vector3d(point + size * warm * (posture.motion.back() * day.flange_at_zero));
                    }};
     }
     case UnloadedEffect::scale_error:
@@ -284,20 +289,23 @@ RigidGeometry::RigidGeometry(const NominalDay& day, std::vector<At> readings)
     : day_(day), readings_(std::move(readings)) {
   const auto rows = 3 * static_cast<Eigen::Index>(readings_.size());
   const auto targets = static_cast<Eigen::Index>(day.targets.size());
-  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(rows, 36 + 3 * targets);
+  constexpr Eigen::Index kOfBody = 6;
+  const std::size_t bodies = day.mass_beyond.size();  // the base and those between two joints
+  const Eigen::Index of_bodies = kOfBody * static_cast<Eigen::Index>(bodies);
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(rows, of_bodies + 3 * targets);
   for (std::size_t i = 0; i < readings_.size(); ++i) {
     const At& at = readings_[i];
     const auto row = 3 * static_cast<Eigen::Index>(i);
     const NominalPosture& posture = day.postures[at.pose];
-    for (std::size_t body = 0; body < 6; ++body) {
+    for (std::size_t body = 0; body < bodies; ++body) {
       const Eigen::Matrix3d turn = posture.motion[body].linear();
       for (Eigen::Index k = 0; k < 3; ++k) {
-        const auto column = 6 * static_cast<Eigen::Index>(body) + k;
+        const auto column = kOfBody * static_cast<Eigen::Index>(body) + k;
         columns.block<3, 1>(row, column) = turn.col(k).cross(at.point - posture.motion[body].translation());
         columns.block<3, 1>(row, column + 3) = turn.col(k);
       }
     }
-    columns.block<3, 3>(row, 36 + 3 * at.target) = posture.motion[6].linear();
+    columns.block<3, 3>(row, of_bodies + 3 * at.target) = posture.motion.back().linear();
   }
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
   qr.setThreshold(1e-9);

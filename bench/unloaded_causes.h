@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <array>
 #include <functional>
 #include <optional>
 #include <string>
@@ -18,12 +17,21 @@ namespace stiffscope::bench {
 
 /// One posture of the nominal arm; base_link, m and rad.
 struct NominalPosture {
-  Vector6d q = Vector6d::Zero();
-  Vector6d move = Vector6d::Zero(), side = Vector6d::Zero();  ///< as reported: since the state before; where from
-  double time = 0.0;                                          ///< share of the day
-  std::array<Eigen::Vector3d, 6> on_axis, axis;               ///< a point and the direction of each
-  std::array<Eigen::Isometry3d, 7> motion;                    ///< of each body from its place at zero
-  std::array<Eigen::Vector3d, 7> weight_at{};                 ///< where what stands beyond joint b weighs, b = 0..5
+  JointVector q;
+  JointVector move, side;                   ///< as reported: since the state before; where from
+  double time = 0.0;                        ///< share of the day
+  PerJoint<Eigen::Vector3d> on_axis, axis;  ///< a point and the direction of each
+  PerBody<Eigen::Isometry3d> motion;        ///< of each body from its place at zero
+  PerJoint<Eigen::Vector3d> weight_at;      ///< where what stands beyond joint j, from 0, weighs
+
+  explicit NominalPosture(int joints)
+      : q(JointVector::Zero(joints)),
+        move(q),
+        side(q),
+        on_axis(static_cast<std::size_t>(joints), Eigen::Vector3d::Zero()),
+        axis(on_axis),
+        motion(static_cast<std::size_t>(joints) + 1, Eigen::Isometry3d::Identity()),
+        weight_at(on_axis) {}
 };
 
 /// A day by the nominal arm, placed where its calibration's registration has it.
@@ -31,7 +39,7 @@ struct NominalDay {
   Eigen::Isometry3d base_from_points = Eigen::Isometry3d::Identity();
   Eigen::Vector3d station = Eigen::Vector3d::Zero(), flange_at_zero = Eigen::Vector3d::Zero();
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
-  std::array<double, 6> mass_beyond{};  ///< of everything that joint j carries, kg
+  PerJoint<double> mass_beyond;  ///< of everything that joint j carries, kg
   bool masses_known = false;
   std::vector<NominalPosture> postures;  ///< by Campaign::pose_ids
   std::vector<std::string> targets;

@@ -8,6 +8,7 @@
 #include "app/command_line.h"
 #include "app/computations.h"
 #include "app/model.h"
+#include "app/options.h"
 #include "app/output.h"
 #include "core/extended_model/effect_offsets.h"
 #include "core/io/input_error.h"
@@ -42,11 +43,13 @@ planning::PlanOptions optionsOf(const PlanRequest& arguments) {
   }
   options.inputs.hook_in_flange = millimetres(arguments.hook_mm);
   options.inputs.tracker_in_base = millimetres(arguments.tracker_mm);
-  for (std::size_t j = 0; j < arguments.min_deg.size(); ++j) {
-    options.rules.low[static_cast<Eigen::Index>(j)] = arguments.min_deg[j] * io::kDegree;
+  if (!arguments.min_deg.empty()) {
+    const JointVector least = anglesGiven("--min-deg", arguments.min_deg);
+    options.rules.low.head(least.size()) = least * io::kDegree;
   }
-  for (std::size_t j = 0; j < arguments.max_deg.size(); ++j) {
-    options.rules.high[static_cast<Eigen::Index>(j)] = arguments.max_deg[j] * io::kDegree;
+  if (!arguments.max_deg.empty()) {
+    const JointVector most = anglesGiven("--max-deg", arguments.max_deg);
+    options.rules.high.head(most.size()) = most * io::kDegree;
   }
   if (arguments.criterion == "determinant") {
     options.criterion = planning::PlanCriterion::determinant;
@@ -58,6 +61,15 @@ planning::PlanOptions optionsOf(const PlanRequest& arguments) {
   options.augment = arguments.add.has_value();
   if (options.augment) options.postures = *arguments.add;
   return options;
+}
+
+/// The day, whose machine has as many joints as the request's angles.
+std::shared_ptr<const preparation::PreparedCampaign> openedFor(const PlanRequest& arguments,
+                                                               const CampaignSource& source) {
+  auto opened = source.open();
+  requireJointCount("--min-deg", arguments.min_deg, opened->campaign.robot.joints());
+  requireJointCount("--max-deg", arguments.max_deg, opened->campaign.robot.joints());
+  return opened;
 }
 
 /// What a measured campaign says: its identification, by the model asked for, and what would tell apart effects that
@@ -90,7 +102,7 @@ Measured measuredBy(const preparation::PreparedCampaign& prepared, const ModelCh
 planning::EffectDoubt doubtOf(const std::optional<extended_model::ExtendedModel>& model) {
   planning::EffectDoubt doubt;
   if (!model || model->effects.free.empty()) return doubt;
-  doubt.moves = [&model = *model](const Vector6d& q, const Eigen::Vector3d& force,
+  doubt.moves = [&model = *model](const JointVector& q, const Eigen::Vector3d& force,
                                   const Eigen::Vector3d& point_in_flange, const std::vector<Eigen::Vector3d>& targets) {
     return extended_model::displacementBySteps(model.effects, model.spread.parameters, q,
                                                {point_in_flange, force, Eigen::Vector3d::Zero()}, targets);
@@ -116,7 +128,7 @@ int planUnloadedDay(const PlanRequest& arguments, const CampaignSource& source, 
   options.seed = loaded.seed;
   options.inputs = loaded.inputs;
   options.rules = loaded.rules;
-  const auto opened = source.open();
+  const auto opened = openedFor(arguments, source);
   const campaign::Campaign& campaign = opened->campaign;
   const planning::UnloadedPlan plan = planning::planUnloaded(campaign, options);
   writeOut(arguments, [&](bool xml) { return xml ? reports::unloadedPlanXml(plan) : reports::unloadedPlanCsv(plan); });
@@ -130,7 +142,7 @@ int planUnloadedDay(const PlanRequest& arguments, const CampaignSource& source, 
 int planDay(const PlanRequest& arguments, const CampaignSource& source, const Outlet& outlet) {
   planning::PlanOptions options = optionsOf(arguments);
   if (arguments.unloaded) return planUnloadedDay(arguments, source, options, outlet);
-  const auto opened = source.open();
+  const auto opened = openedFor(arguments, source);
   const preparation::PreparedCampaign& prepared = *opened;
   const Measured measured = measuredBy(prepared, arguments.model);
   const campaign::Campaign& campaign = measured.campaign(prepared.campaign);
@@ -182,8 +194,8 @@ void addPlan(CLI::App& app, Run& run) {
   command->add_option("--tracker", request.tracker_mm, "x,y,z (mm) of the tracker in base_link")
       ->delimiter(',')
       ->expected(3);
-  command->add_option("--min-deg", request.min_deg, "least joint angles, six")->delimiter(',')->expected(6);
-  command->add_option("--max-deg", request.max_deg, "largest joint angles, six")->delimiter(',')->expected(6);
+  command->add_option("--min-deg", request.min_deg, "least joint angles, one a joint")->delimiter(',');
+  command->add_option("--max-deg", request.max_deg, "largest joint angles, one a joint")->delimiter(',');
   command->add_option("--repeats", request.repeats, "readings of each reflector in a state")->capture_default_str();
   const auto unloaded =
       command->add_flag("--unloaded", request.unloaded,

@@ -89,7 +89,8 @@ int stiffnessOf(const StiffnessArguments& arguments) {
   }
   if (!arguments.csv.empty()) {
     io::requireNotRead(arguments.csv);
-    io::writeFileWhole(arguments.csv, reports::csvTable(reports::stiffnessPlaces(stiffness, campaign.robot.joints(), true, true)));
+    io::writeFileWhole(arguments.csv,
+                       reports::csvTable(reports::stiffnessPlaces(stiffness, campaign.robot.joints(), true, true)));
   }
   if (!arguments.placements.empty()) {
     io::requireNotRead(arguments.placements);
@@ -141,7 +142,7 @@ void addStiffness(CLI::App& app, Run& run) {
   command
       ->add_option(
           "--workpiece", arguments->workpiece,
-          "CSV with pose, q1_deg..q6_deg (and fx_n..mz_nm, not used): postures in which the force acts; without "
+          "CSV with pose, q1_deg..qN_deg (and fx_n..mz_nm, not used): postures in which the force acts; without "
           "it the slice's")
       ->needs(force);
   command

@@ -20,7 +20,8 @@ class Bending {
   Bending(const UnloadedDay& day) : geometry_{.arm = day.arm, .weight = day.weight} {
     for (const effects::Effect effect :
          {effects::Effect::link_compliance, effects::Effect::bearing_tilt, effects::Effect::base_compliance}) {
-      for (effects::EffectModel& model : effects::modelsOf(effects::recordOf(effect))) models_.push_back(model);
+      for (effects::EffectModel& model : effects::modelsOf(effects::recordOf(effect), {day.arm.joints(), {}}))
+        models_.push_back(model);
     }
   }
 

@@ -24,8 +24,8 @@ struct Spike {
   effects::Effect effect = effects::Effect::link_compliance;
   std::size_t model = 0;           ///< of effectModelsOf; none for the geometry
   std::vector<std::string> parts;  ///< as the effect's record names them: "joint 3", "P12"; empty: it has no names
-  /// Parameters of the model, or of the geometry the zeros (rad) of joints 2 to 5 and the lengths (m) before them, as
-  /// they are at a size of 1 m.
+  /// Parameters of the model, or of the geometry the zeros (rad) of joints 2 to n - 1 and the lengths (m) before them,
+  /// as they are at a size of 1 m.
   Eigen::VectorXd parameters;
   double largest = 0.0;  ///< size at which a parameter reaches its physical bound, m
 };

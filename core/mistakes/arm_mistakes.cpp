@@ -85,8 +85,10 @@ void addOrders(int count, std::vector<ArmMistake>& all) {
 }
 
 void addCouplings(int count, std::vector<ArmMistake>& all) {
-  // The elbow with the shoulder, and neighbours within the wrist, whose motors sit on one arm.
+  // Neighbours within the arm, but axis 1, which is upright, and neighbours within the wrist, whose motors sit on one
+  // arm.
   std::vector<std::pair<int, int>> pairs{{3, 2}};
+  for (int joint = 4; joint <= robot::armJointsOf(count); ++joint) pairs.emplace_back(joint, joint - 1);
   for (int joint = robot::armJointsOf(count) + 2; joint <= count; ++joint) pairs.emplace_back(joint, joint - 1);
   for (const auto& [joint, other] : pairs) {
     for (const int sign : {1, -1}) {

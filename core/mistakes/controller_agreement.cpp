@@ -119,11 +119,11 @@ void describe(const NominalFit& fit, const robot::Robot& robot, const campaign::
 
 /// What the axes fitted to the poses leave, and with them the joints' compliances under the own weight.
 void fitModels(const campaign::Campaign& day, ControllerAgreement& agreement) {
-  constexpr std::size_t kEnough =
-      12;  // six coordinates each, for the axes' and the frame's parameters, thirty of six joints
+  // Six coordinates each, for four parameters an axis and six of the frame.
+  const auto enough = static_cast<std::size_t>(std::max(12, 2 * day.robot.joints()));
   const calibration::UnloadedDay unloaded = calibration::unloadedDay(day);
   const std::vector<double> weights(unloaded.readings(), 1.0);
-  if (unloaded.postures.size() < kEnough) return;
+  if (unloaded.postures.size() < enough) return;
   const auto place = calibration::placeArm(unloaded, weights);
   if (!place) return;
   const auto missOf = [&](const std::vector<calibration::EffectPart>& parts) -> std::optional<double> {

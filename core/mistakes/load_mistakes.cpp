@@ -238,7 +238,7 @@ LoadMistake turnedCell(const campaign::Campaign& campaign, const Matrix3d& turn)
   if (axis.sum() < 0.0) axis *= -1.0, angle *= -1.0;
   const Vector3d rpy = robot::rpyFromRotation(Matrix3d(parent_from_cell * turn));
   mistake.where = Remark(RemarkId::in_cell, std::string("rpy_deg"));
-  mistake.remedy = Remark(RemarkId::turn_cell, listed(axis), angle, listed(rpy), of_parent);
+  mistake.remedy = Remark(RemarkId::turn_cell, listed(axis), angle, listed(rpy), of_parent, campaign.robot.joints());
   return mistake;
 }
 

@@ -22,7 +22,7 @@ enum class RemarkId {
   // What would mend it: of joint angles and of the robot.
   both,                ///< remarks: one remedy, another, where that one
   turn_signs,          ///< joints, whether in all tables, so that the URDF may be wrong instead
-  order_of_joints,     ///< joint that stands under each of q1_deg..q6_deg
+  order_of_joints,     ///< joint that stands under each of q1_deg, q2_deg..
   add_joint,           ///< joint, the one whose reading is to be added, the sign with which
   shift_zero,          ///< joint, by which angle, whether in all tables
   angles_in,           ///< unit
@@ -54,12 +54,13 @@ enum class RemarkId {
   reflectors_on_line,  ///< least height of the triangle m, its longest side m
 
   // Of the load cell and its readings.
-  turn_wrench_signs,    ///< columns
-  order_of_wrench,      ///< columns, what stands for x, y, z in them
-  moments_first,        ///< nothing else
-  cell_left_handed,     ///< what stands for x, y, z
-  turn_cell,            ///< axis, by which angle, rpy_deg that then is declared (rad), whether the axis is the parent's
-  cell_along_link,      ///< link to whose axes the wrench is parallel
+  turn_wrench_signs,  ///< columns
+  order_of_wrench,    ///< columns, what stands for x, y, z in them
+  moments_first,      ///< nothing else
+  cell_left_handed,   ///< what stands for x, y, z
+  turn_cell,          ///< axis, by which angle, rpy_deg that then is declared (rad), whether the axis is the parent's,
+                      ///< the last joint's number
+  cell_along_link,    ///< link to whose axes the wrench is parallel
   cell_not_along_link,  ///< link that is declared
   cell_turned_back,     ///< nothing else: the inverse of rpy_deg
   cell_angles_in,       ///< unit

@@ -34,7 +34,7 @@ bool mendsGroup(const SearchedArm& arm, double after, double before) {
   return after < kMends * before && after < std::max(kLeast, kAsOthers * arm.found.fit.typical);
 }
 
-Remark whereOfGroup(const campaign::Campaign& campaign, const UnloadedReading& first, const char* columns,
+Remark whereOfGroup(const campaign::Campaign& campaign, const UnloadedReading& first, const std::string& columns,
                     bool of_angles) {
   const std::string file = of_angles ? fileOfAngles(campaign, first.table) : fileOfPoints(campaign, first.table);
   if (first.pose >= 0) {
@@ -44,10 +44,10 @@ Remark whereOfGroup(const campaign::Campaign& campaign, const UnloadedReading& f
         if (row.pose == first.pose && row.step == 0) line = row.line;
       }
     }
-    return Remark(RemarkId::at_pose_in, campaign::poseName(campaign, first.pose), std::string(columns),
+    return Remark(RemarkId::at_pose_in, campaign::poseName(campaign, first.pose), columns,
                   campaign::rowName(file, line));
   }
-  return Remark(RemarkId::at_sweep_of, first.axis + 1, std::string(columns), campaign::rowName(file, first.line));
+  return Remark(RemarkId::at_sweep_of, first.axis + 1, columns, campaign::rowName(file, first.line));
 }
 
 namespace {
@@ -96,7 +96,7 @@ void searchGroup(SearchedArm& arm, int group) {
     if (!mistake.of_one_group) continue;
     tryOne(takenBack(arm.day, mistake, here, loads),
            {mistake.id,
-            whereOfGroup(arm.campaign, first, columnsOf(mistake), isOfAngles(mistake)),
+            whereOfGroup(arm.campaign, first, columnsOf(mistake, arm.day.robot.joints()), isOfAngles(mistake)),
             mistake.remedy(false),
             {}},
            mistake.things);
@@ -104,7 +104,7 @@ void searchGroup(SearchedArm& arm, int group) {
   if (first.axis >= 0)
     tryOne(backwards(arm.day, group),
            {"row_order",
-            whereOfGroup(arm.campaign, first, "q1_deg to q6_deg", true),
+            whereOfGroup(arm.campaign, first, columnsOfAngles(arm.day.robot.joints()), true),
             Remark(RemarkId::angles_backwards, first.axis + 1),
             {}},
            1);

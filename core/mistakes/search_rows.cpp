@@ -54,7 +54,7 @@ bool searchExchangedAngles(SearchedArm& arm, const std::vector<int>& apart) {
       cure.suspected = {
           "row_order",
           readings ? whereOfGroup(arm.campaign, first, "pose", false)
-                   : whereOfGroup(arm.campaign, first, "q1_deg to q6_deg", true),
+                   : whereOfGroup(arm.campaign, first, columnsOfAngles(arm.day.robot.joints()), true),
           Remark(readings ? RemarkId::readings_exchanged : RemarkId::angles_exchanged,
                  campaign::poseName(arm.campaign, first.pose), campaign::poseName(arm.campaign, second.pose)),
           {}};
@@ -107,7 +107,7 @@ bool searchLostRow(SearchedArm& arm) {
                       last = campaign::poseName(arm.campaign, postures.back().pose);
     ArmCure cure;
     cure.suspected = {"row_order",
-                      Remark(RemarkId::at_poses_in, first, last, std::string("q1_deg to q6_deg"),
+                      Remark(RemarkId::at_poses_in, first, last, columnsOfAngles(arm.day.robot.joints()),
                              fileOfAngles(arm.campaign, SourceTable::loading)),
                       Remark(RemarkId::rows_lost, first, next),
                       {}};
@@ -138,7 +138,7 @@ bool searchRepeatedAngles(SearchedArm& arm, int group) {
     if (g == group || other.pose < 0 || (other.q - first.q).cwiseAbs().maxCoeff() > kSame) continue;
     ArmCure cure;
     cure.suspected = {"row_order",
-                      whereOfGroup(arm.campaign, first, "q1_deg to q6_deg", true),
+                      whereOfGroup(arm.campaign, first, columnsOfAngles(arm.day.robot.joints()), true),
                       Remark(RemarkId::angles_repeated, campaign::poseName(arm.campaign, first.pose),
                              campaign::poseName(arm.campaign, other.pose)),
                       {}};

@@ -54,7 +54,7 @@ ReadingsOfDay SearchedArm::with(const ReadingsOfDay& day, const ArmMistake& mist
 
 Remark SearchedArm::whereOf(const ArmMistake& mistake, const Tables& in) const {
   if (mistake.robot_size != 1.0) return Remark(RemarkId::in_urdf);
-  return Remark(RemarkId::in_columns, std::string(columnsOf(mistake)), filesOf(in, isOfAngles(mistake)));
+  return Remark(RemarkId::in_columns, columnsOf(mistake, campaign.robot.joints()), filesOf(in, isOfAngles(mistake)));
 }
 
 std::vector<std::string> SearchedArm::filesOf(const Tables& in, bool of_angles) const {
@@ -74,9 +74,11 @@ void SearchedArm::add(ArmCure cure, RemarkId shows, std::optional<double> before
 
 bool isOfAngles(const ArmMistake& mistake) { return !mistake.points && mistake.targets.empty(); }
 
-const char* columnsOf(const ArmMistake& mistake) {
+std::string columnsOf(const ArmMistake& mistake, int joints) {
   if (mistake.points) return "x_mm, y_mm, z_mm";
-  return mistake.targets.empty() ? "q1_deg to q6_deg" : "target";
+  return mistake.targets.empty() ? columnsOfAngles(joints) : "target";
 }
+
+std::string columnsOfAngles(int joints) { return "q1_deg to q" + std::to_string(joints) + "_deg"; }
 
 }  // namespace stiffscope::mistakes

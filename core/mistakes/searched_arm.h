@@ -53,12 +53,14 @@ const UnloadedReading& firstOf(const ReadingsOfDay& day, int group);
 double missOfGroup(const NominalFit& fit, const ReadingsOfDay& day, int group);
 /// Whether what is left of a group's `before` is so small that what left it is a cure.
 bool mendsGroup(const SearchedArm& arm, double after, double before);
-Remark whereOfGroup(const campaign::Campaign& campaign, const UnloadedReading& first, const char* columns,
+Remark whereOfGroup(const campaign::Campaign& campaign, const UnloadedReading& first, const std::string& columns,
                     bool of_angles);
 
 /// Whether it is written in the columns of joint angles, not in those of points or names.
 bool isOfAngles(const ArmMistake& mistake);
-const char* columnsOf(const ArmMistake& mistake);
+std::string columnsOf(const ArmMistake& mistake, int joints);
+/// "q1_deg to q6_deg" of six joints.
+std::string columnsOfAngles(int joints);
 
 // The searches: each adds to `arm.found.cures` what mends.
 

@@ -99,11 +99,11 @@ std::optional<Eigen::Matrix3d> LoadsOfDay::turnToGravity(const CellReading& cell
   return metrology::nearestRotation(sum).rotation;
 }
 
-/// Bilinear in springs and three parameters of the cell: Gauss-Newton in both. `by_parameters(state, load)` are the
-/// torques' derivatives, 6x3; `take` takes a step up.
-/// Torque of the joints by three parameters.
+/// Joint torques by three parameters of the cell.
 using ByThree = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::ColMajor, kMostJoints, 3>;
 
+/// Bilinear in springs and three parameters of the cell: Gauss-Newton in both. `by_parameters(state, load)` are the
+/// torques' derivatives, a row a joint; `take` takes a step up.
 template <class ByParameters, class Take>
 void LoadsOfDay::fitCell(CellReading& cell, const ByParameters& by_parameters, const Take& take) const {
   JointVector c = fit(cell).compliance;
@@ -210,7 +210,7 @@ JointVector positiveSolution(const Sums& sums) {
       normal(j, j) = 1.0;
       right[j] = 0.0;
     }
-    const JointVector found = solveSymmetric(normal, right);
+    const JointVector found = solvePositive(normal, right);
     Eigen::Index worst = 0;
     const double least = (found.array() * sums.normal.diagonal().array().sqrt()).minCoeff(&worst);
     if (least >= 0.0) return found;

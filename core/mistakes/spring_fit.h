@@ -28,8 +28,8 @@ CellReading asDeclared(const campaign::LoadCell& cell);
 /// The loads against joint springs that only give way, the URDF's arm where the readings have it:
 ///   d = J_m(q, x) diag(J_w^T W) c,  c >= 0.
 struct SpringFit {
-  double left = 1.0;  ///< share of the displacements that is left, root mean square
-  JointVector compliance;
+  double left = 1.0;         ///< share of the displacements that is left, root mean square
+  JointVector compliance;    ///< rad/Nm; empty where nothing was fitted
   double off_gravity = 0.0;  ///< between force and gravity, rms, rad
   double along_lever = 0.0;  ///< share of the moments that no one lever on the tool gives, root mean square
   double lever = 0.0;        ///< its length, m

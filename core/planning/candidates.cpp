@@ -120,7 +120,7 @@ void placeLoad(const campaign::Campaign& campaign, const identification::Identif
     const robot::ArmPosture zero = robot::postureAt(arm.geometry.arm, JointVector::Zero(arm.geometry.arm.joints()));
     const robot::Wrench at_cell = identification::cellWrench(arm.cell, arm.geometry, zero, {}, {}, Vector6d::Zero());
     arm.hook_in_flange = arm.geometry.arm.base_from_flange_at_zero.inverse() * at_cell.point;
-    arm.assumed.emplace_back(RemarkId::load_at_cell);
+    arm.assumed.emplace_back(RemarkId::load_at_cell, campaign.robot.joints());
   }
 }
 

@@ -8,7 +8,7 @@ enum class RemarkId {
   reflectors_on_ring,   ///< radius m, distance ahead of the flange m
   load_of_step,         ///< load step, force N
   load_where_measured,  ///< where it acts, flange axes m
-  load_at_cell,
+  load_at_cell,         ///< the last joint's number
   tracker_not_placed,
   effects_as_known_now,
   noise_not_declared,  ///< standard deviation per coordinate m

@@ -126,6 +126,11 @@ PostureDraw readDraw(const io::XmlNode& node, int joints) {
     node.refuse("max_deg", node.requiredAttribute("max_deg"), "expected no angle below that of min_deg");
   }
   draw.min_abs_sin_bend = nonNegativeOr(node, "min_abs_sin_q5", 1.0, 0.0);
+  if (draw.min_abs_sin_bend > 0.0 && robot::wristJointsOf(joints) < 3) {
+    node.refuse("min_abs_sin_q5", node.requiredAttribute("min_abs_sin_q5"),
+                "expected it left out: the wrist of a machine of " + std::to_string(joints) +
+                    " joints has two axes, no third that a bend could bring in line");
+  }
   draw.max_flange_up = optionalNumber(node, "max_flange_up_deg", io::kDegree);
   draw.min_height = optionalNumber(node, "min_height_mm", io::kMillimetre);
   draw.max_height = optionalNumber(node, "max_height_mm", io::kMillimetre);

@@ -39,8 +39,7 @@ EffectDraw drawEffect(effects::Effect effect, const simulation::SimulationSpec& 
 /// What an arm as it is has of an effect, at half its usual size, at strength 1. For torsion k in the joint (Nm/rad):
 ///   bearing_tilt     every joint; across its axis 2 k times 8 to 18, in place of the machine's own
 ///   link_compliance  upper arm and forearm (longestLinks); EI / L = 2 k times 4 to 10, of the joint that the link
-///   follows (at most
-///                    joint 3's), GJ / L half to twice EI / L
+///                    follows (at most joint 3's), GJ / L half to twice EI / L
 ///   base_compliance  about x and y 2 k_2 times 10 to 25, about z ten times that
 ///   hysteresis       every joint; friction of half a hundredth to one hundredth of its usual torque
 /// Throws std::invalid_argument for another effect.

@@ -53,6 +53,8 @@ Json rowJson(const campaign::Campaign& campaign, const compensation::Compensated
     row["change_deg"] = array(JointVector(posture.commands - posture.posture.q), 1.0 / io::kDegree);
     row["remaining_mm"] = posture.remaining / io::kMillimetre;
     row["remaining_mirrored_once_mm"] = posture.mirrored_remaining / io::kMillimetre;
+    constexpr Eigen::Index kOfPose = 6;  // fewer joints cannot bring the orientation back, too
+    if (posture.commands.size() < kOfPose) row["remaining_turn_deg"] = array(posture.remaining_turn, 1.0 / io::kDegree);
   } else {
     row["command_deg"] = nullptr;
     row["refused"] = words(posture.reason);

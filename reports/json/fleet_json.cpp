@@ -97,7 +97,8 @@ SpringsOfDay springsOf(const Json& json, int joints) {
   springs.available = !json.is_null();
   if (!springs.available) return springs;
   springs.compliance = vectorOf(json.at("compliance_rad_per_nm"), joints);
-  for (std::size_t j = 0; j < springs.identifiable.size(); ++j) springs.identifiable[j] = json.at("identifiable").at(j).get<bool>();
+  for (std::size_t j = 0; j < springs.identifiable.size(); ++j)
+    springs.identifiable[j] = json.at("identifiable").at(j).get<bool>();
   springs.shared = vectorOf(json.at("shared_variance"), joints);
   springs.dof = vectorOf(json.at("degrees_of_freedom"), joints);
   for (const Json& one : json.at("influences")) springs.influences.push_back(vectorOf(one, joints));

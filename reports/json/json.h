@@ -103,12 +103,14 @@ Json comparisonJson(const campaign::Campaign& before, const campaign::Campaign& 
 /// or "tilt", joint or axes, difference, sd_difference, u_difference, unit, p_value, p_value_holm, at_targets_mm; null
 /// and reason where a day does not see it), reflectors (moved, p_value, targets with shift_in_flange_mm), base
 /// (machine_change false, shift_mm, turn_deg), cause (the best of causes where it leaves chance alone, else null),
-/// causes (each: cause "joint_zero", "link", "axis", "growth", "reflectors" or "turn_about_6", joint, link or axis,
-/// unknowns, chi2, left_p_value, bic, size with sd and unit where it has one number, at_targets_mm), cautions.
+/// causes (each: cause "joint_zero", "link", "axis", "growth", "reflectors" or "turn_about_6" (the last axis), joint,
+/// link or axis, unknowns, chi2, left_p_value, bic, size with sd and unit where it has one number, at_targets_mm),
+/// cautions.
 Json geometryChangeJson(const campaign::Campaign& before, const campaign::Campaign& after,
                         const comparison::GeometryChange& change);
 
-/// The result of `compensate`: a row a posture, and the summary. `known`: stiffnesses from elsewhere that stand in for
+/// The result of `compensate`: a row a posture (of machines of fewer than six joints with remaining_turn_deg, what the
+/// commands leave of the flange's turn), and the summary. `known`: stiffnesses from elsewhere that stand in for
 /// joints which the day cannot see.
 Json compensationJson(const campaign::Campaign& campaign, identification::Method method,
                       const std::vector<compensation::CompensatedPosture>& postures,
@@ -192,7 +194,7 @@ Json extendedModelJson(const extended_model::ExtendedModel& model, const std::ve
 
 /// `model` of the model that the data support (its effects, what springs alone and the model leave of the noise's
 /// chi-square, whether that is explained), `apparent` (each method by joint springs alone) and, in each of `methods`,
-/// `budget`: rows {source, in_model, u_nm_per_rad[6], dof[6]}.
+/// `budget`: rows {source, in_model, u_nm_per_rad, dof: by joint}.
 Json withSupport(Json json, const extended_model::ExtendedModel& model,
                  const std::vector<identification::Method>& methods);
 

@@ -220,7 +220,8 @@ void writeDays(Html& html, const Fleet& fleet) {
     if (table.groups.size() == kMostMachinesShown) break;
     const reports::StiffnessUnit& unit = units[table.groups.size()];
     reports::RowGroup group{asIs(machine.name) + (one_unit ? std::string() : fmt::format(" ({})", unit.name)), {}};
-    for (const std::size_t one : machine.campaigns) group.rows.push_back(campaignRow(fleet.campaigns[one], joints, unit));
+    for (const std::size_t one : machine.campaigns)
+      group.rows.push_back(campaignRow(fleet.campaigns[one], joints, unit));
     table.groups.push_back(std::move(group));
   }
   writeTable(html, table);

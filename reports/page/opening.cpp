@@ -143,7 +143,8 @@ std::vector<KeyNumber> keyNumbers(const reports::ReportContent& content) {
   const reports::ReportCampaign& one = leading(content);
   if (one.accuracy != nullptr) return accuracyNumbers(one);
   const reports::JudgedPoint point = reports::judgedPoint(one);
-  const bool sweeps_alone = one.identification.cases.empty() && one.identification.frames.axes.front().measured;
+  const frames::MeasuredAxes& axes = one.identification.frames.axes;
+  const bool sweeps_alone = one.identification.cases.empty() && !axes.empty() && axes.front().measured;
   if (sweeps_alone) return sweepNumbers(one.identification.frames);
   return {deflection(one, point), compensated(one, content.compare_with_paper), third(content, one)};
 }

@@ -70,8 +70,9 @@ reports::Table worstTable(const calibration::Calibration& calibration,
   if (reflectors) table.columns.emplace_back("Reflector");
   reports::DataTable& data = table.data.emplace();
   data.columns = {"pose",       "reflector",  "nominal_mm", "calibrated_mm", "with_effects_mm",
-                  "error_x_mm", "error_y_mm", "error_z_mm", "q1_deg",        "q2_deg",
-                  "q3_deg",     "q4_deg",     "q5_deg",     "q6_deg"};
+                  "error_x_mm", "error_y_mm", "error_z_mm"};
+  for (int joint = 1; joint <= calibration.day.arm.joints(); ++joint)
+    data.columns.push_back(fmt::format("q{}_deg", joint));
   for (const char* column : {"Nominal", "Calibrated"}) table.columns.emplace_back(column);
   if (effects) table.columns.emplace_back("With effects");
   for (const char* column : {"x", "y", "z", "Joint angles (°)"}) table.columns.emplace_back(column);

@@ -193,8 +193,8 @@ std::string whatIsSeen(const reports::ReportContent& content) {
   const bool same = std::all_of(content.campaigns.begin(), content.campaigns.end(),
                                 [joints](const auto& one) { return one.campaign.robot.joints() == joints; });
   if (!same) return "the joints before the wrist's only, the reflectors all.";
-  return fmt::format("joints {} only, the reflectors all {}.",
-                     reports::countsFromTo(1, robot::armJointsOf(joints)), reports::countWord(joints));
+  return fmt::format("joints {} only, the reflectors all {}.", reports::countsFromTo(1, robot::armJointsOf(joints)),
+                     reports::countWord(joints));
 }
 
 void writeAvoided(Html& html, const reports::ReportContent& content) {

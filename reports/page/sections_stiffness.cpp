@@ -144,7 +144,8 @@ reports::Table lengthTable(const identification::Identification& result) {
   table.id = "characteristic-length";
   reports::DataTable& data = table.data.emplace();
   data.columns = {"length_m", "jacobian_condition"};
-  for (int joint = 0; joint < jointsOf(result); ++joint) data.columns.push_back(fmt::format("k{}_nm_per_rad", joint + 1));
+  for (int joint = 0; joint < jointsOf(result); ++joint)
+    data.columns.push_back(fmt::format("k{}_nm_per_rad", joint + 1));
   for (const char* column : {"held_out_at_wrist_percent", "sd_at_wrist_percent", "held_out_at_reflectors_percent",
                              "sd_at_reflectors_percent", "chosen_by"})
     data.columns.emplace_back(column);
@@ -325,9 +326,8 @@ reports::Table tableTwo(const reports::ReportContent& content, const reports::Re
       if (!there) continue;
       group.rows.push_back(spreadRow(content, one, method, joint, unit));
       const identification::StiffnessSpread spread = identification::spreadOf(result.subsets, joint);
-      const auto paper = content.compare_with_paper
-                             ? reports::paperStiffness(one.campaign, method, joint)
-                             : std::nullopt;
+      const auto paper =
+          content.compare_with_paper ? reports::paperStiffness(one.campaign, method, joint) : std::nullopt;
       data.rows.push_back({joint + 1.0, std::string(reports::namesOf(method).key), spread.mean, spread.sd,
                            spread.median, spread.low, spread.high, 100.0 * spread.share_negative,
                            paper ? reports::DataCell(reports::kMega * paper->mean) : reports::DataCell(),

@@ -259,8 +259,8 @@ void writeCompensation(const identification::Identification& result, const std::
   if (!any) return;
   const int arm = robot::armJointsOf(static_cast<int>(result.identifiability.joints.size()));
   fmt::format_to(out, "\nShare of the deflection compensated, %\n  {:<5} |{:^44} |{:^44}\n  {:<5} |{} |{}\n", "",
-                 fmt::format("at P_wrist, which sees joints 1-{}", arm), "at the reflectors, which see all joints", "", kShareColumns,
-                 kShareColumns);
+                 fmt::format("at P_wrist, which sees joints 1-{}", arm), "at the reflectors, which see all joints", "",
+                 kShareColumns, kShareColumns);
   for (const identification::Method which : methods) {
     const identification::MethodResult& method = result.of(which);
     if (!method.available) continue;

@@ -54,7 +54,8 @@ void writePostures(const planning::Plan& plan, Out out) {
 void writeGain(const planning::Plan& plan, Out out) {
   fmt::format_to(out, "\nExpected standard uncertainty, {}\n  {:<28}",
                  plan.compliance ? "per cent of the identified k" : "of 1/k, 1e-9 rad/Nm", "");
-  for (std::size_t joint = 1; joint <= plan.unknown.size(); ++joint) fmt::format_to(out, "{:>10}", fmt::format("k{}", joint));
+  for (std::size_t joint = 1; joint <= plan.unknown.size(); ++joint)
+    fmt::format_to(out, "{:>10}", fmt::format("k{}", joint));
   fmt::format_to(out, "\n");
   if (plan.measured > 0)
     writeUncertainties(plan, fmt::format("measured, {} postures", plan.measured), plan.sd_measured, out);

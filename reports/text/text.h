@@ -174,14 +174,14 @@ std::string workspaceText(const campaign::Campaign& campaign, const workspace::W
 /// The result of `plan` for a terminal.
 std::string planText(const campaign::Campaign& campaign, const planning::Plan& plan);
 
-/// The planned postures as a CSV table: pose, q1_deg..q6_deg, the load-cell reading expected (as `compensate
+/// The planned postures as a CSV table: pose, q1_deg.. of each joint, the load-cell reading expected (as `compensate
 /// --postures` takes it), and the pull's direction in base_link, pull_x..pull_z.
 std::string planCsv(const planning::Plan& plan);
 
 /// The same as the `postures` element of a simulation's specification.
 std::string planXml(const planning::Plan& plan);
 
-/// The plan of a day without a load: pose, q1_deg..q6_deg, in the order of the day.
+/// The plan of a day without a load: pose, q1_deg.. of each joint, in the order of the day.
 std::string unloadedPlanText(const campaign::Campaign& campaign, const planning::UnloadedPlan& plan);
 std::string unloadedPlanCsv(const planning::UnloadedPlan& plan);
 std::string unloadedPlanXml(const planning::UnloadedPlan& plan);

@@ -112,10 +112,10 @@ std::string turnCell(const RemarkValues& values) {
   if (about.empty()) about = fmt::format("({}, {}, {})", small(axis.at(0)), small(axis.at(1)), small(axis.at(2)));
   return fmt::format(
       "turn the load cell about {} by {} deg, which is rpy_deg=\"{} {} {}\"; or the flange's frame in the URDF, or "
-      "the zero of joint 6, is turned by as much",
+      "the zero of joint {}, is turned by as much",
       values.count(3) != 0 ? fmt::format("{} of its parent", about) : fmt::format("its {}", about),
       std::round(degrees(values.number(1))), roundedDegrees(rpy.at(0)), roundedDegrees(rpy.at(1)),
-      roundedDegrees(rpy.at(2)));
+      roundedDegrees(rpy.at(2)), values.count(4));
 }
 
 std::string wrenchIn(const RemarkValues& values) {

@@ -25,8 +25,10 @@ std::string planningWords(planning::RemarkId id, const RemarkValues& values) {
                          1e3 * place[0], 1e3 * place[1], 1e3 * place[2]);
     }
     case load_at_cell:
-      return "the load acts at the load cell's point: --hook says where it does, and a hook aside of axis 6 is what "
-             "turns joint 6";
+      return fmt::format(
+          "the load acts at the load cell's point: --hook says where it does, and a hook aside of axis {0} is what "
+          "turns joint {0}",
+          values.count(0));
     case tracker_not_placed:
       return "no line of sight is looked at, and noise is the same everywhere: where the tracker will stand is not "
              "known (--tracker)";

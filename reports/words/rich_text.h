@@ -22,7 +22,7 @@ std::vector<RichStretch> richStretches(const std::string& rich_text);
 std::string asIs(const std::string& text);
 
 /// A sentence of the program's own, without texts of a campaign in it, as a rich text: symbols that a terminal cannot
-/// set get their subscripts (P_TCP, P_wrist, K_x, K_c, k1 to k6).
+/// set get their subscripts (P_TCP, P_wrist, K_x, K_c, k1 to k8).
 std::string withSubscripts(const std::string& sentence);
 
 /// A rich text without its marks: for alt texts and places that cannot have a subscript.

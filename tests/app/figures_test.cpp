@@ -57,7 +57,7 @@ TEST(DeflectionScene, TheMedianPostureWithItsVectors) {
 TEST(DeflectionScene, EveryJointPointIsOnItsAxis) {
   SmallResult small;
   identification::LoadCase& load_case = small.identification.cases[0];
-  load_case.q_sagged = Vector6d::Constant(0.4);
+  load_case.q_sagged = JointVector::Constant(6, 0.4);
   const render::ArmPose pose = app::armPose(of(small), 0, identification::Method::decoupled_partial_pose);
   for (int joint = 0; joint < 6; ++joint) {
     const metrology::Line axis =

@@ -150,7 +150,7 @@ TEST(LoadStep, TheIdentifiedStepComesOutAgain) {
   ASSERT_EQ(again.cases.size(), identified.cases.size());
   for (const identification::Method method : identification::kMethods) {
     ASSERT_EQ(again.of(method).available, identified.of(method).available);
-    const Vector6d& compliance = identified.of(method).estimate.compliance;
+    const JointVector& compliance = identified.of(method).estimate.compliance;
     for (std::size_t i = 0; i < again.cases.size(); ++i) {
       const Eigen::VectorXd before = identified.of(method).target_rows[i].matrix * compliance;
       const Eigen::VectorXd now = again.of(method).target_rows[i].matrix * compliance;

@@ -1,3 +1,5 @@
+#include <cctype>
+
 #include "core/campaign/read_table.h"
 #include "core/campaign/table_layouts.h"
 #include "tests/fuzz/expect_input_error.h"
@@ -15,16 +17,18 @@ void readAs(const campaign::TableLayout<Row>& layout, std::string_view bytes) {
   campaign::readTable<Row>({layout.element + ".csv", bytes}, layout, names, warnings);
 }
 
+/// A capital letter: of a machine of seven joints; else of six.
 void readAsTable(char kind, std::string_view bytes) {
-  switch (kind) {
+  const int joints = std::isupper(static_cast<unsigned char>(kind)) != 0 ? 7 : 6;
+  switch (std::tolower(static_cast<unsigned char>(kind))) {
     case 'c':
-      return readAs(campaign::circleSweepsLayout(), bytes);
+      return readAs(campaign::circleSweepsLayout(joints), bytes);
     case 'w':
-      return readAs(campaign::wristSweepLayout(), bytes);
+      return readAs(campaign::wristSweepLayout(joints), bytes);
     case 'l':
       return readAs(campaign::loadingLayout(), bytes);
     case 's':
-      return readAs(campaign::statesLayout(), bytes);
+      return readAs(campaign::statesLayout(joints), bytes);
     case 'd':
       return readAs(campaign::displacementsLayout(), bytes);
     default:

@@ -48,7 +48,7 @@ struct SmallResult {
   void addCase(int pose, double displacement) {
     identification::LoadCase load_case;
     load_case.pose = pose;
-    load_case.axes = robot::axesAt(campaign.robot, robot::postureAt(campaign.robot, Vector6d::Zero()));
+    load_case.axes = robot::axesAt(campaign.robot, robot::postureAt(campaign.robot, JointVector::Zero(6)));
     load_case.wrench.force = {0, 0, -1000};
     const Eigen::Vector3d move(0, 0, -displacement), flange(1.995, 0, 2.31);
     for (int target = 0; target < 3; ++target) {
@@ -67,7 +67,7 @@ struct SmallResult {
     result.available = true;
     identification::StiffnessEstimate& estimate = result.estimate;
     estimate.compliance << 0, 0.2e-6, 0.25e-6, 2e-6, 4e-6, 10e-6;
-    estimate.covariance = Matrix6d::Zero();
+    estimate.covariance = JointMatrix::Zero(6, 6);
     estimate.scatter_dof.setOnes();
     for (int j = 1; j < 6; ++j) estimate.covariance(j, j) = std::pow(0.1 * estimate.compliance[j], 2);
     estimate.identifiable = {false, true, true, true, true, true};

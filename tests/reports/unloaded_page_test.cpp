@@ -26,8 +26,8 @@ struct Day {
     Noise noise(51);
     UnloadedSpec spec = builtOtherwise(noise);
     spec.postures = 120;
-    spec.joint_errors = [wave](const Vector6d& q) {
-      Vector6d errors = Vector6d::Zero();
+    spec.joint_errors = [wave](const JointVector& q) {
+      JointVector errors = JointVector::Zero(6);
       errors[4] = wave * std::sin(2.0 * q[4]);
       return errors;
     };

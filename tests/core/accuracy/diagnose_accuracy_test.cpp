@@ -49,7 +49,7 @@ calibration::EffectPart firstPart(const AccuracyDiagnosis& result) {
 }
 
 /// Joint 1 off by its gear's own order: some 90 um at the reflectors, of both signs.
-Vector6d byGear(const Vector6d& q) { return 60e-6 * std::sin(20.75 * q[0] + 0.4) * Vector6d::Unit(0); }
+JointVector byGear(const JointVector& q) { return 60e-6 * std::sin(20.75 * q[0] + 0.4) * JointVector::Unit(6, 0); }
 
 Eigen::Vector3d reflectorShift(int posture, std::size_t target) {
   return target == 1 && posture >= 36 ? Eigen::Vector3d(0.2e-3, 0.0, -0.15e-3) : Eigen::Vector3d::Zero();
@@ -144,7 +144,7 @@ TEST(DiagnoseAccuracy, AStationThatWanders) {
 TEST(DiagnoseAccuracy, AWristThatTurnsAlong) {
   Noise noise(37);
   UnloadedSpec spec = machine(noise, 80);
-  spec.joint_errors = [](const Vector6d& q) { return Vector6d(3e-4 * q[3] * Vector6d::Unit(4)); };
+  spec.joint_errors = [](const JointVector& q) { return JointVector(3e-4 * q[3] * JointVector::Unit(6, 4)); };
   EXPECT_EQ(inWords(diagnosed(spec, noise)), "ratio_error (joints 4 and 5)");
 }
 
@@ -153,9 +153,9 @@ TEST(DiagnoseAccuracy, AWristThatTurnsAlong) {
 TEST(DiagnoseAccuracy, ARatioIsNotDrawnByWaves) {
   Noise noise(36);
   UnloadedSpec spec = machine(noise, 200);
-  spec.joint_errors = [](const Vector6d& q) {
-    return Vector6d(1.5e-3 * q[1] * Vector6d::Unit(1) + 1.2e-4 * std::sin(13.25 * q[1] + 0.3) * Vector6d::Unit(1) +
-                    byGear(q));
+  spec.joint_errors = [](const JointVector& q) {
+    return JointVector(1.5e-3 * q[1] * JointVector::Unit(6, 1) +
+                       1.2e-4 * std::sin(13.25 * q[1] + 0.3) * JointVector::Unit(6, 1) + byGear(q));
   };
   const AccuracyDiagnosis result = diagnosed(spec, noise);
   const std::string words = inWords(result);
@@ -188,8 +188,8 @@ TEST(DiagnoseAccuracy, GrowthInRealReadingsIsNamedWithWhatItLooksLike) {
 TEST(DiagnoseAccuracy, JointsThatTwistUnderTheOwnWeight) {
   Noise noise(38);
   UnloadedSpec spec = machine(noise, 80);
-  spec.joint_errors = [arm = spec.nominal](const Vector6d& q) {
-    return Vector6d(exampleCompliance().cwiseProduct(arm.weightTorque(q)));
+  spec.joint_errors = [arm = spec.nominal](const JointVector& q) {
+    return JointVector(exampleCompliance().cwiseProduct(arm.weightTorque(q)));
   };
   const AccuracyDiagnosis result = diagnosed(spec, noise);
   ASSERT_EQ(result.verdict.size(), 1u) << inWords(result);
@@ -201,8 +201,8 @@ TEST(DiagnoseAccuracy, JointsThatTwistUnderTheOwnWeight) {
 TEST(DiagnoseAccuracy, WeightsThatNobodyStatesAreSeenAsProducts) {
   Noise noise(38);
   UnloadedSpec spec = machine(noise, 120);
-  spec.joint_errors = [arm = spec.nominal](const Vector6d& q) {
-    return Vector6d(exampleCompliance().cwiseProduct(arm.weightTorque(q)));
+  spec.joint_errors = [arm = spec.nominal](const JointVector& q) {
+    return JointVector(exampleCompliance().cwiseProduct(arm.weightTorque(q)));
   };
   spec.nominal.mass = {};
   const AccuracyDiagnosis result = diagnosed(spec, noise);

@@ -26,7 +26,7 @@ campaign::Campaign day(const std::vector<Eigen::Vector3d>& forces, bool in_base_
   campaign.states.emplace().file = "states.csv";
   Noise noise(4);
   for (std::size_t i = 0; i <= forces.size(); ++i) {
-    campaign::State state;
+    campaign::State state(chain.joints());
     state.pose = static_cast<int>(i);
     state.step = i == 0 ? 0 : 1;
     state.line = 2 + i;

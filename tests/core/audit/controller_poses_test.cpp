@@ -38,8 +38,8 @@ struct StatedDay {
     campaign = unloadedCampaign({}, noise);
   }
 
-  campaign::StatedPose poseAt(const Vector6d& q) const {
-    Vector6d bent = q;
+  campaign::StatedPose poseAt(const JointVector& q) const {
+    JointVector bent = q;
     if (sags) bent += exampleCompliance().cwiseProduct(controllers.weightTorque(q));
     const Eigen::Isometry3d pose = user_from_base * controllers.flangeAt(bent) * flange_from_tool;
     campaign::StatedPose stated;

@@ -62,12 +62,12 @@ campaign::Campaign displacementDay(const DisplacementDay& day) {
   };
   for (int pose = 0; pose < 24; ++pose) {
     campaign.pose_ids.push_back(std::to_string(pose + 1));
-    const Vector6d q = somePosture(noise);
-    const Vector6d loaded = lab.settled(q, pulledForce(pose));
+    const JointVector q = somePosture(noise);
+    const JointVector loaded = lab.settled(q, pulledForce(pose));
     std::vector<Eigen::Vector3d> first;
     for (std::size_t k = 0; k < day.targets; ++k) first.push_back(lab.seen(q, k) + kSigma * noise.normal3());
     campaign.states->rows.push_back({pose, 0, 0.0, q, read(Vector6d::Zero())});
-    const auto step = [&](int number, const Vector6d& at, const Vector6d& wrench) {
+    const auto step = [&](int number, const JointVector& at, const Vector6d& wrench) {
       campaign.states->rows.push_back({pose, number, 60.0 * number, q, read(wrench)});
       for (std::size_t k = 0; k < day.targets; ++k) {
         const Eigen::Vector3d now = lab.seen(at, k) + kSigma * noise.normal3();

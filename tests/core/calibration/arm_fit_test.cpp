@@ -19,7 +19,7 @@ calibration::ArmFit fitted(const calibration::UnloadedDay& day, const calibratio
 }
 
 /// Where a reflector of the flange is predicted by the calibrated arm, in the tracker's frame.
-Eigen::Vector3d predicted(const calibration::UnloadedDay& day, const calibration::ArmFit& fit, const Vector6d& q,
+Eigen::Vector3d predicted(const calibration::UnloadedDay& day, const calibration::ArmFit& fit, const JointVector& q,
                           std::size_t target) {
   const Eigen::Isometry3d motion = robot::postureAt(fit.arm(day.arm), q).motion[6];
   return fit.basePointsMotion().inverse() * (motion * fit.targetsAtZero()[target]);
@@ -51,7 +51,7 @@ TEST(ArmFit, PredictsPosturesThatWereNotMeasured) {
   EXPECT_EQ(fit.parameters, 33);
   EXPECT_EQ(fit.held.size(), 6u);
   for (int k = 0; k < 50; ++k) {
-    const Vector6d q = somePosture(noise);
+    const JointVector q = somePosture(noise);
     for (std::size_t t = 0; t < 3; ++t) {
       const Eigen::Vector3d truth = spec.tracker_from_base * (spec.built.flangeAt(q) * spec.on_flange[t]);
       // 33 parameters of 540 readings of 20 um: 20 um sqrt(33 / 540) per coordinate, five times that and the 3-D.
@@ -75,17 +75,17 @@ TEST(ArmFit, IntervalsHoldTheTruth) {
     static const calibration::ArmFit pattern = fitted(first);
     frames::LoadingGeometry truth;
     truth.arm = nominal;
-    Eigen::VectorXd steps = Eigen::VectorXd::Zero(ArmParameters::count(3));
-    for (int k = 0; k < ArmParameters::kAxes; ++k) {
+    Eigen::VectorXd steps = Eigen::VectorXd::Zero(ArmParameters(6).count(3));
+    for (int k = 0; k < ArmParameters(6).axes(); ++k) {
       const bool held = std::find(pattern.held.begin(), pattern.held.end(), k) != pattern.held.end();
       if (!held) steps[k] = 0.3e-3 * noise.normal();
     }
     truth = frames::moved(truth, steps, Eigen::Vector3d::Zero());
     for (campaign::LoadingReading& reading : campaign.loading->rows) {
-      const Vector6d& q = campaign.states->rows[static_cast<std::size_t>(reading.pose)].q;
+      const JointVector& q = campaign.states->rows[static_cast<std::size_t>(reading.pose)].q;
       // Product of exponentials by hand: turn about each moved axis, the last first.
       Eigen::Vector3d point =
-          spec.nominal.flangeAt(Vector6d::Zero()) * spec.on_flange[static_cast<std::size_t>(reading.target)];
+          spec.nominal.flangeAt(JointVector::Zero(6)) * spec.on_flange[static_cast<std::size_t>(reading.target)];
       for (int j = 5; j >= 0; --j) {
         const metrology::Line& axis = truth.arm.axes_in_base_at_zero[static_cast<std::size_t>(j)];
         point = axis.point + Eigen::AngleAxisd(q[j], axis.direction) * (point - axis.point);
@@ -95,7 +95,7 @@ TEST(ArmFit, IntervalsHoldTheTruth) {
     const calibration::UnloadedDay day = calibration::unloadedDay(campaign);
     const calibration::ArmFit fit = fitted(day);
     ASSERT_EQ(fit.held, pattern.held);
-    for (int k = 0; k < ArmParameters::kAxes; ++k) {
+    for (int k = 0; k < ArmParameters(6).axes(); ++k) {
       if (fit.sd(k) == 0.0) continue;
       ++all;
       inside += std::abs(fit.steps[k] - steps[k]) < 1.959964 * fit.sd(k) ? 1 : 0;
@@ -120,7 +120,7 @@ TEST(ArmFit, GrossReadingsCostNothingButTheirRows) {
   const calibration::UnloadedDay day = calibration::unloadedDay(campaign);
   const calibration::ArmFit fit = fitted(day);
   EXPECT_EQ(std::count(fit.weights.begin(), fit.weights.end(), 0.0), 4);
-  for (int k = 0; k < ArmParameters::kAxes; ++k)
+  for (int k = 0; k < ArmParameters(6).axes(); ++k)
     EXPECT_LE(std::abs(fit.steps[k] - by_clean.steps[k]), by_clean.sd(k)) << k;
 }
 
@@ -131,7 +131,7 @@ TEST(ArmFit, HoldsWhatThePosturesDoNotSee) {
   campaign::Campaign campaign = unloadedCampaign(spec, noise);
   for (campaign::State& state : campaign.states->rows) state.q[3] = 0.3;
   for (campaign::LoadingReading& reading : campaign.loading->rows) {
-    const Vector6d& q = campaign.states->rows[static_cast<std::size_t>(reading.pose)].q;
+    const JointVector& q = campaign.states->rows[static_cast<std::size_t>(reading.pose)].q;
     reading.point =
         spec.tracker_from_base * (spec.built.flangeAt(q) * spec.on_flange[static_cast<std::size_t>(reading.target)]) +
         spec.noise * noise.normal3();
@@ -149,9 +149,9 @@ TEST(ArmFit, OwnWeightBringsTheJointsCompliance) {
   Noise noise(6);
   UnloadedSpec spec = builtOtherwise(noise);
   spec.postures = 200;
-  const Vector6d compliance = exampleCompliance();
+  const JointVector compliance = exampleCompliance();
   const ChainArm& heavy = spec.built;
-  spec.joint_errors = [&](const Vector6d& q) { return Vector6d(compliance.cwiseProduct(heavy.weightTorque(q))); };
+  spec.joint_errors = [&](const JointVector& q) { return JointVector(compliance.cwiseProduct(heavy.weightTorque(q))); };
   const calibration::UnloadedDay day = calibration::unloadedDay(unloadedCampaign(spec, noise));
   ASSERT_TRUE(day.masses_known);
   const auto place = calibration::placeArm(day, std::vector<double>(day.readings(), 1.0));
@@ -210,8 +210,8 @@ TEST(ArmFit, ANegativeComplianceIsRefused) {
   Noise noise(7);
   UnloadedSpec spec = builtOtherwise(noise);
   const ChainArm& heavy = spec.built;
-  spec.joint_errors = [&](const Vector6d& q) {
-    return Vector6d(-0.3e-6 * heavy.weightTorque(q).cwiseProduct(Vector6d::Unit(2)));
+  spec.joint_errors = [&](const JointVector& q) {
+    return JointVector(-0.3e-6 * heavy.weightTorque(q).cwiseProduct(JointVector::Unit(6, 2)));
   };
   const calibration::UnloadedDay day = calibration::unloadedDay(unloadedCampaign(spec, noise));
   const auto place = calibration::placeArm(day, std::vector<double>(day.readings(), 1.0));

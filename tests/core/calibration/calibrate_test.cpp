@@ -40,8 +40,8 @@ TEST(Calibrate, FindsAGearsOwnOrder) {
   Noise noise(12);
   UnloadedSpec spec = builtOtherwise(noise);
   spec.postures = 150;
-  spec.joint_errors = [](const Vector6d& q) {
-    Vector6d error = Vector6d::Zero();
+  spec.joint_errors = [](const JointVector& q) {
+    JointVector error = JointVector::Zero(6);
     error[1] = 60e-6 * std::sin(17.25 * q[1] + 0.4);
     return error;
   };
@@ -60,7 +60,9 @@ TEST(Calibrate, GrossReadingsHideNoEffect) {
   Noise noise(16);
   UnloadedSpec spec = builtOtherwise(noise);
   spec.postures = 150;
-  spec.joint_errors = [](const Vector6d& q) { return Vector6d(60e-6 * std::sin(2.0 * q[1]) * Vector6d::Unit(1)); };
+  spec.joint_errors = [](const JointVector& q) {
+    return JointVector(60e-6 * std::sin(2.0 * q[1]) * JointVector::Unit(6, 1));
+  };
   campaign::Campaign campaign = unloadedCampaign(spec, noise);
   for (const std::size_t row : {3u, 101u, 250u, 377u, 440u}) campaign.loading->rows[row].point.x() += 0.1;
   for (const std::size_t row : {400u, 200u, 10u}) campaign.loading->rows.erase(campaign.loading->rows.begin() + row);
@@ -80,7 +82,7 @@ TEST(Calibrate, FindsAReflectorThatMoved) {
     campaign::Campaign campaign = unloadedCampaign(spec, noise);
     for (campaign::LoadingReading& reading : campaign.loading->rows) {
       if (reading.target != 1 || reading.pose < 60) continue;
-      const Vector6d& q = campaign.states->rows[static_cast<std::size_t>(reading.pose)].q;
+      const JointVector& q = campaign.states->rows[static_cast<std::size_t>(reading.pose)].q;
       reading.point += spec.tracker_from_base.linear() *
                        (spec.built.flangeAt(q).linear() * (size * Eigen::Vector3d(1.0, 0.0, -0.7)));
     }
@@ -147,7 +149,7 @@ campaign::Campaign dayWithBothAngles(calibration::JointAngles right) {
   Noise off(24);
   for (campaign::State& state : campaign.states->rows) {
     state.commanded = state.q;
-    Vector6d& wrong = right == calibration::JointAngles::commanded ? state.q : state.commanded;
+    JointVector& wrong = right == calibration::JointAngles::commanded ? state.q : state.commanded;
     for (int j = 0; j < 6; ++j) wrong[j] += 1.75e-4 * off.normal();
   }
   return campaign;
@@ -182,7 +184,7 @@ TEST(Calibrate, AnglesThatDifferByRoundingAreNotJudged) {
   EXPECT_FALSE(result.angles->better);
   // A posture without its commanded angle: that joint has none.
   campaign.states->rows[7].commanded[2] = std::nan("");
-  EXPECT_EQ(calibration::commandedJoints(campaign), (std::array<bool, 6>{true, true, false, true, true, true}));
+  EXPECT_EQ(calibration::commandedJoints(campaign), (PerJoint<bool>{true, true, false, true, true, true}));
 }
 
 }  // namespace calibrate_test

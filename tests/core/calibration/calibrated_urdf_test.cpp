@@ -32,8 +32,9 @@ Calibrated calibrated(const std::string& file, Noise& noise) {
   result.nominal = robot::parseUrdf(result.before, file, "base_link", "tool0");
   frames::LoadingGeometry geometry;
   geometry.arm = result.nominal;
-  Eigen::VectorXd steps = Eigen::VectorXd::Zero(frames::ArmParameters::count(0));
-  for (int k = 0; k < frames::ArmParameters::kAxes; ++k) steps[k] = 2e-3 * noise.normal();
+  const frames::ArmParameters at(result.nominal.joints());
+  Eigen::VectorXd steps = Eigen::VectorXd::Zero(at.count(0));
+  for (int k = 0; k < at.axes(); ++k) steps[k] = 2e-3 * noise.normal();
   result.arm = frames::moved(geometry, steps, Eigen::Vector3d::Zero()).arm;
   result.after = calibration::calibratedUrdf(result.before, file, "base_link", "tool0", result.nominal, result.arm);
   return result;
@@ -46,7 +47,7 @@ TEST(CalibratedUrdf, ReadsBackAsTheCalibratedArm) {
     const Calibrated one = calibrated(std::string(STIFFSCOPE_SOURCE_DIR) + name, noise);
     const robot::Robot read = robot::parseUrdf(one.after, "calibrated.urdf", "base_link", "tool0");
     for (int k = 0; k < 1000; ++k) {
-      const Vector6d q = Vector6d::NullaryExpr([&] { return 6.0 * (noise.uniform() - 0.5); });
+      const JointVector q = JointVector::NullaryExpr(6, [&] { return 6.0 * (noise.uniform() - 0.5); });
       const Eigen::Isometry3d by_file = robot::flangeAt(read, robot::postureAt(read, q)),
                               by_fit = robot::flangeAt(one.arm, robot::postureAt(one.arm, q));
       ASSERT_LT((by_file.translation() - by_fit.translation()).norm(), kMetres);
@@ -102,7 +103,7 @@ TEST(CalibratedUrdf, UrdfdomAndKdlMoveTheFlangeAsFitted) {
     ASSERT_EQ(chain.getNrOfJoints(), 6u);
     KDL::ChainFkSolverPos_recursive place(chain);
     for (int k = 0; k < 1000; ++k) {
-      const Vector6d q = Vector6d::NullaryExpr([&] { return 6.0 * (noise.uniform() - 0.5); });
+      const JointVector q = JointVector::NullaryExpr(6, [&] { return 6.0 * (noise.uniform() - 0.5); });
       KDL::JntArray joints(6);
       joints.data = q;
       KDL::Frame flange;

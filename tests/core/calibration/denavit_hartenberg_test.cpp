@@ -13,7 +13,7 @@ constexpr double kRounding = 1e-11;  // m: a dozen products of metres
 void expectTheSame(const ChainArm& arm, const robot::Robot& nominal, Noise& noise) {
   const calibration::DenavitHartenberg parameters = calibration::denavitHartenberg(arm.robot(), nominal);
   for (int k = 0; k < 20; ++k) {
-    const Vector6d q = somePosture(noise);
+    const JointVector q = somePosture(noise);
     const Eigen::Isometry3d difference = parameters.flangeAt(q).inverse() * arm.flangeAt(q);
     EXPECT_LT((difference.matrix() - Eigen::Matrix4d::Identity()).cwiseAbs().maxCoeff(), kRounding);
   }

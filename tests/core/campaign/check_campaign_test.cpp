@@ -22,12 +22,13 @@ campaign::Campaign longCampaign() {
   campaign.states = campaign::States{"states.csv", campaign::PointFrame::tracker, {}};
   campaign.displacements = campaign::Displacements{"displacements.csv", campaign::PointFrame::tracker, {}};
   for (std::size_t j = 0; j < 6; ++j) {
-    campaign.robot.joint_names[j] = "joint " + std::to_string(j + 1);
-    campaign.robot.limits[j].lower = -180.0 * io::kDegree, campaign.robot.limits[j].upper = 180.0 * io::kDegree;
+    campaign.robot.axes_in_base_at_zero.emplace_back();
+    campaign.robot.joint_names.push_back("joint " + std::to_string(j + 1));
+    campaign.robot.limits.push_back({-180.0 * io::kDegree, 180.0 * io::kDegree});
   }
   for (int i = 0; i < kRows; ++i) {
     campaign.pose_ids.push_back("P" + std::to_string(i));
-    campaign::State state;
+    campaign::State state(6);
     state.pose = i, state.step = 1, state.line = static_cast<std::size_t>(i) + 2;
     state.q.setConstant(20.0 * io::kDegree);
     campaign.states->rows.push_back(state);

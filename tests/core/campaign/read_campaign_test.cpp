@@ -241,7 +241,7 @@ TEST(ReadCampaign, TurnsTheControllersFiguresIntoAngles) {
   const auto check = [](const auto& figures, const auto& angles) {
     ASSERT_FALSE(figures.rows.empty());
     for (std::size_t i = 0; i < figures.rows.size(); ++i) {
-      Vector6d q = figures.rows[i].q;
+      JointVector q = figures.rows[i].q;
       q[2] = -q[2] + 90.0 * io::kDegree + q[1];
       q[5] -= 180.0 * io::kDegree;
       EXPECT_LT((angles.rows[i].q - q).norm(), 1e-11);  // the ninth decimal of a degree

@@ -18,7 +18,7 @@ constexpr int kPostures = 60;  // of nine coordinates: 534 degrees of freedom, 3
 /// One state of the machine, solved by Partial Pose, with numbers of some sd in each coordinate's equation.
 identification::Identification stateOf(const LinearMachine& machine, Noise& unmodelled, double misfit, Noise& tracker,
                                        double noise) {
-  identification::Identification result;
+  identification::Identification result(6);
   result.cases = machine.cases;
   identification::MethodResult& solved = result.methods[static_cast<std::size_t>(identification::Method::partial_pose)];
   solved.available = true;

@@ -20,7 +20,7 @@ identification::IdentifyOptions quick() {
 
 /// One day in the tests' own laboratory, `misfit` m of something unmodelled at each reflector that is the
 /// same whenever `misfit_seed` is, and `noise` m of the tracker's.
-campaign::Campaign day(const Vector6d& compliance, std::uint64_t misfit_seed, double misfit, std::uint64_t noise_seed,
+campaign::Campaign day(const JointVector& compliance, std::uint64_t misfit_seed, double misfit, std::uint64_t noise_seed,
                        double noise, int postures = 12) {
   SimulatedLab lab;
   lab.compliance = compliance;
@@ -43,7 +43,7 @@ comparison::Comparison compared(const campaign::Campaign& before, const campaign
 }
 
 TEST(Comparison, FindsWhichJointWasStiffened) {
-  Vector6d stiffened = exampleCompliance();
+  JointVector stiffened = exampleCompliance();
   stiffened[2] /= 1.5;
   const comparison::Comparison found =
       compared(day(exampleCompliance(), 1, 0.0, 2, 5e-6), day(stiffened, 1, 0.0, 3, 5e-6));
@@ -121,7 +121,7 @@ TEST(Comparison, WithoutSharedPosturesNoCorrelationIsCounted) {
 TEST(Comparison, WhatBothStatesMissCancelsInTheDifference) {
   // 60 um that recur in every posture, 5 um of noise: the compliances of each state are off by tens of the difference's
   // uncertainty, the difference is not.
-  Vector6d softened = exampleCompliance();
+  JointVector softened = exampleCompliance();
   softened[1] *= 1.3;
   const comparison::Comparison found =
       compared(day(exampleCompliance(), 7, 60e-6, 2, 5e-6), day(softened, 7, 60e-6, 3, 5e-6));
@@ -174,7 +174,7 @@ TEST(Comparison, NoiseAloneIsCalledNoise) {
 
 TEST(Comparison, JointsAndARestMakeUpTheDeflectionAvoided) {
   // Without noise all of what is avoided is the joints': a rest is of second order in deflections of millimetres.
-  Vector6d stiffened = exampleCompliance();
+  JointVector stiffened = exampleCompliance();
   stiffened[1] *= 0.6, stiffened[2] *= 0.7, stiffened[4] *= 1.1;
   const comparison::Comparison found =
       compared(day(exampleCompliance(), 1, 0.0, 2, 0.0), day(stiffened, 1, 0.0, 3, 0.0));
@@ -192,10 +192,10 @@ TEST(Comparison, JointsAndARestMakeUpTheDeflectionAvoided) {
 }
 
 TEST(PairedFit, UncertaintiesByHand) {
-  comparison::PairedFit fit;
+  comparison::PairedFit fit(6);
   fit.same_postures = true;
   fit.before[0] = 4.0, fit.after[0] = 3.0;
-  const auto moved = [](double by) { return Vector6d(by * Vector6d::Unit(0)); };
+  const auto moved = [](double by) { return JointVector(by * JointVector::Unit(6, 0)); };
   fit.influences = {{moved(1.0), moved(1.5)}, {moved(-2.0), moved(-1.0)}};
   fit.dof_before[0] = 7.0, fit.dof_after[0] = 5.0;
   fit.shared_before[0] = 0.25, fit.shared_after[0] = 0.5;

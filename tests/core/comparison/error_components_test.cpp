@@ -20,6 +20,7 @@ struct Made {
 
   explicit Made(Noise& noise)
       : jacobian(kPostures * kRows, kUnknowns), turns(Eigen::MatrixXd::Zero(kPostures * kRows, 6 * kPostures)) {
+    fit.joints = 6;
     for (double& entry : jacobian.reshaped()) entry = noise.normal();
     for (Eigen::Index p = 0; p < kPostures; ++p) {
       calibration::PostureEquations of;
@@ -37,7 +38,7 @@ struct Made {
   }
 
   /// What a fit leaves of errors of these standard deviations.
-  std::vector<Eigen::VectorXd> residuals(double coordinate, const Vector6d& angle, Noise& noise) const {
+  std::vector<Eigen::VectorXd> residuals(double coordinate, const JointVector& angle, Noise& noise) const {
     Eigen::VectorXd errors(jacobian.rows()), angles(6 * kPostures);
     for (double& one : errors) one = coordinate * noise.normal();
     for (Eigen::Index k = 0; k < angles.size(); ++k) angles[k] = angle[k % 6] * noise.normal();
@@ -53,7 +54,7 @@ struct Made {
 TEST(ErrorComponents, HaveNoBias) {
   Noise noise(31);
   const Made made(noise);
-  const Vector6d angle = (Vector6d() << 1.5, 1.2, 2.0, 1.0, 1.8, 1.4).finished();
+  const JointVector angle = (Vector6d() << 1.5, 1.2, 2.0, 1.0, 1.8, 1.4).finished();
   constexpr double kCoordinate = 1.3;
   constexpr int kDraws = 300;
   Eigen::Matrix<double, 7, 1> sum = Eigen::Matrix<double, 7, 1>::Zero(), squares = sum, truth;
@@ -76,7 +77,7 @@ TEST(ErrorComponents, AVarianceIsNeverNegative) {
   const Made made(noise);
   for (int draw = 0; draw < 50; ++draw) {
     const comparison::ErrorComponents found =
-        comparison::errorComponents(made.fit, made.residuals(1.0, Vector6d::Zero(), noise));
+        comparison::errorComponents(made.fit, made.residuals(1.0, JointVector::Zero(6), noise));
     EXPECT_GE(found.angle.minCoeff(), 0.0);
     EXPECT_NEAR(found.coordinate, 1.0, 0.4);  // 340 degrees of freedom: 0.08 one sigma
   }
@@ -86,7 +87,7 @@ TEST(ErrorComponents, AVarianceIsNeverNegative) {
 TEST(ErrorComponents, TheCovarianceIsThatOfLeastSquares) {
   Noise noise(33);
   const Made made(noise);
-  comparison::ErrorComponents errors;
+  comparison::ErrorComponents errors(6);
   errors.coordinate = 0.7;
   errors.angle << 0.2, 0.0, 1.1, 0.4, 0.9, 0.3;
   const Eigen::MatrixXd angles =

@@ -30,8 +30,8 @@ template <class Change>
 GeometryChange comparedOnTheSame(std::uint64_t seed, const Change& change) {
   Noise noise(seed);
   UnloadedSpec spec = builtOtherwise(noise);
-  spec.joint_errors = [](const Vector6d& q) {
-    Vector6d errors = Vector6d::Zero();
+  spec.joint_errors = [](const JointVector& q) {
+    JointVector errors = JointVector::Zero(6);
     for (Eigen::Index j = 0; j < 6; ++j)
       errors[j] = 100e-6 * std::sin((3.3 + static_cast<double>(j)) * q[j]) * std::cos(2.1 * q[(j + 1) % 6]);
     return errors;
@@ -66,8 +66,8 @@ TEST(GeometryChange, EffectsOfTheMachineAreNoChange) {
   for (std::uint64_t seed = 6020; seed < 6032; ++seed) {
     Noise noise(seed);
     UnloadedSpec spec = builtOtherwise(noise);
-    spec.joint_errors = [](const Vector6d& q) {
-      Vector6d errors = Vector6d::Zero();
+    spec.joint_errors = [](const JointVector& q) {
+      JointVector errors = JointVector::Zero(6);
       errors[1] = 60e-6 * std::sin(2.0 * q[1]) + 50e-6 * std::cos(17.0 * q[1]);
       errors[2] = 80e-6 * std::sin(q[2]);
       errors[4] = 2e-4 * q[4];
@@ -160,7 +160,7 @@ TEST(GeometryChange, JointSixIsSaidWithTheReflectors) {
   EXPECT_FALSE(found.machine_changed);
   EXPECT_TRUE(found.reflectors_moved);
   ASSERT_FALSE(found.causes.empty());
-  EXPECT_EQ(found.causes.front().cause, ChangeCause::turn_about_6);
+  EXPECT_EQ(found.causes.front().cause, ChangeCause::turn_about_last);
   ASSERT_TRUE(found.causes.front().size);
   EXPECT_NEAR(found.causes.front().size->value, 0.5e-3, 4.0 * found.causes.front().size->sd);
 }

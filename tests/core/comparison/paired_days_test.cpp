@@ -20,7 +20,7 @@ UnloadedDay dayOf(std::vector<std::string> targets, const std::vector<Read>& pos
   UnloadedDay day;
   day.targets = std::move(targets);
   for (const Read& one : postures) {
-    calibration::Posture posture;
+    calibration::Posture posture(6);
     posture.pose = static_cast<int>(day.pose_ids.size());
     posture.q[0] = one.q1;
     for (const int target : one.targets) posture.readings.push_back({target});
@@ -62,8 +62,8 @@ comparison::PairedDays paired(const campaign::Campaign& before, const campaign::
 TEST(PairedDays, TheCovarianceIsByWhatRecursOnlyWherePosturesDiffer) {
   Noise noise(12);
   UnloadedSpec spec = builtOtherwise(noise);
-  spec.joint_errors = [](const Vector6d& q) {
-    Vector6d errors = Vector6d::Zero();
+  spec.joint_errors = [](const JointVector& q) {
+    JointVector errors = JointVector::Zero(6);
     for (Eigen::Index j = 0; j < 6; ++j)
       errors[j] = 100e-6 * std::sin((3.3 + static_cast<double>(j)) * q[j]) * std::cos(2.1 * q[(j + 1) % 6]);
     return errors;

@@ -31,8 +31,8 @@ TEST(PredictionSpread, OfNormalErrorsIsTheirs) {
 
 /// A known arm, what its day is said to have had, and one posture.
 struct KnownDay : KnownArm {
-  compensation::Certainty certainty;
-  Vector6d q = degrees(20, 10, -20, 50, 60, -30);
+  compensation::Certainty certainty{{}, compensation::IdentifiedRange(6)};
+  JointVector q = degrees(20, 10, -20, 50, 60, -30);
 
   KnownDay() {
     certainty.draws = compensation::springDraws(estimate, estimate.covariance);
@@ -43,7 +43,7 @@ struct KnownDay : KnownArm {
     certainty.range.high = q.array() + 0.5;
   }
 
-  compensation::CompensatedPosture run(const Vector6d& at, const Eigen::Vector3d& force) const {
+  compensation::CompensatedPosture run(const JointVector& at, const Eigen::Vector3d& force) const {
     const compensation::PostureToCompensate asked{"a", at, lab.cellReading(lab.settled(at), force)};
     return compensation::compensate(campaign, geometry, estimate, Eigen::Vector3d::Zero(), {asked}, {}, nullptr,
                                     &certainty)
@@ -98,7 +98,7 @@ TEST(Certainty, WhatTheDayCouldNotSeeWidensTheDirectionThatRousesIt) {
   Noise noise(5);
   day.certainty.draws.parameters.resize(1, day.certainty.draws.size());
   for (double& one : day.certainty.draws.parameters.reshaped()) one = 1e-6 * noise.normal();
-  day.certainty.draws.by = [](const Vector6d&, const effects::FlangeLoad& load,
+  day.certainty.draws.by = [](const JointVector&, const effects::FlangeLoad& load,
                               const std::vector<Eigen::Vector3d>& points) {
     Eigen::MatrixXd by = Eigen::MatrixXd::Zero(3 * static_cast<Eigen::Index>(points.size()), 1);
     for (Eigen::Index row = 0; row < by.rows(); row += 3) by(row, 0) = load.force.x();
@@ -121,7 +121,7 @@ TEST(Certainty, WhatTheDayCouldNotSeeWidensTheDirectionThatRousesIt) {
 TEST(Certainty, ModelErrorGrowsWithTheLoad) {
   KnownDay day;
   day.estimate.covariance.setZero();
-  day.certainty.draws = compensation::springDraws(day.estimate, Matrix6d::Zero());
+  day.certainty.draws = compensation::springDraws(day.estimate, JointMatrix::Zero(6, 6));
   day.certainty.range.model_error = 50e-6;
   const compensation::CompensatedPosture half = day.run(day.q, {0.0, 0.0, -750.0}),
                                          whole = day.run(day.q, {0.0, 0.0, -1500.0});
@@ -132,7 +132,7 @@ TEST(Certainty, ModelErrorGrowsWithTheLoad) {
 
 TEST(Certainty, AScaleOfTheLoadCellIsInThePrediction) {
   KnownDay day;
-  day.certainty.draws = compensation::springDraws(day.estimate, Matrix6d::Zero(), 0.02);
+  day.certainty.draws = compensation::springDraws(day.estimate, JointMatrix::Zero(6, 6), 0.02);
   const compensation::CompensatedPosture found = day.run(day.q, {0.0, 0.0, -1500.0});
   EXPECT_LT((found.tcp.sd - 0.02 * found.tcp.deflection.cwiseAbs()).norm(), 1e-12);
 }

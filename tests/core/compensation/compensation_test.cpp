@@ -18,7 +18,7 @@ namespace compensation_test {
 struct AskedArm : KnownArm {
   Eigen::Vector3d tcp{0.0, 0.0, 0.0};
 
-  compensation::PostureToCompensate asked(const Vector6d& q, const Eigen::Vector3d& force = {500, -400, -1500}) const {
+  compensation::PostureToCompensate asked(const JointVector& q, const Eigen::Vector3d& force = {500, -400, -1500}) const {
     return {"a", q, lab.cellReading(lab.settled(q), force)};
   }
   compensation::CompensatedPosture run(const compensation::PostureToCompensate& one) const {
@@ -30,7 +30,7 @@ TEST(Compensate, CommandsBringTheLoadedArmBack) {
   const AskedArm arm;
   Noise noise(4);
   for (int k = 0; k < 6; ++k) {
-    const Vector6d q = somePosture(noise);
+    const JointVector q = somePosture(noise);
     const Eigen::Vector3d force(500, -400, -1500);
     const compensation::CompensatedPosture found = arm.run(arm.asked(q, force));
     ASSERT_TRUE(found.solved) << reports::words(found.reason);

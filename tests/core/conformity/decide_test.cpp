@@ -57,7 +57,7 @@ TEST(Decide, AMachineAtItsLimitIsSeldomAccepted) {
 
 /// A loaded day with k2 = 5e6, u(c) = 1 % at many degrees of freedom; k1 not identified.
 identification::Identification loadedDay() {
-  identification::Identification day;
+  identification::Identification day(6);
   identification::MethodResult& method = day.methods[static_cast<std::size_t>(identification::Method::complete_pose)];
   method.available = true;
   method.estimate.compliance[1] = 0.2e-6;

@@ -14,8 +14,10 @@ namespace gravity_equilibrium_test {
 frames::LoadingGeometry heavyArm(const ChainArm& chain) {
   frames::LoadingGeometry geometry;
   geometry.arm = chain.robot();
+  geometry.compliance = chain.noAngles();
   geometry.weight.links_known = true;
   geometry.weight.gravity_in_base = {0.0, 0.0, -9.8};
+  geometry.weight.bodies.resize(7);
   geometry.weight.bodies[6] = {100.0, geometry.arm.base_from_flange_at_zero.translation()};
   return geometry;
 }
@@ -25,8 +27,8 @@ frames::LoadingGeometry heavyArm(const ChainArm& chain) {
 TEST(GravityEquilibrium, AFootThatRocksTurnsTheWholeArmByAFiniteAngle) {
   const ChainArm chain = exampleChain();
   const frames::LoadingGeometry geometry = heavyArm(chain);
-  const Vector6d q = Vector6d::Zero();
-  effects::LinearizationPoint at;
+  const JointVector q = JointVector::Zero(6);
+  effects::LinearizationPoint at(6);
   const effects::EffectModel model = effects::modelsOf(effects::baseCompliance()).front();
   constexpr double kRock = 1e-5;
   at.present.push_back({&model, kRock * Eigen::VectorXd::Unit(5, 1)});
@@ -46,9 +48,9 @@ TEST(GravityEquilibrium, IsTheSaggedArmWithoutEffects) {
   const ChainArm chain = exampleChain();
   frames::LoadingGeometry geometry = heavyArm(chain);
   geometry.compliance = exampleCompliance();
-  const Vector6d q = degrees(10, 20, -15, 40, 50, -30);
-  const effects::ArmState rest = effects::gravityEquilibrium(geometry, {}, q),
-                          plain = effects::stateAt(geometry, q, Vector6d::Zero());
+  const JointVector q = degrees(10, 20, -15, 40, 50, -30);
+  const effects::ArmState rest = effects::gravityEquilibrium(geometry, effects::LinearizationPoint(6), q),
+                          plain = effects::stateAt(geometry, q, JointVector::Zero(6));
   EXPECT_EQ((rest.flange.matrix() - plain.flange.matrix()).norm(), 0.0);
 }
 
@@ -56,12 +58,12 @@ TEST(GravityEquilibrium, IsTheSaggedArmWithoutEffects) {
 TEST(GravityEquilibrium, ATiltMovesWhatItsBearingCarries) {
   const ChainArm chain = exampleChain();
   const frames::LoadingGeometry geometry = heavyArm(chain);
-  const Vector6d q = degrees(10, 20, -15, 40, 50, -30);
-  effects::LinearizationPoint at;
+  const JointVector q = degrees(10, 20, -15, 40, 50, -30);
+  effects::LinearizationPoint at(6);
   const effects::EffectModel model = effects::modelsOf(effects::bearingTilt()).front();
   at.present.push_back({&model, 1e-5 * Eigen::VectorXd::Unit(6, 3)});
   const effects::ArmState rest = effects::gravityEquilibrium(geometry, at, q),
-                          plain = effects::stateAt(geometry, q, Vector6d::Zero());
+                          plain = effects::stateAt(geometry, q, JointVector::Zero(6));
   for (std::size_t b = 0; b < 4; ++b)
     EXPECT_EQ((rest.posture.motion[b].matrix() - plain.posture.motion[b].matrix()).norm(), 0.0) << b;
   EXPECT_GT((rest.flange.translation() - plain.flange.translation()).norm(), 1e-4);
@@ -69,6 +71,7 @@ TEST(GravityEquilibrium, ATiltMovesWhatItsBearingCarries) {
 
 identification::LoadCase pulledAt(const Eigen::Vector3d& offset, const Eigen::Vector3d& force) {
   identification::LoadCase one;
+  one.q = one.q_sagged = JointVector::Zero(6);
   one.flange_unloaded = Eigen::Isometry3d::Identity();
   one.wrench = {Eigen::Vector3d::Zero(), force, offset.cross(force)};
   return one;
@@ -78,9 +81,10 @@ TEST(LoadOffset, IsThePointAllPullsGoThrough) {
   const Eigen::Vector3d hook(0.05, -0.02, 0.11);
   const std::vector<identification::LoadCase> cases{pulledAt(hook, {0, 0, -900}), pulledAt(hook, {500, 0, -300}),
                                                     pulledAt(hook, {0, 700, 100})};
-  EXPECT_LT((diagnosis::loadOffset(robot::Robot{}, cases, 0.0) - hook).norm(), 1e-9);  // the ridge of 1e-12
+  const robot::Robot arm = exampleChain().robot();
+  EXPECT_LT((diagnosis::loadOffset(arm, cases, 0.0) - hook).norm(), 1e-9);  // the ridge of 1e-12
   // One direction alone: what lies along the pull stays at the declared point.
-  const Eigen::Vector3d found = diagnosis::loadOffset(robot::Robot{}, {cases.front()}, 0.5);
+  const Eigen::Vector3d found = diagnosis::loadOffset(arm, {cases.front()}, 0.5);
   EXPECT_LT((found - Eigen::Vector3d(hook.x(), hook.y(), 0.0)).norm(), 1e-5);
 }
 

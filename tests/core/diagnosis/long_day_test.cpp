@@ -87,7 +87,7 @@ TEST(EvenlySpread, TakesAllLoadedPosturesOfADayThatHasFew) {
     day.pose_ids.push_back(std::to_string(pose));
     const bool loaded = pose % 33 == 1 && pose / 33 < 30;
     for (int step = 0; step < (loaded ? 3 : 2); ++step) {
-      campaign::State state;
+      campaign::State state(6);
       state.pose = pose;
       state.step = step;
       state.wrench_in_cell[2] = loaded && step == 1 ? 1000.0 : 10.0;  // N: a return to zero has a hook's weight

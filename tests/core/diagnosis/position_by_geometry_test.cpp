@@ -12,6 +12,7 @@ namespace position_by_geometry_test {
 frames::LoadingGeometry placedArm(const ChainArm& chain) {
   frames::LoadingGeometry geometry;
   geometry.arm = chain.robot();
+  geometry.compliance = chain.noAngles();
   geometry.r0_from_loading = Eigen::Isometry3d(Eigen::AngleAxisd(0.4, Eigen::Vector3d(1, 2, 3).normalized()));
   geometry.r0_from_loading->translation() = Eigen::Vector3d(0.5, -1.0, 0.3);
   const Eigen::Isometry3d& flange = geometry.arm.base_from_flange_at_zero;
@@ -21,7 +22,7 @@ frames::LoadingGeometry placedArm(const ChainArm& chain) {
 }
 
 /// Modelled less measured: `reading` is what the station saw.
-Eigen::VectorXd modelledLessMeasured(const frames::LoadingGeometry& geometry, const Vector6d& q,
+Eigen::VectorXd modelledLessMeasured(const frames::LoadingGeometry& geometry, const JointVector& q,
                                      const std::vector<Eigen::Vector3d>& readings,
                                      const effects::LinearizationPoint& at) {
   const effects::ArmState state = effects::gravityEquilibrium(geometry, at, q);
@@ -33,11 +34,11 @@ Eigen::VectorXd modelledLessMeasured(const frames::LoadingGeometry& geometry, co
   return rows;
 }
 
-Eigen::MatrixXd byDifferences(const frames::LoadingGeometry& geometry, const Vector6d& q,
+Eigen::MatrixXd byDifferences(const frames::LoadingGeometry& geometry, const JointVector& q,
                               const std::vector<Eigen::Vector3d>& readings, const Eigen::Vector3d& centre,
-                              const effects::LinearizationPoint& at = {}) {
+                              const effects::LinearizationPoint& at = effects::LinearizationPoint(6)) {
   constexpr double kStep = 1e-6;
-  const Eigen::Index count = frames::ArmParameters::count(readings.size());
+  const Eigen::Index count = frames::ArmParameters(geometry.arm.joints()).count(readings.size());
   Eigen::MatrixXd columns(3 * static_cast<Eigen::Index>(readings.size()), count);
   for (Eigen::Index k = 0; k < count; ++k) {
     const Eigen::VectorXd step = kStep * Eigen::VectorXd::Unit(count, k);
@@ -53,18 +54,18 @@ const Eigen::Vector3d kOff{0.03, -0.02, 0.05};
 
 struct Case {
   frames::LoadingGeometry geometry;
-  Vector6d q;
+  JointVector q = JointVector::Zero(6);
   std::vector<Eigen::Vector3d> readings;
   Eigen::Vector3d centre{0.7, 0.2, 1.1};
 
   explicit Case(const frames::LoadingGeometry& placed) : geometry(placed) {
     q << 0.3, -0.5, 0.7, 1.1, -0.9, 0.4;
-    const effects::ArmState state = effects::gravityEquilibrium(geometry, {}, q);
+    const effects::ArmState state = effects::gravityEquilibrium(geometry, effects::LinearizationPoint(6), q);
     for (const auto& own : geometry.targets_at_zero)
       readings.push_back(geometry.r0_from_loading->inverse() * (state.posture.motion[6] * *own) + kOff);
   }
 
-  Eigen::MatrixXd computed(const effects::LinearizationPoint& at = {}) const {
+  Eigen::MatrixXd computed(const effects::LinearizationPoint& at = effects::LinearizationPoint(6)) const {
     effects::ArmState state = effects::gravityEquilibrium(geometry, at, q);
     for (std::size_t t = 0; t < readings.size(); ++t) {
       state.targets.push_back(static_cast<int>(t));
@@ -86,6 +87,7 @@ frames::LoadingGeometry heavyArm() {
   frames::LoadingGeometry geometry = placedArm(exampleChain());
   geometry.weight.links_known = true;
   geometry.weight.gravity_in_base = {0.5, -1.0, -9.7};
+  geometry.weight.bodies.resize(7);
   for (std::size_t b = 1; b <= 6; ++b) {
     const double along = 0.15 * static_cast<double>(b);
     geometry.weight.bodies[b] = {60.0 - 8.0 * static_cast<double>(b), {along, 0.1, 1.5 - along}};
@@ -111,7 +113,7 @@ TEST(PositionByGeometry, WithPlayInTheModelIsTheDifferences) {
   const frames::LoadingGeometry geometry = heavyArm();
   const Case one(geometry);
   const effects::EffectModel model = effects::modelsOf(effects::backlash()).front();
-  effects::LinearizationPoint at;
+  effects::LinearizationPoint at(6);
   at.largest_torque.setConstant(2000.0);
   Eigen::VectorXd play = Eigen::VectorXd::Zero(7);
   play[4] = 2e-3;
@@ -130,7 +132,7 @@ TEST(PositionByGeometry, WithAFootThatRocksIsTheDifferences) {
   const frames::LoadingGeometry geometry = heavyArm();
   const Case one(geometry);
   const effects::EffectModel model = effects::modelsOf(effects::baseCompliance()).front();
-  effects::LinearizationPoint at;
+  effects::LinearizationPoint at(6);
   at.present.push_back({&model, 1e-6 * Eigen::VectorXd::Unit(5, 1)});
   const Eigen::MatrixXd expected = byDifferences(one.geometry, one.q, one.readings, one.centre, at);
   ASSERT_GT((expected - one.computed()).cwiseAbs().maxCoeff(), 1e-3);

@@ -31,14 +31,14 @@ struct Made {
 
   explicit Made(Noise& noise) : columns(kRows, kNuisances + kEffects) {
     for (double& entry : columns.reshaped()) entry = noise.normal();
-    layout.effects = kNuisances;
+    layout.geometry = layout.weights = layout.effects = kNuisances;
     layout.end = kNuisances + kEffects;
     for (Eigen::Index m = 0; m < 6; ++m) layout.model_at.push_back(kNuisances + 3 * m);
   }
   diagnosis::Projection projection(const Eigen::VectorXd& right) const {
     Eigen::MatrixXd both(kRows, columns.cols() + 1);
     both << columns, right;
-    return diagnosis::project(both.transpose() * both, kNuisances);
+    return diagnosis::project(both.transpose() * both, layout);
   }
 };
 

@@ -76,7 +76,7 @@ TEST(SpikedDay, MovesReadingsAsABearingThatGivesDoes) {
 TEST(SpikedDay, MovesEveryReadingAsAWrongZeroDoes) {
   simulation::SimulationSpec spec = springsAlone(5);
   const campaign::Campaign campaign = simulation::simulate(spec), before = quietDay(spec);
-  std::array<simulation::AxisError, 6> errors = simulation::drawAxisErrors(spec);
+  PerJoint<simulation::AxisError> errors = simulation::drawAxisErrors(spec);
   constexpr double kZero = 1e-3;
   errors[2].zero += kZero;
   for (std::size_t i = 0; i < 6; ++i) spec.machine.geometry.listed[i] = errors[i];

@@ -16,7 +16,7 @@ constexpr double kRounding = 1e-9;  // m per unit parameter times lever and load
 
 /// The model of an effect with these words in its shape, the first without any.
 effects::EffectModel modelOf(const effects::EffectRecord& record, const std::string& shape = "") {
-  const auto models = effects::modelsOf(record, {"P1", "P2"});
+  const auto models = effects::modelsOf(record, {.joints = 6, .targets = {"P1", "P2"}});
   for (const effects::EffectModel& model : models) {
     if (model.shape.find(shape) != std::string::npos) return model;
   }
@@ -27,8 +27,8 @@ effects::EffectModel modelOf(const effects::EffectRecord& record, const std::str
 struct Bench {
   ChainArm chain = exampleChain();
   frames::LoadingGeometry geometry;
-  effects::LinearizationPoint at;
-  Vector6d q = degrees(10, 20, -15, 40, 50, -30);
+  effects::LinearizationPoint at{6};
+  JointVector q = degrees(10, 20, -15, 40, 50, -30);
   robot::Wrench load{{2.0, 0.1, 1.9}, {300.0, -500.0, -900.0}, {40.0, 20.0, -10.0}};
   std::vector<Eigen::Vector3d> points{{2.1, 0.3, 1.8}, {2.0, -0.2, 2.1}};
 
@@ -39,7 +39,7 @@ struct Bench {
     at.largest_force = load.force.norm();
   }
   effects::ArmState state(double share) const {
-    effects::ArmState one = effects::stateAt(geometry, q, Vector6d::Zero());
+    effects::ArmState one = effects::stateAt(geometry, q, JointVector::Zero(6));
     one.load = {load.point, share * load.force, share * load.moment};
     one.load_torque = chain.torqueOf(q, 6, load.point, one.load.force, one.load.moment);
     one.loaded = share > 0.05;
@@ -112,7 +112,7 @@ TEST(BearingTilt, OfAxis4IsJoint5sOwnComplianceInASphericalWrist) {
   const Eigen::Vector3d wrist = frames[4].translation(), z4 = bench.jointAxis(3), z5 = bench.jointAxis(4);
   const Eigen::Vector3d other = z4.cross(z5).normalized();
   bench.geometry.arm.axes_in_base_at_zero[3].point =
-      bench.chain.framesAt(Vector6d::Zero())[4].translation();  // on axis 4: the same line
+      bench.chain.framesAt(JointVector::Zero(6))[4].translation();  // on axis 4: the same line
   bench.load.moment -= other * other.dot(bench.momentAt(wrist));
   const effects::PostureStates posture = bench.outAndBack();
   const Eigen::VectorXd tilt = modelOf(effects::bearingTilt()).columns(bench.at, posture, 2).col(3);
@@ -195,8 +195,8 @@ TEST(JointCoupling, IsReciprocal) {
   const effects::PostureStates posture = bench.outAndBack();
   const Eigen::MatrixXd field = modelOf(effects::jointCoupling()).columns(bench.at, posture, 2);
   ASSERT_EQ(field.cols(), 15);
-  const Vector6d torque = posture[2].load_torque;
-  Vector6d turn = Vector6d::Zero();
+  const JointVector torque = posture[2].load_torque;
+  JointVector turn = JointVector::Zero(6);
   turn[1] = torque[2];
   turn[2] = torque[1];
   EXPECT_LT((field.col(5) - effects::byJoints(posture[2], turn)).norm(), kRounding);  // pairs 12 13 14 15 16 23
@@ -348,7 +348,7 @@ TEST(LoadPointError, IsTheMovedWrenchThroughTheSprings) {
   const Eigen::Vector3d off(0.02, -0.01, 0.03);
   const Eigen::VectorXd field = modelOf(effects::loadPointError()).columns(bench.at, posture, 2) * off;
   const Eigen::Vector3d moved = bench.load.point + posture[2].flange.linear() * off;
-  const Vector6d change =
+  const JointVector change =
       bench.chain.torqueOf(bench.q, 6, moved, bench.load.force, bench.load.moment) - posture[2].load_torque;
   const Eigen::VectorXd expected = effects::byJoints(posture[2], bench.at.compliance.cwiseProduct(change));
   EXPECT_LT((field - expected).norm(), 1e-9 * expected.norm());
@@ -368,7 +368,7 @@ TEST(LoadCellBias, IsInLoadedStatesOnly) {
 TEST(EffectTable, NothingMovesWithoutACause) {
   const Bench bench;
   effects::PostureStates rest{bench.state(0.0)};
-  for (const effects::EffectModel& model : effects::effectModels({"A", "B"})) {
+  for (const effects::EffectModel& model : effects::effectModels({.joints = 6, .targets = {"A", "B"}})) {
     const Eigen::MatrixXd field = model.columns(bench.at, rest, 0);
     EXPECT_EQ(static_cast<std::size_t>(field.cols()), model.parameters()) << effects::idOf(model.effect);
     if (model.effect == effects::Effect::gravity_compensator) continue;  // a spring pulls always
@@ -382,7 +382,7 @@ TEST(EffectTable, ARecordIsThatOfItsLineAndNamesAllItsParameters) {
     const effects::EffectRecord& record = effects::recordOf(effect);
     EXPECT_EQ(record.effect, effect) << effects::kEffectIds[e];
     EXPECT_EQ(record.models == nullptr, record.nature == effects::EffectNature::geometry) << effects::kEffectIds[e];
-    for (const effects::EffectModel& model : effects::modelsOf(record, {"A", "B"})) {
+    for (const effects::EffectModel& model : effects::modelsOf(record, {.joints = 6, .targets = {"A", "B"}})) {
       EXPECT_EQ((model.angles != nullptr) + (model.twists != nullptr) + (model.offset != nullptr), 1) << model.shape;
       for (const effects::EffectPart& part : model.parts) {
         EXPECT_TRUE(part.most.size() == 1 || part.names.size() == part.most.size()) << model.shape;
@@ -394,7 +394,7 @@ TEST(EffectTable, ARecordIsThatOfItsLineAndNamesAllItsParameters) {
 
 // An ElasticArm moves bodies and joints only.
 TEST(EffectTable, WhatTheMachineDoesTurnsJointsOrMovesBodies) {
-  for (const effects::EffectModel& model : effects::effectModels({"A", "B"})) {
+  for (const effects::EffectModel& model : effects::effectModels({.joints = 6, .targets = {"A", "B"}})) {
     if (effects::natureOf(model.effect) != effects::EffectNature::machine) continue;
     EXPECT_EQ(model.offset, nullptr) << effects::idOf(model.effect);
   }

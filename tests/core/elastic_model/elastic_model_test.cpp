@@ -33,7 +33,7 @@ struct Arm : KnownArm {
   elastic_model::ElasticModel model(std::vector<effects::PresentEffect> effects = {}) const {
     elastic_model::ElasticSource source{campaign, geometry, estimate, Eigen::Vector3d::Zero()};
     source.effects = std::move(effects);
-    for (std::size_t b = 1; b < 7; ++b) source.inertias[b] = 2.0 * Eigen::Matrix3d::Identity();
+    source.inertias.assign(7, Eigen::Matrix3d(2.0 * Eigen::Matrix3d::Identity()));
     return elastic_model::elasticModel(source);
   }
 };
@@ -216,7 +216,7 @@ TEST(ElasticModel, WithoutMassesNothingWeighs) {
 TEST(ElasticModel, AnInertiaThatNoBodyHasIsReplacedAndNamed) {
   const Arm arm;
   elastic_model::ElasticSource source{arm.campaign, arm.geometry, arm.estimate};
-  for (Eigen::Matrix3d& inertia : source.inertias) inertia = Eigen::Vector3d(1.0, 1.0, 2.5).asDiagonal();
+  source.inertias.assign(7, Eigen::Matrix3d(Eigen::Vector3d(1.0, 1.0, 2.5).asDiagonal()));
   const elastic_model::ElasticModel model = elastic_model::elasticModel(source);
   std::size_t named = 0;
   for (const Remark& remark : model.remarks) named += remark.is(elastic_model::RemarkId::no_inertia);
@@ -231,7 +231,7 @@ TEST(ElasticModel, AnInertiaThatNoBodyHasIsReplacedAndNamed) {
 TEST(ElasticModel, AThinPlateKeepsItsInertia) {
   const Arm arm;
   elastic_model::ElasticSource source{arm.campaign, arm.geometry, arm.estimate};
-  for (Eigen::Matrix3d& inertia : source.inertias) inertia = Eigen::Vector3d(1.0, 1.5, 2.5).asDiagonal();
+  source.inertias.assign(7, Eigen::Matrix3d(Eigen::Vector3d(1.0, 1.5, 2.5).asDiagonal()));
   const elastic_model::ElasticModel model = elastic_model::elasticModel(source);
   EXPECT_TRUE(model.remarks.empty());
   for (const ChainBody& body : model.chain.bodies) {

@@ -43,7 +43,7 @@ class MujocoArm {
   int site(const std::string& name) const { return idOf(mjOBJ_SITE, name); }
 
   /// Angles of the drives, springs unloaded.
-  void stand(const std::array<std::string, 6>& drives, const Vector6d& q) {
+  void stand(const PerJoint<std::string>& drives, const JointVector& q) {
     mj_resetData(model_.get(), data_.get());
     for (std::size_t j = 0; j < drives.size(); ++j)
       data_->qpos[model_->jnt_qposadr[joint(drives[j])]] = q[static_cast<Eigen::Index>(j)];

@@ -26,7 +26,7 @@ namespace mujoco_statics_test {
 
 constexpr std::size_t kPostures = 10;
 
-std::array<Eigen::Matrix3d, 7> inertiasOfSample() {
+PerBody<Eigen::Matrix3d> inertiasOfSample() {
   const std::string file = STIFFSCOPE_SOURCE_DIR "/samples/m900ib700.urdf";
   return robot::bodyInertias(io::readTextFile(file, io::kLargestXml), file, "base_link", "tool0");
 }

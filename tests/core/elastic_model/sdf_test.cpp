@@ -32,6 +32,7 @@ elastic_model::ElasticModel fullModel(const KnownArm& arm) {
     const auto count = static_cast<Eigen::Index>(of_effect[0].parameters());
     source.effects.push_back({&of_effect[0], Eigen::VectorXd::LinSpaced(count, 1e-8, 5e-8)});
   }
+  source.inertias.resize(7);
   for (Eigen::Matrix3d& inertia : source.inertias) inertia << 3, 0.1, 0.2, 0.1, 2.5, -0.3, 0.2, -0.3, 2;
   return elastic_model::elasticModel(source);
 }

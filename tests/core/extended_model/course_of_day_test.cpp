@@ -15,17 +15,17 @@ constexpr int kPostures = 24;
 /// equations with noise.
 struct Day {
   campaign::Campaign campaign;
-  identification::Identification at;
+  identification::Identification at{6};
 
   explicit Day(double share, double noise = 1e-3) {
     campaign.states = campaign::States{"states.csv", campaign::PointFrame::tracker, {}};
     identification::MethodResult& method = at.methods[1];
     method.available = true;
     method.estimate.compliance = exampleCompliance();
-    method.estimate.identifiable.fill(true);
+    method.estimate.identifiable.assign(6, true);
     Noise random(17);
     for (int pose = 0; pose < kPostures; ++pose) {
-      campaign::State state;
+      campaign::State state(6);
       state.pose = pose;
       state.time_s = 3600.0 * pose;
       campaign.states->rows.push_back(state);
@@ -72,7 +72,7 @@ TEST(CourseOfDay, TheBudgetHoldsTwiceTheChange) {
   ASSERT_EQ(declared.columns.size(), 2u);
   EXPECT_EQ(declared.columns[0].source, extended_model::BudgetSource::standing_load);
   EXPECT_EQ(declared.columns[1].source, extended_model::BudgetSource::over_day);
-  const Vector6d& c = day.at.methods[1].estimate.compliance;
+  const JointVector& c = day.at.methods[1].estimate.compliance;
   EXPECT_TRUE(declared.columns[0].compliance[1].isApprox(0.02 * c));
   EXPECT_TRUE(declared.columns[1].compliance[1].isApprox(0.04 * c));
   EXPECT_TRUE(declared.columns[0].compliance[0].isZero());  // Complete Pose is not available

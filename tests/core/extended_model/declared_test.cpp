@@ -63,7 +63,7 @@ TEST(Declared, MassesOfAnArmThatHasNoneMoveNothing) {
   const extended_model::Declared declared =
       extended_model::declaredOf(campaign, identification::identify(campaign), {});
   ASSERT_EQ(declared.columns.size(), 1u);
-  for (const Vector6d& change : declared.columns[0].compliance) EXPECT_TRUE(change.isZero(1e-18));
+  for (const JointVector& change : declared.columns[0].compliance) EXPECT_TRUE(change.isZero(1e-18));
 }
 
 }  // namespace declared_test

@@ -32,9 +32,9 @@ TEST_P(AgainstTheSimulator, DeflectsTheSameWithFiniteRotations) {
   geometry.arm = simulation::rigidGeometry(machine);
   geometry.weight = robot::gravityLoad(campaign.robot, campaign.tool, campaign.gravity_in_base, machine.nominal,
                                        Eigen::Isometry3d::Identity());
-  Vector6d compliance;
+  JointVector compliance(6);
   for (std::size_t j = 0; j < 6; ++j) compliance[static_cast<Eigen::Index>(j)] = 1.0 / *spec.machine.joints[j].torsion;
-  const effects::LinearizationPoint at;
+  const effects::LinearizationPoint at{6};
   const effects::ElasticArm arm(geometry, compliance, at, {{&model, parameters}});
   const Eigen::Isometry3d& flange = geometry.arm.base_from_flange_at_zero;
   double most = 0.0;

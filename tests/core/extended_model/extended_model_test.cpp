@@ -269,7 +269,7 @@ TEST(RequestedEffects, DetailsOfOneEffectAddUp) {
 }
 
 TEST(RequestedEffects, OfADiagnosisTakesTheFirstOfAClassAndNeverTheUnknown) {
-  diagnosis::Diagnosis diagnosis;
+  diagnosis::Diagnosis diagnosis(6);
   diagnosis.usable = true;
   diagnosis.verdict.entries = {
       {{effects::Effect::bearing_tilt, effects::Effect::link_compliance}, "joint 2, joint 3 or joint 4"}, {{}, ""}};

@@ -10,10 +10,10 @@ namespace seen_combinations_test {
 using extended_model::HiddenParameter;
 using extended_model::SeenCombination;
 
-identification::StiffnessEstimate estimateOf(const Vector6d& compliance) {
-  identification::StiffnessEstimate estimate;
+identification::StiffnessEstimate estimateOf(const JointVector& compliance) {
+  identification::StiffnessEstimate estimate(6);
   estimate.compliance = compliance;
-  estimate.identifiable.fill(true);
+  estimate.identifiable.assign(6, true);
   return estimate;
 }
 
@@ -30,9 +30,9 @@ TEST(SeenCombinations, TheForearmsTwistIsNamedWithTheJointThatItHidesIn) {
     moved(1, d) = -0.01 * off(0, d);
     moved(2, d) = off(0, d) + off(1, d);
   }
-  Vector6d compliance = Vector6d::Ones();
+  JointVector compliance = JointVector::Ones(6);
   compliance[3] = 2.6;
-  Matrix6d own = Matrix6d::Identity() * 1e-4;
+  JointMatrix own = JointMatrix::Identity(6, 6) * 1e-4;
   const std::vector<HiddenParameter> parameters{{effects::Effect::link_compliance, "1/GJ of link 3", "1/Nm2", 0.5},
                                                 {effects::Effect::link_compliance, "1/EI of link 3", "1/Nm2", 0.0}};
   const std::vector<SeenCombination> seen =

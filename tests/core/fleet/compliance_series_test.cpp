@@ -47,14 +47,14 @@ TEST(ComplianceSeries, TwoDaysAreAsAPairedFitHasThem) {
   std::mt19937_64 draws(5);
   std::normal_distribution<double> normal;
   std::vector<CampaignResult> days;
-  comparison::PairedFit pair;
+  comparison::PairedFit pair(6);
   pair.same_postures = true;
   pair.influences.resize(9);
   for (std::size_t t = 0; t < 2; ++t) {
     std::vector<double> influences(9);
     for (std::size_t p = 0; p < 9; ++p) {
       influences[p] = normal(draws);
-      pair.influences[p][t] = Vector6d::Zero();
+      pair.influences[p][t] = JointVector::Zero(6);
       pair.influences[p][t][1] = influences[p];
     }
     days.push_back(dayOf(influences, 20.0 + normal(draws)));

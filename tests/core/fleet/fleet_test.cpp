@@ -109,7 +109,7 @@ TEST(Fleet, AChangeOfThePairsIsCorrectedOverTheFleet) {
   std::vector<FleetPair> pairs = pairsOf(seriesOf(all));
   ASSERT_EQ(pairs.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) {
-    pairs[i].result.emplace();
+    pairs[i].result.emplace(6);
     pairs[i].result->p_value[1] = 0.01 * static_cast<double>(i + 1);
   }
   const Fleet fleet = studyFleet(all, pairs);
@@ -161,7 +161,7 @@ TEST(Fleet, AMovedGeometryIsAChange) {
   std::vector<FleetCampaign> all = campaignsOf("a", unchangedDays(draws, 3, 12));
   for (FleetCampaign& one : all) one.result->kind = DayKind::unloaded;
   std::vector<FleetPair> pairs = pairsOf(seriesOf(all));
-  for (FleetPair& pair : pairs) pair.result.emplace().kind = DayKind::unloaded;
+  for (FleetPair& pair : pairs) pair.result.emplace(6).kind = DayKind::unloaded;
   pairs[0].result->machine_p = 0.4, pairs[1].result->machine_p = 1e-6, pairs[1].result->at_targets = 2e-4;
   const Fleet fleet = studyFleet(all, pairs);
   ASSERT_EQ(fleet.steps.size(), 1u);

@@ -10,7 +10,7 @@ namespace stiffscope::fleet {
 /// A day with loads by Partial Pose whose joint 2 alone is seen, with these influences and this compliance. Units are
 /// the test's own.
 inline CampaignResult dayOf(const std::vector<double>& influences, double compliance) {
-  CampaignResult day;
+  CampaignResult day(6);
   day.audit = preparation::AuditVerdict::pass;
   day.method = day.springs_method = identification::Method::partial_pose;
   SpringsOfDay& springs = day.springs[static_cast<std::size_t>(identification::Method::partial_pose)];
@@ -19,9 +19,9 @@ inline CampaignResult dayOf(const std::vector<double>& influences, double compli
   springs.compliance[1] = compliance;
   springs.dof.setConstant(static_cast<double>(influences.size()));
   for (std::size_t p = 0; p < influences.size(); ++p) {
-    springs.influences.push_back(Vector6d::Unit(1) * influences[p]);
+    springs.influences.push_back(JointVector::Unit(6, 1) * influences[p]);
     day.loaded_postures.push_back(
-        {std::to_string(p), Vector6d::Constant(0.1 * static_cast<double>(p)), Eigen::Vector3d(0.0, 0.0, -1500.0)});
+        {std::to_string(p), JointVector::Constant(6, 0.1 * static_cast<double>(p)), Eigen::Vector3d(0.0, 0.0, -1500.0)});
   }
   day.postures = static_cast<int>(influences.size());
   return day;

@@ -27,12 +27,15 @@ Eigen::Matrix4d exponential(const Eigen::Vector3d& rotation, const Eigen::Vector
 struct Arm {
   frames::LoadingGeometry geometry;
   Eigen::Vector3d centre{0.8, -0.3, 1.2};
-  Vector6d q = degrees(20, -30, 40, 100, -50, 70);
-  Eigen::VectorXd steps = Eigen::VectorXd::Zero(ArmParameters::count(kTargets));
+  JointVector q;
+  ArmParameters at;
+  Eigen::VectorXd steps;
 
-  Arm() {
+  explicit Arm(const ChainArm& chain = exampleChain())
+      : at(chain.joints()), steps(Eigen::VectorXd::Zero(at.count(kTargets))) {
     Noise noise(5);
-    geometry.arm = exampleChain().disturbed(noise, 1e-2, 2e-2).robot();  // no two axes meet or are parallel
+    geometry.arm = chain.disturbed(noise, 1e-2, 2e-2).robot();  // no two axes meet or are parallel
+    q = chain.joints() == 6 ? degrees(20, -30, 40, 100, -50, 70) : somePosture(noise, chain);
     geometry.r0_from_loading = Eigen::Translation3d(3.0, -2.0, 0.5) * Eigen::AngleAxisd(0.7, noise.direction());
     for (std::size_t t = 0; t < kTargets; ++t)
       geometry.targets_at_zero.push_back(geometry.arm.base_from_flange_at_zero * (0.3 * noise.normal3()));
@@ -42,24 +45,22 @@ struct Arm {
   Arm stepped() const {
     Arm other = *this;
     for (Eigen::Index k = 0; k < steps.size(); ++k) other.steps[k] = 0.02 * std::cos(3.0 * static_cast<double>(k));
-    other.steps.segment<3>(ArmParameters::kBaseAt) << 0.5, -0.8, 0.3;
+    other.steps.segment<3>(at.baseAt()) << 0.5, -0.8, 0.3;
     return other;
   }
 
   frames::AxesAtStart start() const { return frames::axesAtStart(geometry.arm.axes_in_base_at_zero); }
 
-  frames::PlacedArm placed() const {
-    return {start(), centre, steps.head<24>(), steps.segment<6>(ArmParameters::kBaseAt)};
-  }
+  frames::PlacedArm placed() const { return {start(), centre, steps.head(at.axes()), steps.segment<6>(at.baseAt())}; }
 
   Eigen::Vector3d atZero(std::size_t target) const {
-    return *geometry.targets_at_zero[target] + steps.segment<3>(ArmParameters::targetAt(target));
+    return *geometry.targets_at_zero[target] + steps.segment<3>(at.targetAt(target));
   }
 
   /// By the equation of the header.
   Eigen::Vector3d expected(std::size_t target) const {
     Eigen::Vector4d point = atZero(target).homogeneous();
-    for (int j = 5; j >= 0; --j) {
+    for (int j = geometry.arm.joints() - 1; j >= 0; --j) {
       const metrology::MeasuredLine axis = start()[static_cast<std::size_t>(j)];
       const Eigen::Vector4d own = steps.segment<4>(4 * j);
       const Eigen::Vector3d at = axis.line.point + own[0] * axis.across_u + own[1] * axis.across_v;
@@ -67,8 +68,8 @@ struct Arm {
       const Eigen::Vector3d turn = q[j] * along / along.norm();
       point = exponential(turn, at.cross(turn)) * point;
     }
-    const Eigen::Vector3d rotation = steps.segment<3>(ArmParameters::kBaseAt);
-    const Eigen::Vector3d shift = steps.segment<3>(ArmParameters::kBaseAt + 3);
+    const Eigen::Vector3d rotation = steps.segment<3>(at.baseAt());
+    const Eigen::Vector3d shift = steps.segment<3>(at.baseAt() + 3);
     return exponential(-rotation, Eigen::Vector3d::Zero()).topLeftCorner<3, 3>() * (point.head<3>() - centre - shift) +
            centre;
   }
@@ -90,15 +91,16 @@ struct Arm {
     const frames::PlacedPosture posture(arm, q);
     const Eigen::Vector3d position = posture.position(atZero(target));
     Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(3, steps.size());
-    columns.leftCols<24>() = posture.byAxes(position);
-    columns.middleCols<6>(ArmParameters::kBaseAt) = posture.byBase(position);
-    columns.middleCols<3>(ArmParameters::targetAt(target)) = posture.byTarget();
+    columns.leftCols(at.axes()) = posture.byAxes(position);
+    columns.middleCols<6>(at.baseAt()) = posture.byBase(position);
+    columns.middleCols<3>(at.targetAt(target)) = posture.byTarget();
     return columns;
   }
 };
 
 TEST(PlacedPosture, IsTheProductOfExponentials) {
-  for (const Arm& one : {Arm(), Arm().stepped()}) {
+  for (const Arm& one : {Arm(), Arm().stepped(), Arm(fiveAxisChain()).stepped(), Arm(sevenAxisChain()).stepped(),
+                         Arm(eightAxisChain()).stepped()}) {
     const frames::PlacedArm arm = one.placed();
     const frames::PlacedPosture posture(arm, one.q);
     for (std::size_t t = 0; t < kTargets; ++t)
@@ -108,13 +110,14 @@ TEST(PlacedPosture, IsTheProductOfExponentials) {
 
 TEST(PlacedPosture, HasTheDerivativesOfTheProductOfExponentials) {
   Arm hardly_turned = Arm().stepped();  // the other side of where the turn's series ends
-  hardly_turned.steps.segment<3>(ArmParameters::kBaseAt) *= 1e-3;
-  for (const Arm& one : {Arm(), hardly_turned, Arm().stepped()}) {
+  hardly_turned.steps.segment<3>(hardly_turned.at.baseAt()) *= 1e-3;
+  for (const Arm& one : {Arm(), hardly_turned, Arm().stepped(), Arm(fiveAxisChain()).stepped(),
+                         Arm(sevenAxisChain()).stepped(), Arm(eightAxisChain()).stepped()}) {
     for (std::size_t t = 0; t < kTargets; ++t) {
       const Eigen::MatrixXd expected = one.differences(t);
       // Rounding of some metres over a step of 1e-5, and the third derivative times the step's square.
       EXPECT_LT((one.computed(t) - expected).cwiseAbs().maxCoeff(), 1e-9) << one.computed(t) - expected;
-      EXPECT_GT(expected.leftCols(ArmParameters::kTargetsAt).colwise().norm().minCoeff(), 1e-3);  // none is empty
+      EXPECT_GT(expected.leftCols(one.at.targetsAt()).colwise().norm().minCoeff(), 1e-3);  // none is empty
     }
   }
 }
@@ -123,7 +126,7 @@ TEST(PlacedPosture, HasTheJacobianOfItsAngles) {
   const Arm one = Arm().stepped();
   const frames::PlacedArm arm = one.placed();
   const Eigen::Vector3d position = frames::PlacedPosture(arm, one.q).position(one.atZero(0));
-  const Matrix36d by_angles = frames::PlacedPosture(arm, one.q).byAngles(position);
+  const PointJacobian by_angles = frames::PlacedPosture(arm, one.q).byAngles(position);
   for (int j = 0; j < 6; ++j) {
     constexpr double kStep = 1e-5;
     Arm ahead = one, behind = one;
@@ -134,16 +137,17 @@ TEST(PlacedPosture, HasTheJacobianOfItsAngles) {
 }
 
 /// Where a geometry's forward kinematics has a reflector, in the frame of the readings.
-Eigen::Vector3d inLoading(const frames::LoadingGeometry& geometry, const Vector6d& q, std::size_t target) {
+Eigen::Vector3d inLoading(const frames::LoadingGeometry& geometry, const JointVector& q, std::size_t target) {
   return geometry.r0_from_loading->inverse() *
-         (robot::postureAt(geometry.arm, q).motion[6] * *geometry.targets_at_zero[target]);
+         (robot::postureAt(geometry.arm, q).motion.back() * *geometry.targets_at_zero[target]);
 }
 
 TEST(Moved, PutsReflectorsWhereTheParametersSay) {
-  const Arm one = Arm().stepped();
-  const frames::LoadingGeometry there = frames::moved(one.geometry, one.steps, one.centre);
-  for (std::size_t t = 0; t < kTargets; ++t) {
-    EXPECT_LT((inLoading(there, one.q, t) - one.geometry.r0_from_loading->inverse() * one.expected(t)).norm(), 1e-13);
+  for (const Arm& one : {Arm().stepped(), Arm(fiveAxisChain()).stepped(), Arm(sevenAxisChain()).stepped()}) {
+    const frames::LoadingGeometry there = frames::moved(one.geometry, one.steps, one.centre);
+    for (std::size_t t = 0; t < kTargets; ++t) {
+      EXPECT_LT((inLoading(there, one.q, t) - one.geometry.r0_from_loading->inverse() * one.expected(t)).norm(), 1e-13);
+    }
   }
 }
 

@@ -17,7 +17,7 @@ struct JointLine {
 };
 
 JointLine jointLine(const ChainArm& arm, std::size_t joint) {
-  const Frame frame = arm.framesAt(Vector6d::Zero())[joint];
+  const Frame frame = arm.framesAt(JointVector::Zero(6))[joint];
   return {frame.translation(), frame.linear() * arm.axis[joint]};
 }
 
@@ -93,7 +93,7 @@ TEST(MeasuredFrames, AnArmWithGeometryErrorsComesBack) {
   EXPECT_NEAR(frames.links[1].nominal_distance, 1.12, 1e-12);
   EXPECT_NEAR(frames.links[0].nominal_distance, 0.41, 1e-12);
 
-  const auto at_zero = lab.actual.framesAt(Vector6d::Zero());
+  const auto at_zero = lab.actual.framesAt(JointVector::Zero(6));
   for (std::size_t k = 0; k < 3; ++k) {
     ASSERT_TRUE(frames.targets_in_r0_at_zero[k]);
     EXPECT_LT((base_from_r0 * *frames.targets_in_r0_at_zero[k] - at_zero[6] * lab.targets_in_flange[k]).norm(), kExact);
@@ -119,20 +119,22 @@ TEST(MeasuredFrames, WristCentreAndTableOne) {
   lab.addWristSweep(campaign);
   const frames::Frames frames = frames::measureFrames(campaign);
   ASSERT_TRUE(frames.wrist.measured) << reports::words(frames.wrist.reason);
-  const Vector6d q = campaign.wrist_sweep->rows.front().q;
+  const JointVector q = campaign.wrist_sweep->rows.front().q;
   const Frame base_from_r0 = baseFromR0(lab.actual);
   const Eigen::Vector3d centre = lab.actual.framesAt(q)[4].translation();  // joint 5's origin: on all three axes
   constexpr double kExact = 1e-9;
   EXPECT_LT((base_from_r0 * frames.wrist.centre_in_r0 - centre).norm(), kExact);
-  EXPECT_LT((base_from_r0 * frames.wrist.nearest_axes_56_in_r0 - centre).norm(), kExact);
-  EXPECT_LT((base_from_r0 * frames.wrist.centre_at_zero_in_r0 - lab.actual.framesAt(Vector6d::Zero())[4].translation())
-                .norm(),
-            kExact);
-  EXPECT_LT(frames.wrist.miss_45, kExact);
-  EXPECT_LT(frames.wrist.miss_56, kExact);
+  EXPECT_LT((base_from_r0 * frames.wrist.nearest_last_axes_in_r0 - centre).norm(), kExact);
+  EXPECT_LT(
+      (base_from_r0 * frames.wrist.centre_at_zero_in_r0 - lab.actual.framesAt(JointVector::Zero(6))[4].translation())
+          .norm(),
+      kExact);
+  ASSERT_EQ(frames.wrist.misses.size(), 2u);
+  for (const frames::WristAxesMiss& miss : frames.wrist.misses) EXPECT_LT(miss.distance, kExact) << miss.first;
+  EXPECT_EQ(frames.wrist.misses[0].first, 3);
   ASSERT_EQ(frames.wrist.table.size(), 3u);
   Eigen::Vector3d barycentre = Eigen::Vector3d::Zero();
-  Vector6d q_arm = q;
+  JointVector q_arm = q;
   q_arm.tail<3>().setZero();
   for (std::size_t k = 0; k < 3; ++k) {
     EXPECT_LT(frames.wrist.table[k].offset, kExact);
@@ -157,7 +159,7 @@ TEST(MeasuredFrames, OwnWeightIsTakenOffByTheRightCompliance) {
       worst = std::max(
           worst, distanceToLine(jointLine(lab.actual, j), base_from_r0 * frames.arm.arm.axes_in_base_at_zero[j].point));
     }
-    const auto at_zero = lab.actual.framesAt(Vector6d::Zero());
+    const auto at_zero = lab.actual.framesAt(JointVector::Zero(6));
     for (std::size_t k = 0; k < 3; ++k) {
       worst = std::max(
           worst, (base_from_r0 * *frames.targets_in_r0_at_zero[k] - at_zero[6] * lab.targets_in_flange[k]).norm());
@@ -264,9 +266,9 @@ TEST(R0, AxisTwoTurningTheOtherWay) {
 TEST(R0, AFlangeWithin50MillimetresOfAxisOne) {
   // The whole arm upright: axis 2 is along y, the flange stands behind axis 1, by 49 mm, then by 51.
   ChainArm arm = exampleChain();
-  const double ahead = arm.flangeAt(Vector6d::Zero()).translation().x();
+  const double ahead = arm.flangeAt(JointVector::Zero(6)).translation().x();
   arm.to_joint[5].translation().x() -= ahead + 0.049;
-  ASSERT_NEAR(arm.flangeAt(Vector6d::Zero()).translation().x(), -0.049, 1e-12);
+  ASSERT_NEAR(arm.flangeAt(JointVector::Zero(6)).translation().x(), -0.049, 1e-12);
   EXPECT_GT(ruleOf(arm).linear()(1, 1), 0.999);  // in the sense of positive axis 2
   arm.to_joint[5].translation().x() -= 0.002;
   EXPECT_LT(ruleOf(arm).linear()(1, 1), -0.999);  // x0 towards the flange, behind: y0 turned round

@@ -19,7 +19,7 @@ SimulatedLab labWithErrors() {
 }
 
 /// Where the calibrated geometry puts a reflector, in the tracker's frame.
-Eigen::Vector3d predicted(const frames::LoadingGeometry& geometry, const Vector6d& q, std::size_t target) {
+Eigen::Vector3d predicted(const frames::LoadingGeometry& geometry, const JointVector& q, std::size_t target) {
   return geometry.r0_from_loading->inverse() *
          (robot::postureAt(geometry.arm, q).motion[6] * *geometry.targets_at_zero[target]);
 }
@@ -28,14 +28,14 @@ double worstPrediction(const SimulatedLab& lab, const frames::LoadingGeometry& g
   Noise noise(99);
   double worst = 0.0;
   for (int i = 0; i < 30; ++i) {
-    const Vector6d q = somePosture(noise);
+    const JointVector q = somePosture(noise);
     for (std::size_t k = 0; k < 3; ++k) worst = std::max(worst, (predicted(geometry, q, k) - lab.seen(q, k)).norm());
   }
   return worst;
 }
 
 frames::LoadingGeometry nominalStart(const campaign::Campaign& campaign) {
-  return frames::sweptGeometry(campaign, frames::measureFrames(campaign), Vector6d::Zero());
+  return frames::sweptGeometry(campaign, frames::measureFrames(campaign), JointVector::Zero(6));
 }
 
 TEST(CalibrateGeometry, FindsTheArmFromPosturesAlone) {
@@ -78,7 +78,7 @@ TEST(CalibrateGeometry, AJointThatNeverMovesIsFoundToo) {
   lab.addLoading(campaign, 25, pulledForce);
   for (std::size_t i = 0; i < campaign.states->rows.size(); ++i) campaign.states->rows[i].q[3] = 0.3;
   for (campaign::LoadingReading& row : campaign.loading->rows) {
-    const Vector6d& q = campaign.states->rows[2 * static_cast<std::size_t>(row.pose)].q;
+    const JointVector& q = campaign.states->rows[2 * static_cast<std::size_t>(row.pose)].q;
     row.point = lab.seen(q, static_cast<std::size_t>(row.target));
   }
   const frames::GeometryCalibration found = frames::calibrateGeometry(campaign, nominalStart(campaign));
@@ -148,7 +148,7 @@ TEST(BaseFromPostures, NominalArmExactly) {
   EXPECT_LT((found->points_from_base.matrix() - tracker_from_r0.matrix()).norm(), 1e-9);
   for (std::size_t k = 0; k < 3; ++k) {
     EXPECT_LT((start.r0_from_base_link.inverse() * *found->targets_at_zero[k] -
-               lab.actual.flangeAt(Vector6d::Zero()) * lab.targets_in_flange[k])
+               lab.actual.flangeAt(JointVector::Zero(6)) * lab.targets_in_flange[k])
                   .norm(),
               1e-9);
   }

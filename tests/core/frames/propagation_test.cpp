@@ -41,7 +41,7 @@ campaign::Campaign sweptOver(const SimulatedLab& lab, double arc_deg) {
   constexpr int kStops = 13;
   for (int axis = 0; axis < 6; ++axis) {
     for (int stop = 0; stop < kStops; ++stop) {
-      Vector6d q = axis == 0 ? Vector6d(Vector6d::Zero()) : degrees(-14, axis > 2 ? 8 : 0, 0, 0, 0, 0);
+      JointVector q = axis == 0 ? JointVector(JointVector::Zero(6)) : degrees(-14, axis > 2 ? 8 : 0, 0, 0, 0, 0);
       q[axis] += radians(arc_deg * (static_cast<double>(stop) / kStops - 0.5));
       for (std::size_t k = 0; k < 3; ++k) {
         campaign.circle_sweeps->rows.push_back({axis, std::to_string(stop), static_cast<int>(k), q, lab.seen(q, k)});
@@ -92,27 +92,27 @@ metrology::FrameError errorOfR0(const frames::Frames& truth, const frames::Frame
 }
 
 void addGeometry(const frames::Frames& truth, const frames::Frames& found, Coverage& coverage) {
-  using At = frames::FramesCovariance;
+  constexpr frames::FramesLayout kAt(6);
   const Eigen::MatrixXd total = found.covariance.total();
   const auto block = [&](Eigen::Index at, Eigen::Index size) { return total.block(at, at, size, size); };
-  coverage.add("R0", errorOfR0(truth, found), block(At::kR0, 6));
-  coverage.add("the wrist centre", found.wrist.centre_in_r0 - truth.wrist.centre_in_r0, block(At::kWristCentre, 3));
+  coverage.add("R0", errorOfR0(truth, found), block(kAt.kR0, 6));
+  coverage.add("the wrist centre", found.wrist.centre_in_r0 - truth.wrist.centre_in_r0, block(kAt.wrist_centre, 3));
   Eigen::Vector3d radii, lengths;
   for (int k = 0; k < 3; ++k) {
     radii[k] = found.wrist.radii[static_cast<std::size_t>(k)] - truth.wrist.radii[static_cast<std::size_t>(k)];
     lengths[k] = found.links[static_cast<std::size_t>(k)].distance - truth.links[static_cast<std::size_t>(k)].distance;
   }
-  coverage.add("the radii together", radii, block(At::kRadii, 3));
-  coverage.add("lengths 1-2, 2-3, 3-4 together", lengths, block(At::kDistances, 3));
+  coverage.add("the radii together", radii, block(kAt.radii, 3));
+  coverage.add("lengths 1-2, 2-3, 3-4 together", lengths, block(kAt.kDistances, 3));
   coverage.add("the mean of Table I", found.wrist.table_mean_in_r0 - truth.wrist.table_mean_in_r0,
                found.wrist.table_mean_covariance);
   for (std::size_t i = 0; i < 5; ++i) {
     const auto row = static_cast<Eigen::Index>(i);
     const auto name = std::to_string(i + 1) + "-" + std::to_string(i + 2);
     coverage.add("length " + name, Eigen::VectorXd::Constant(1, found.links[i].distance - truth.links[i].distance),
-                 block(At::kDistances + row, 1));
+                 block(kAt.kDistances + row, 1));
     coverage.add("angle " + name, Eigen::VectorXd::Constant(1, found.links[i].angle - truth.links[i].angle),
-                 block(At::kAngles + row, 1));
+                 block(kAt.angles + row, 1));
   }
 }
 
@@ -139,7 +139,7 @@ TEST(PropagationCoverage, FullTurns) { expectCoverage(360.0); }
 TEST(Propagation, ConsecutiveLinksShareAnAxis) {
   const frames::Frames frames = frames::measureFrames(sweptOver(propagationLab(), 40.0));
   const auto& total = frames.covariance.readings;
-  const Eigen::Index one = frames::FramesCovariance::kDistances, two = one + 1;
+  const Eigen::Index one = frames::FramesLayout::kDistances, two = one + 1;
   EXPECT_GT(std::abs(total(one, two)) / std::sqrt(total(one, one) * total(two, two)), 0.05);
   EXPECT_NEAR(*frames.links[1].distance_sd, std::sqrt(total(two, two)), 1e-15);
   EXPECT_EQ(frames.links[1].distance_sag_sd, 0.0);
@@ -175,17 +175,17 @@ TEST(Propagation, MassesDeclaredUncertainMoveAsCompliancesDo) {
   campaign.mass_sigma = 0.04;
   const frames::Frames stated = frames::refineFrames(campaign, start, lab.compliance);
   const frames::Frames softer = frames::refineFrames(campaign, start, 1.04 * lab.compliance);
-  using At = frames::FramesCovariance;
+  constexpr frames::FramesLayout kAt(6);
   EXPECT_TRUE(plain.covariance.by_masses.isZero(0.0));
   for (std::size_t i = 0; i < 3; ++i) {
     const double moved = softer.links[i].distance - plain.links[i].distance;
     // A hundredth: own weight turns with the sagged arm, once more by the compliance alone.
-    EXPECT_NEAR(stated.covariance.by_masses[At::kDistances + static_cast<Eigen::Index>(i)], moved,
+    EXPECT_NEAR(stated.covariance.by_masses[kAt.kDistances + static_cast<Eigen::Index>(i)], moved,
                 0.01 * std::abs(moved) + 1e-9);
     EXPECT_NEAR(*stated.links[i].distance_sd, std::hypot(*plain.links[i].distance_sd, moved),
                 0.01 * std::abs(moved) + 1e-9);
   }
-  EXPECT_GT(stated.covariance.by_masses.segment<3>(At::kDistances).norm(), 1e-5);
+  EXPECT_GT(stated.covariance.by_masses.segment<3>(kAt.kDistances).norm(), 1e-5);
   EXPECT_LT((errorOfR0(plain, softer) - stated.covariance.by_masses.head<6>()).norm(),
             0.01 * errorOfR0(plain, softer).norm());
 }
@@ -194,18 +194,18 @@ TEST(Propagation, StiffnessesOfTheSagByMonteCarlo) {
   // The sag taken off by compliances drawn from a covariance, 5 % each and 1-3 correlated: how R0, links and wrist
   // scatter. 400 draws know a standard deviation to 3.5 %; 12 % is over three of that.
   const auto [lab, campaign] = saggingDay();
-  Matrix6d half = Matrix6d(0.05 * exampleCompliance().asDiagonal());
+  JointMatrix half = JointMatrix(0.05 * exampleCompliance().asDiagonal());
   half(1, 0) = half(2, 1) = -0.03 * exampleCompliance()[1];
   frames::Frames start = frames::measureFrames(campaign);
   for (int round = 0; round < 2; ++round) start = frames::refineFrames(campaign, start, lab.compliance);
   const frames::Frames stated =
-      frames::refineFrames(campaign, start, lab.compliance, Matrix6d(half * half.transpose()));
+      frames::refineFrames(campaign, start, lab.compliance, JointMatrix(half * half.transpose()));
 
   Noise noise(9);
   constexpr int kSagDraws = 400;
   Eigen::Matrix<double, 10, 1> squares = Eigen::Matrix<double, 10, 1>::Zero(), expected;
   for (int k = 0; k < kSagDraws; ++k) {
-    Vector6d z;
+    JointVector z(6);
     for (int joint = 0; joint < 6; ++joint) z[joint] = noise.normal();
     const frames::Frames found = frames::refineFrames(campaign, start, lab.compliance + half * z);
     Eigen::Matrix<double, 10, 1> off;
@@ -214,8 +214,8 @@ TEST(Propagation, StiffnessesOfTheSagByMonteCarlo) {
     squares += off.cwiseAbs2();
   }
   expected << stated.covariance.sag.diagonal().head<6>(),
-      stated.covariance.sag(frames::FramesCovariance::kDistances + 1, frames::FramesCovariance::kDistances + 1),
-      stated.covariance.sag.diagonal().segment<3>(frames::FramesCovariance::kWristCentre);
+      stated.covariance.sag(frames::FramesLayout::kDistances + 1, frames::FramesLayout::kDistances + 1),
+      stated.covariance.sag.diagonal().segment<3>(frames::FramesLayout(6).wrist_centre);
   for (int i = 0; i < 10; ++i) {
     const double drawn = std::sqrt(squares[i] / kSagDraws), by_law = std::sqrt(expected[i]);
     EXPECT_NEAR(by_law, drawn, 0.12 * drawn + 1e-9) << i;  // 1 nm and 1 nrad: nothing moves it

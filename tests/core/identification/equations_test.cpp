@@ -18,12 +18,12 @@ TEST(LinearMachine, TorqueIsTheTestsOwn) {
   const auto torques = machine.torques();
   for (std::size_t i = 0; i < machine.cases.size(); ++i) {
     const robot::Wrench& wrench = machine.cases[i].wrench;
-    const Vector6d own = machine.chain.torqueOf(machine.cases[i].q, 6, wrench.point, wrench.force, wrench.moment);
+    const JointVector own = machine.chain.torqueOf(machine.cases[i].q, 6, wrench.point, wrench.force, wrench.moment);
     EXPECT_LT((torques[i] - own).norm(), 1e-10 * own.norm());  // rounding of sums of 1e4 Nm
     const Eigen::Vector3d wrist =
         identification::modelledWrist(machine.geometry.arm, machine.cases[i], machine.wrist_at_zero);
     for (const Eigen::Vector3d& elsewhere : {wrist, Eigen::Vector3d(5, -7, 9)}) {
-      const Vector6d there = robot::jointTorque(machine.cases[i].axes, wrench.about(elsewhere));
+      const JointVector there = robot::jointTorque(machine.cases[i].axes, wrench.about(elsewhere));
       EXPECT_LT((there - own).norm(), 1e-10 * own.norm());
     }
   }
@@ -79,7 +79,7 @@ TEST(FullLoad, WithoutTheMiddleOfTheDisplacementTheSecondOrderShows) {
 /// Stacks equations and solves for the joints from `first` to `last` by QR, the right side less A c of the
 /// others.
 Eigen::VectorXd byHand(const std::vector<identification::CaseEquations>& equations, int first, int count,
-                       const Vector6d& others) {
+                       const JointVector& others) {
   Eigen::Index rows = 0;
   for (const identification::CaseEquations& one : equations) rows += one.right.size();
   Eigen::MatrixXd matrix(rows, 6);
@@ -109,8 +109,8 @@ LinearMachine noisyMachine(int postures, std::uint64_t seed) {
 TEST(DecoupledPartialPose, IsTwoLeastSquaresOneAfterTheOther) {
   const LinearMachine machine = noisyMachine(kPostures, 7);
   const auto wrist = machine.wristEquationsOfAll(), reflectors = machine.reflectorEquations();
-  Vector6d arm = Vector6d::Zero();
-  arm.head<3>() = byHand(wrist, 0, 3, Vector6d::Zero());
+  JointVector arm = JointVector::Zero(6);
+  arm.head<3>() = byHand(wrist, 0, 3, JointVector::Zero(6));
   const Eigen::VectorXd wrist_joints = byHand(reflectors, 3, 3, arm);
   const identification::StiffnessEstimate found = identification::decoupledPartialPose(wrist, reflectors, kAllJoints);
   // Normal equations against QR: 1e-16 times the condition (tens) squared.
@@ -121,7 +121,7 @@ TEST(DecoupledPartialPose, IsTwoLeastSquaresOneAfterTheOther) {
 TEST(PartialPose, IsTheLeastSquaresOfTheStackedRows) {
   const LinearMachine machine = noisyMachine(kPostures, 8);
   const auto reflectors = machine.reflectorEquations();
-  const Eigen::VectorXd by_hand = byHand(reflectors, 0, 6, Vector6d::Zero());
+  const Eigen::VectorXd by_hand = byHand(reflectors, 0, 6, JointVector::Zero(6));
   const identification::StiffnessEstimate found = identification::partialPose(reflectors, kAllJoints);
   EXPECT_LT((found.compliance - by_hand).norm(), 1e-10 * by_hand.norm());
   double sum = 0.0;
@@ -192,7 +192,7 @@ TEST(StatedUncertainty, CoversTheTruthWithNineteenPostures) {
 }
 
 TEST(Mark, NegativeAndImprecise) {
-  identification::StiffnessEstimate estimate;
+  identification::StiffnessEstimate estimate(6);
   estimate.compliance << 1e-6, -1e-6, 1e-6, 1e-6, 1e-6, 1e-6;
   estimate.covariance.diagonal() << 1e-14, 1e-14, 4e-12, 1e-14, 1e-14, 1e-14;
   EXPECT_TRUE(estimate.mark(0).empty());

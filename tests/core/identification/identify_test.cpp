@@ -21,7 +21,7 @@ identification::IdentifyOptions quick(bool finite_deflection = true) {
   return options;
 }
 
-constexpr robot::JointMask kWithoutFirst{false, true, true, true, true, true};
+const robot::JointMask kWithoutFirst{false, true, true, true, true, true};
 
 TEST(Identify, TheNonlinearEquilibriumGivesTheSpringsBack) {
   // Springs and loads in equilibrium on the moved arm, by the test's iteration. With K_c and Jacobians at the
@@ -280,14 +280,14 @@ TEST(WristLeak, OnlyWhatJointsFourToSixPutThere) {
   identification::LoadedArm arm;
   arm.geometry.arm = exampleArm();
   identification::LoadCase load_case;
-  load_case.axes = robot::axesAt(arm.geometry.arm, robot::postureAt(arm.geometry.arm, Vector6d::Zero()));
+  load_case.axes = robot::axesAt(arm.geometry.arm, robot::postureAt(arm.geometry.arm, JointVector::Zero(6)));
   arm.cases = {load_case};
   arm.wrist = {{Eigen::Vector3d::Zero(), Eigen::Vector3d(0, 0, 2e-3)}};
-  arm.torques = {Vector6d::Constant(1000.0)};
+  arm.torques = {JointVector::Constant(6, 1000.0)};
   const metrology::Line& axis = arm.geometry.arm.axes_in_base_at_zero[4];
   Eigen::Vector3d across, other;
   metrology::basisAcross(axis.direction, across, other);
-  Vector6d compliance = Vector6d::Constant(1e-6);
+  JointVector compliance = JointVector::Constant(6, 1e-6);
   compliance[3] = compliance[5] = 0.0;  // joint 5 alone: 1e-6 rad/Nm times 1000 Nm turns it by 1 mrad
   EXPECT_NEAR(identification::wristLeak(arm, axis.point, compliance), 0.0, 1e-12);  // on the axis: rounding
   // 1 mrad over 0.1 m is 0.1 mm of 2 mm.
@@ -299,7 +299,7 @@ TEST(JudgeJoints, AJointSeenOnlyInCombination) {
   LinearMachine machine(0, 1.0);
   Noise noise(4);
   for (int i = 0; i < 10; ++i) {
-    Vector6d q = somePosture(noise);
+    JointVector q = somePosture(noise);
     q[4] = 0.0;
     machine.add(q, 1000.0 * noise.normal3(), 200.0 * noise.normal3());
   }
@@ -338,7 +338,7 @@ TEST(JudgeJoints, ATorqueBelowItsUncertaintyDoesNotCount) {
   const campaign::LoadCell vague{"tool0", Eigen::Isometry3d::Identity(), {}, 0.0, 1e5};  // a moment known to 1e5 Nm
   const identification::Identifiability found =
       identification::evaluateIdentifiability(machine.geometry, machine.cases, vague, machine.reflectorEquations());
-  EXPECT_EQ(found.mask(), robot::JointMask{});
+  EXPECT_EQ(found.mask(), robot::JointMask(6, false));
   EXPECT_TRUE(found.joints[2].reason.is(identification::RemarkId::load_turns_too_little));
 }
 

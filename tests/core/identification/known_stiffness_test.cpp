@@ -11,7 +11,7 @@ using identification::StiffnessEstimate;
 
 /// k2 = 2e6 Nm/rad, of which c is known to 2 % by many degrees of freedom; the other joints are not seen.
 StiffnessEstimate oneJoint() {
-  StiffnessEstimate estimate;
+  StiffnessEstimate estimate(6);
   estimate.compliance[1] = 5e-7;
   estimate.identifiable[1] = true;
   estimate.covariance(1, 1) = estimate.parts.scatter(1, 1) = 1e-8 * 1e-8;

@@ -28,7 +28,7 @@ std::vector<CaseEquations> noisyPoses(int postures, double of_displacement, doub
 }
 
 /// Weighted least squares by QR of the stacked rows.
-Vector6d weighted(const std::vector<CaseEquations>& rows, double length) {
+JointVector weighted(const std::vector<CaseEquations>& rows, double length) {
   const auto count = static_cast<Eigen::Index>(rows.size());
   Eigen::MatrixXd matrix(6 * count, 6);
   Eigen::VectorXd right(6 * count);
@@ -60,7 +60,7 @@ TEST(ResidualVarianceLength, IsAFixedPointByAnotherSolver) {
   const std::vector<CaseEquations> rows = noisyPoses(12, 4e-5, 1e-4);
   const auto found = identification::residualVarianceLength(rows, kAllJoints, 1.0);
   ASSERT_TRUE(found);
-  const Vector6d compliance = weighted(rows, *found);
+  const JointVector compliance = weighted(rows, *found);
   double displacement = 0.0, rotation = 0.0;
   for (const CaseEquations& one : rows) {
     const Eigen::VectorXd left = one.right - one.matrix * compliance;

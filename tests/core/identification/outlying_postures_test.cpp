@@ -8,12 +8,12 @@
 namespace stiffscope {
 namespace outlying_postures_test {
 
-constexpr robot::JointMask kThree{false, true, true, true, false, false};
+const robot::JointMask kThree{false, true, true, true, false, false};
 
 std::vector<identification::CaseEquations> postures(int count) {
   std::mt19937_64 random(3);
   std::normal_distribution<double> normal;
-  Vector6d truth = Vector6d::Zero();
+  JointVector truth = JointVector::Zero(6);
   truth.segment<3>(1) << 2.0, 1.0, 3.0;
   std::vector<identification::CaseEquations> equations;
   for (int p = 0; p < count; ++p) {
@@ -26,7 +26,7 @@ std::vector<identification::CaseEquations> postures(int count) {
   return equations;
 }
 
-double rms(const std::vector<identification::CaseEquations>& equations, const Vector6d& compliance) {
+double rms(const std::vector<identification::CaseEquations>& equations, const JointVector& compliance) {
   double sum = 0.0, count = 0.0;
   for (const identification::CaseEquations& one : equations) {
     sum += (one.right - one.matrix * compliance).squaredNorm();
@@ -56,7 +56,7 @@ TEST(OutlyingPostures, AreJudgedByTheFitToTheOthers) {
     others.push_back(one);
     sum += identification::normalEquations(one);
   }
-  const Vector6d compliance = identification::solveNormal(sum, kThree);
+  const JointVector compliance = identification::solveNormal(sum, kThree);
   EXPECT_NEAR(found[1].rms, rms({equations[7]}, compliance), 1e-9);  // rounding of sums that one posture is taken from
   EXPECT_NEAR(found[1].others, rms(others, compliance), 1e-9);
   EXPECT_LT(found[1].p_value, 1e-3);

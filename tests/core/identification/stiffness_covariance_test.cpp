@@ -17,7 +17,7 @@
 namespace stiffscope {
 namespace stiffness_covariance_test {
 
-constexpr robot::JointMask kFirstOnly{true, false, false, false, false, false};
+const robot::JointMask kFirstOnly{true, false, false, false, false, false};
 
 /// b_p measured n times of one unknown: the mean, whose variance and degrees of freedom are in every book.
 std::vector<identification::CaseEquations> repeatedMeasurement(const std::vector<double>& values) {
@@ -36,7 +36,7 @@ identification::StiffnessEstimate meanOf(const std::vector<double>& values) {
   const auto equations = repeatedMeasurement(values);
   identification::NormalEquations sum;
   for (const identification::CaseEquations& one : equations) sum += identification::normalEquations(one);
-  identification::StiffnessEstimate estimate;
+  identification::StiffnessEstimate estimate(6);
   estimate.identifiable = kFirstOnly;
   estimate.compliance = identification::solveNormal(sum, kFirstOnly);
   identification::setScatterOfOneStage(identification::normalByPosture(equations), sum, estimate);
@@ -65,7 +65,7 @@ TEST(StiffnessCovariance, StepsOfAPostureCountOnce) {
   ASSERT_EQ(joined.size(), 5u);
   identification::NormalEquations sum;
   for (const identification::CaseEquations& one : joined) sum += identification::normalEquations(one);
-  identification::StiffnessEstimate estimate;
+  identification::StiffnessEstimate estimate(6);
   estimate.identifiable = kFirstOnly;
   estimate.compliance = identification::solveNormal(sum, kFirstOnly);
   identification::setScatterOfOneStage(identification::normalByPosture(doubled), sum, estimate);
@@ -118,10 +118,10 @@ identification::InfluenceCovariance manyPostures(int heavy) {
   std::normal_distribution<double> normal;
   constexpr int kPostures = 200;
   identification::InfluenceCovariance covariance{Eigen::VectorXd(kPostures), Eigen::MatrixXd(6, kPostures),
-                                                 Matrix6d::Zero()};
+                                                 JointMatrix::Zero(6, 6)};
   for (int p = 0; p < kPostures; ++p) {
     const double size = p % (kPostures / heavy) == 0 ? 6.0 : 1.0;
-    const Vector6d row = size * Vector6d::NullaryExpr([&] { return normal(random); });
+    const JointVector row = size * JointVector::NullaryExpr(6, [&] { return normal(random); });
     covariance.own[p] = row.squaredNorm();
     covariance.through.col(p) = row.squaredNorm() * row;
   }
@@ -216,7 +216,7 @@ TEST(StiffnessCovariance, OfTheSweepsIsWhatNoisySweepsScatter) {
   constexpr int kDays = 40;
   const std::array<identification::Method, 2> swept{identification::Method::complete_pose,
                                                     identification::Method::decoupled_partial_pose};
-  std::array<Vector6d, 2> sum{Vector6d::Zero(), Vector6d::Zero()}, squares = sum, stated = sum;
+  std::array<JointVector, 2> sum{JointVector::Zero(6), JointVector::Zero(6)}, squares = sum, stated = sum;
   for (int day = 0; day < kDays; ++day) {
     spec.measurement = 100 + static_cast<std::uint64_t>(day);
     const campaign::Campaign noisy = simulation::simulate(spec);

@@ -46,7 +46,7 @@ std::vector<identification::CaseEquations> chosen(const std::vector<identificati
 }
 
 /// 1 - sum |residual| / sum |displacement| over the points of the postures whose bit is set, by loops.
-double compensated(const std::vector<identification::CaseEquations>& all, unsigned bits, const Vector6d& c) {
+double compensated(const std::vector<identification::CaseEquations>& all, unsigned bits, const JointVector& c) {
   double left = 0.0, whole = 0.0;
   for (const identification::CaseEquations& one : chosen(all, bits)) {
     const Eigen::VectorXd rest = one.right - one.matrix * c;
@@ -56,19 +56,19 @@ double compensated(const std::vector<identification::CaseEquations>& all, unsign
   return 1.0 - left / whole;
 }
 
-bool before(const Vector6d& a, const Vector6d& b) {
+bool before(const JointVector& a, const JointVector& b) {
   return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
 }
 
 TEST(Subsets, FourOfSevenAreThoseSolvedOneByOne) {
   for (const bool decoupled : {false, true}) {
     const Problem problem(7, decoupled);
-    std::vector<Vector6d> direct;
+    std::vector<JointVector> direct;
     identification::SubsetCompensation sum;
     for (unsigned bits = 0; bits < 1U << 7; ++bits) {
       if (std::popcount(bits) != 4) continue;
       const auto reflectors = chosen(problem.reflectors, bits);
-      const Vector6d c =
+      const JointVector c =
           decoupled
               ? identification::decoupledPartialPose(chosen(problem.wrist, bits), reflectors, kAllJoints).compliance
               : identification::partialPose(reflectors, kAllJoints).compliance;
@@ -108,8 +108,8 @@ TEST(Subsets, ThePapersTenOfNineteenAreAll92378) {
   EXPECT_EQ(study.at_targets.compensated.held_out, again.at_targets.compensated.held_out);
   // Every posture is drawn equally often, so the mean over the subsets is near the whole's: within the
   // noise's size.
-  Vector6d mean = Vector6d::Zero();
-  for (const Vector6d& one : study.compliances) mean += one / static_cast<double>(study.compliances.size());
+  JointVector mean = JointVector::Zero(6);
+  for (const JointVector& one : study.compliances) mean += one / static_cast<double>(study.compliances.size());
   EXPECT_LT(worstError(mean, exampleCompliance()), 0.05);
 }
 
@@ -153,10 +153,10 @@ TEST(Subsets, OfManyPosturesEachHalfAgreesWithTheWhole) {
     const identification::SubsetStudy study = identification::studySubsets(problem.method);
     EXPECT_FALSE(study.every_subset);
     EXPECT_EQ(study.compliances.size(), 4000u);
-    const Vector6d whole =
+    const JointVector whole =
         decoupled ? identification::decoupledPartialPose(problem.wrist, problem.reflectors, kAllJoints).compliance
                   : identification::partialPose(problem.reflectors, kAllJoints).compliance;
-    for (const Vector6d& one : study.compliances) ASSERT_LT(worstError(one, whole), 0.1);
+    for (const JointVector& one : study.compliances) ASSERT_LT(worstError(one, whole), 0.1);
     // One posture more or less hardly changes such a fit: what is left of it, used or not, is what the whole leaves.
     const std::vector<double> left = problem.method.at_targets.residual(whole);
     for (std::size_t p = 0; p < left.size(); ++p) {
@@ -184,7 +184,7 @@ TEST(SubsetCount, ByHand) {
 TEST(StiffnessSpread, ByHand) {
   // Compliances 1, 2, 4, -4, 5 : stiffnesses 1, 0.5, 0.25, -0.25, 0.2.
   identification::SubsetStudy study;
-  for (const double c : {4.0, 1.0, -4.0, 2.0, 5.0}) study.compliances.push_back(Vector6d::Constant(c));
+  for (const double c : {4.0, 1.0, -4.0, 2.0, 5.0}) study.compliances.push_back(JointVector::Constant(6, c));
   const identification::StiffnessSpread spread = identification::spreadOf(study, 2);
   EXPECT_NEAR(spread.mean, 1.7 / 5.0, 1e-15);
   // Squares of 0.66, 0.16, -0.09, -0.59, -0.14 sum to 0.837, over n - 1 = 4.
@@ -208,10 +208,10 @@ TEST(DeflectionJudge, ByHand) {
   two.matrix(3, 0) = 1.0;
   const identification::DeflectionJudge judge({one, two});
   EXPECT_EQ(judge.displacement(), (std::vector<double>{5.0, 3.0}));
-  const std::vector<double> left = judge.residual(Vector6d::Unit(0));
+  const std::vector<double> left = judge.residual(JointVector::Unit(6, 0));
   EXPECT_NEAR(left[0], std::sqrt(20.0), 1e-15);
   EXPECT_NEAR(left[1], 2.0, 1e-15);
-  EXPECT_NEAR(judge.compensated(Vector6d::Unit(0)), 1.0 - (std::sqrt(20.0) + 2.0) / 8.0, 1e-15);
+  EXPECT_NEAR(judge.compensated(JointVector::Unit(6, 0)), 1.0 - (std::sqrt(20.0) + 2.0) / 8.0, 1e-15);
   EXPECT_EQ(judge.pointsOf(1), 2);
 }
 
@@ -219,7 +219,7 @@ TEST(DeflectionJudge, PointByPointOverManyPostures) {
   const Problem problem(43, false);
   const identification::DeflectionJudge& judge = problem.method.at_targets;
   ASSERT_EQ(judge.postures(), 43u);
-  const Vector6d c = 1.1 * exampleCompliance();
+  const JointVector c = 1.1 * exampleCompliance();
   const std::vector<double> left = judge.residual(c);
   for (std::size_t p = 0; p < left.size(); ++p) {
     const Eigen::VectorXd rest = problem.reflectors[p].right - problem.reflectors[p].matrix * c;

@@ -36,12 +36,12 @@ campaign::Campaign dayOf(const robot::Robot& arm) {
 
 identification::Transmission measured(const campaign::Campaign& campaign) {
   const frames::Frames frames = frames::measureFrames(campaign);
-  const Vector6d rigid = Vector6d::Zero();
+  const JointVector rigid = JointVector::Zero(6);
   return identification::measureTransmission(campaign, frames::sweptGeometry(campaign, frames, rigid), rigid);
 }
 
-campaign::State stateOf(int pose, int step, const Vector6d& q, const Eigen::Vector3d& force) {
-  campaign::State state;
+campaign::State stateOf(int pose, int step, const JointVector& q, const Eigen::Vector3d& force) {
+  campaign::State state(6);
   state.pose = pose, state.step = step, state.q = q;
   state.wrench_in_cell.head<3>() = force;
   return state;
@@ -59,7 +59,7 @@ TEST(Transmission, ByHandAtAllJointsZero) {
     campaign.pose_ids.push_back(std::to_string(pose));
     for (int step = 0; step < 3; ++step) {
       const double down = 500.0 * step, back = 100.0 * pose * step;
-      campaign::State state = stateOf(pose, step, Vector6d::Zero(), {-back, 0, -down});
+      campaign::State state = stateOf(pose, step, JointVector::Zero(6), {-back, 0, -down});
       const double tau2 = 1.585 * down - 1.37 * back, tau3 = -1.585 * down + 0.25 * back;
       state.motor_side[1] = -c2 * tau2 - 1e-4;
       state.motor_side[2] = -c3 * tau3 + 2e-4;
@@ -83,8 +83,8 @@ TEST(Transmission, ByHandAtAllJointsZero) {
 /// A day of ChainArm, whose statics are its own: two encoders on joints 2 to 6, the link side held or the motor's.
 struct ChainDay {
   ChainArm arm = exampleChain();
-  Vector6d gear = (Vector6d() << 0.0, 2e-7, 1.6e-7, 2e-6, 3e-6, 1.2e-5).finished();
-  Vector6d offset = (Vector6d() << 0, 1e-3, -2e-3, 3e-3, 1e-4, 0).finished();
+  JointVector gear = (Vector6d() << 0.0, 2e-7, 1.6e-7, 2e-6, 3e-6, 1.2e-5).finished();
+  JointVector offset = (Vector6d() << 0, 1e-3, -2e-3, 3e-3, 1e-4, 0).finished();
   double lost_motion = 0.0;  ///< of joint 3
   bool link_held = true;
 
@@ -97,18 +97,18 @@ struct ChainDay {
     std::uniform_real_distribution<double> uniform(-1.0, 1.0);
     for (int pose = 0; pose < 24; ++pose) {
       day.pose_ids.push_back(fmt::format("P{}", pose));
-      Vector6d q;
+      JointVector q(6);
       for (int j = 0; j < 6; ++j) q[j] = (j < 3 ? 0.6 : 1.2) * uniform(random);
       const Eigen::Vector3d pull = Eigen::Vector3d(normal(random), normal(random), normal(random)).normalized();
       for (int step = 0; step < 4; ++step) {
         // Up to 8 kN: the load turns joint 3 round against its own weight in some of the postures.
         const Eigen::Vector3d force = (step == 3 ? 0.0 : 4000.0 * step) * pull;
         const Eigen::Vector3d point = arm.flangeAt(q) * hook;
-        const Vector6d load = arm.torqueOf(q, 6, point, force, Eigen::Vector3d::Zero());
-        const Vector6d whole = load + arm.weightTorque(q);
-        Vector6d ahead = gear.cwiseProduct(whole);
+        const JointVector load = arm.torqueOf(q, 6, point, force, Eigen::Vector3d::Zero());
+        const JointVector whole = load + arm.weightTorque(q);
+        JointVector ahead = gear.cwiseProduct(whole);
         if (lost_motion > 0.0) ahead[2] += std::copysign(0.5 * lost_motion, whole[2]);
-        const Vector6d rest = gear.cwiseProduct(arm.weightTorque(q));
+        const JointVector rest = gear.cwiseProduct(arm.weightTorque(q));
         campaign::State state = stateOf(pose, step, q, force);
         if (!link_held) state.q += ahead - rest;
         for (int j = 1; j < 6; ++j) state.motor_side[j] = state.q[j] - ahead[j] - offset[j] + noise * normal(random);
@@ -160,7 +160,7 @@ TEST(Transmission, ReferredToTheMotorsAnglesStandStillAndTheGearsStay) {
     const campaign::State& first = read.states->rows[static_cast<std::size_t>(4 * row.pose)];
     // The motor stands behind the unloaded link by what the own weight winds up, by the arm's own statics; the
     // encoders' zero is known as well as the gears, 5e-3 of some milliradians.
-    const Vector6d motor = first.q - day.gear.cwiseProduct(day.arm.weightTorque(first.q));
+    const JointVector motor = first.q - day.gear.cwiseProduct(day.arm.weightTorque(first.q));
     EXPECT_LT((row.q - motor).cwiseAbs().maxCoeff(), 6e-5);
     EXPECT_EQ(row.link_side[2], read.states->rows[static_cast<std::size_t>(4 * row.pose + row.step)].q[2]);
     EXPECT_TRUE(std::isnan(row.link_side[0]));
@@ -226,11 +226,13 @@ TEST(Transmission, SaysWhyAJointIsNotMeasured) {
 
 TEST(Transmission, StructureIsTheDifferenceWhereBothAreInSeries) {
   identification::Transmission gears;
+  gears.joints.resize(6);
+  gears.estimate = identification::StiffnessEstimate(6);
   gears.estimate.compliance[1] = 2e-7;
   gears.estimate.covariance(1, 1) = 9e-18;  // u 3e-9
   gears.estimate.scatter_dof[1] = 1e6;
   gears.estimate.identifiable[1] = gears.joints[1].measured = true;
-  identification::StiffnessEstimate tracker;
+  identification::StiffnessEstimate tracker(6);
   tracker.compliance[1] = 3e-7;
   tracker.covariance(1, 1) = 16e-18;  // u 4e-9
   tracker.scatter_dof[1] = 1e6;
@@ -290,7 +292,7 @@ double coverage(int days, campaign::DoubleEncoder encoder) {
     const simulation::SimulationSpec spec = encodersAlone(1000 + static_cast<std::uint64_t>(day), encoder);
     const campaign::Campaign campaign = identification::referredToMotors(simulation::simulate(spec));
     // What the tracker would give: the machine's true compliances, for K_c.
-    Vector6d compliance;
+    JointVector compliance(6);
     for (int j = 0; j < 6; ++j) {
       const simulation::JointStiffness& joint = spec.machine.joints[static_cast<std::size_t>(j)];
       const bool series = joint.gear && encoder == campaign::DoubleEncoder::inactive;

@@ -21,7 +21,7 @@ std::vector<PlacedReading> readingsWith(const Figures& figuresOf, double scale =
   Noise noise(4);
   std::vector<PlacedReading> readings;
   for (int i = 0; i < postures; ++i) {
-    const Vector6d q = somePosture(noise);
+    const JointVector q = somePosture(noise);
     int target = 0;
     for (const Eigen::Vector3d& on_flange : {Eigen::Vector3d(0.26, 0.03, 0.06), Eigen::Vector3d(-0.16, 0.21, 0.1)})
       readings.push_back({figuresOf(q), target++, scale * (tracker_from_base * (arm.flangeAt(q) * on_flange))});
@@ -29,7 +29,7 @@ std::vector<PlacedReading> readingsWith(const Figures& figuresOf, double scale =
   return readings;
 }
 
-const auto kAsTheyAre = [](const Vector6d& q) { return q; };
+const auto kAsTheyAre = [](const JointVector& q) { return q; };
 
 TEST(ChordCheck, DistancesOfTheNominalArmAgreeInAnyFrame) {
   const auto misfit = chordMisfit(exampleChain().robot(), {}, readingsWith(kAsTheyAre));
@@ -43,8 +43,8 @@ TEST(ChordCheck, FewPosturesSayNothing) {
 }
 
 TEST(ChordCheck, NamesACouplingThatWasNotStated) {
-  const auto against_horizontal = [](const Vector6d& q) {
-    Vector6d figures = q;
+  const auto against_horizontal = [](const JointVector& q) {
+    JointVector figures = q;
     figures[2] -= q[1];
     return figures;
   };
@@ -70,8 +70,8 @@ TEST(ChordCheck, NamesACouplingThatWasStatedAndIsNone) {
 
 TEST(ChordCheck, NamesSignsAndQuarterTurns) {
   for (const int joint : {1, 2, 3, 4}) {
-    const auto turned = [joint](const Vector6d& q) {
-      Vector6d figures = q;
+    const auto turned = [joint](const JointVector& q) {
+      JointVector figures = q;
       figures[joint] = -q[joint];
       return figures;
     };
@@ -83,8 +83,8 @@ TEST(ChordCheck, NamesSignsAndQuarterTurns) {
     // A spherical wrist turned by half a turn in joint 4 is one with the other sign of joint 5.
     EXPECT_EQ(others.size(), joint == 4 ? 2u : 1u) << joint;
   }
-  const auto from_upright = [](const Vector6d& q) {
-    Vector6d figures = q;
+  const auto from_upright = [](const JointVector& q) {
+    JointVector figures = q;
     figures[1] -= std::acos(0.0);
     return figures;
   };

@@ -24,7 +24,7 @@ std::string refusal(const std::string& text, const LogOptions& options = {}) {
   return interchange_test::refusalOf([&] { read(text, options); });
 }
 
-void expectDegrees(const Vector6d& found, const std::array<double, 6>& degrees) {
+void expectDegrees(const JointVector& found, const std::array<double, 6>& degrees) {
   for (int j = 0; j < 6; ++j) EXPECT_NEAR(found[j], degrees[static_cast<std::size_t>(j)] * kDeg, 1e-14) << j;
 }
 

@@ -17,7 +17,7 @@ const StandstillOptions kUsual{0.02 * kDeg, 1.0};
 std::vector<JointSample> logOf(const std::vector<double>& degrees) {
   std::vector<JointSample> samples;
   for (std::size_t i = 0; i < degrees.size(); ++i) {
-    JointSample sample;
+    JointSample sample(6);
     sample.time_s = 10.0 + 0.01 * static_cast<double>(i);
     sample.figures[2] = degrees[i] * kDeg;
     samples.push_back(sample);
@@ -76,7 +76,7 @@ TEST(Standstill, EqualFiguresAreTheirMeanToTheLastDigit) {
 }
 
 TEST(Standstill, TurnsOfToolPosesAreAveragedAcross180Degrees) {
-  std::vector<JointSample> samples(2);
+  std::vector<JointSample> samples(2, JointSample(6));
   samples[0].tool_pose = {{1.0, 2.0, 3.0}, {179.998 * kDeg, -45.0 * kDeg, 0.0}};
   samples[1].tool_pose = {{1.0, 2.002, 3.0}, {-179.998 * kDeg, -45.0 * kDeg, 0.0}};
   const campaign::StatedPose mean = meanToolPose(samples, 0, 1);

@@ -33,7 +33,7 @@ class StateJoins : public ::testing::Test {
   /// Samples at 10 Hz of joint 2 (deg), from the last time on.
   void addSamples(double degrees, int count) {
     for (int i = 0; i < count; ++i) {
-      JointSample sample;
+      JointSample sample(robot_.joints());
       sample.time_s = 0.1 * static_cast<double>(log_.samples.size());
       sample.figures[1] = degrees * kDeg;
       sample.line = log_.samples.size() + 2;

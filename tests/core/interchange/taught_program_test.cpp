@@ -14,7 +14,7 @@ namespace taught_program_test {
 using namespace interchange;
 using interchange_test::expectSays;
 
-TaughtProgram parse(const std::string& text) { return parseTaughtProgram("work.txt", text); }
+TaughtProgram parse(const std::string& text) { return parseTaughtProgram("work.txt", text, 6); }
 
 std::string refusal(const std::string& text) {
   return interchange_test::refusalOf([&] { parse(text); });
@@ -23,8 +23,8 @@ std::string refusal(const std::string& text) {
 /// The program with `degrees` in its target `place`.
 std::string replaced(const std::string& text, std::size_t place, const std::array<double, 6>& degrees) {
   const TaughtProgram program = parse(text);
-  std::vector<std::optional<Vector6d>> figures(program.log.samples.size());
-  figures[place] = Vector6d(Vector6d::Map(degrees.data()) * std::numbers::pi / 180.0);
+  std::vector<std::optional<JointVector>> figures(program.log.samples.size());
+  figures[place] = JointVector(JointVector::Map(degrees.data(), 6) * std::numbers::pi / 180.0);
   return withFigures(program, figures);
 }
 

@@ -139,7 +139,7 @@ TEST_F(Search, PointsThatAreNotInBaseLink) {
 }
 
 TEST_F(Search, TwoPosturesWhoseAnglesAreExchanged) {
-  Vector6d first = Vector6d::Zero(), second = first;
+  JointVector first = JointVector::Zero(6), second = first;
   for (const campaign::State& state : campaign.states->rows) {
     if (state.pose == 3) first = state.q;
     if (state.pose == 6) second = state.q;

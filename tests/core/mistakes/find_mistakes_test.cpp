@@ -116,7 +116,7 @@ TEST(FindMistakes, NamesTheRowOfOnePosture) {
 
 TEST(FindMistakes, NamesTwoAtOnce) {
   campaign::Campaign day = goodDay();
-  const auto spoil = [](Vector6d& q) {
+  const auto spoil = [](JointVector& q) {
     q[2] -= q[1];
     q[4] *= -1.0;
   };

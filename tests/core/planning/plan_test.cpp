@@ -15,7 +15,7 @@
 namespace stiffscope {
 namespace plan_test {
 
-Matrix6d randomInformation(Noise& noise) {
+JointMatrix randomInformation(Noise& noise) {
   Eigen::Matrix<double, 3, 6> rows;
   for (int j = 0; j < 6; ++j) rows.col(j) = noise.normal3();
   return rows.transpose() * rows;
@@ -24,7 +24,7 @@ Matrix6d randomInformation(Noise& noise) {
 TEST(ExchangeDesign, FindsWhatTryingAllFinds) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     Noise noise(seed);
-    planning::DesignProblem problem;
+    planning::DesignProblem problem(6);
     problem.unknown = {true, true, true, true, true, false};
     problem.known = randomInformation(noise);
     for (int k = 0; k < 12; ++k) problem.information.push_back(randomInformation(noise));
@@ -48,11 +48,11 @@ TEST(ExchangeDesign, FindsWhatTryingAllFinds) {
 TEST(ExchangeDesign, AddsWhatIsMissingAndKeepsApart) {
   // Joints 1 and 2 alone. What is known sees joint 1; candidates 0 to 2 see joint 1 better than 3 and 4 see
   // joint 2.
-  planning::DesignProblem problem;
+  planning::DesignProblem problem(6);
   problem.unknown = {true, true, false, false, false, false};
   problem.known(0, 0) = 100.0, problem.known(1, 1) = 1.0;
   for (int k = 0; k < 5; ++k) {
-    Matrix6d one = Matrix6d::Zero();
+    JointMatrix one = JointMatrix::Zero(6, 6);
     one(k < 3 ? 0 : 1, k < 3 ? 0 : 1) = k < 3 ? 10.0 : 5.0;
     problem.information.push_back(one);
   }
@@ -66,7 +66,7 @@ TEST(ExchangeDesign, AddsWhatIsMissingAndKeepsApart) {
   EXPECT_NEAR(two.log_determinant, std::log(110.0 * 6.0), 1e-9);
   problem.barred = {1, 1, 1, 0, 0};
   EXPECT_EQ(planning::exchangeDesign(problem, 2).chosen.size(), 1u);  // no more keep apart
-  const Vector6d sd = planning::standardDeviations(planning::informationOf(problem, {3}), problem.unknown);
+  const JointVector sd = planning::standardDeviations(planning::informationOf(problem, {3}), problem.unknown);
   EXPECT_NEAR(sd[1], 1.0 / std::sqrt(6.0), 1e-12);
   EXPECT_TRUE(std::isnan(sd[2]));
 }
@@ -113,7 +113,7 @@ TEST(Plan, KeepsLimitsRulesAndDistance) {
             (robot::JointMask{false, true, true, true, true, true}));  // a hanging load never turns axis 1
   const double margin = options.rules.limit_margin;
   for (const planning::PlannedPosture& one : plan.postures) {
-    const Vector6d& q = one.candidate.q;
+    const JointVector& q = one.candidate.q;
     for (std::size_t j = 0; j < 6; ++j) {
       EXPECT_GE(q[static_cast<Eigen::Index>(j)], campaign.robot.limits[j].lower + margin - 1e-12) << one.id;
       EXPECT_LE(q[static_cast<Eigen::Index>(j)], campaign.robot.limits[j].upper - margin + 1e-12) << one.id;
@@ -121,7 +121,7 @@ TEST(Plan, KeepsLimitsRulesAndDistance) {
     // Judged on the URDF's arm itself, not on the plan's copy in R0.
     const robot::ArmPosture posture = robot::postureAt(campaign.robot, q);
     const Eigen::Isometry3d flange = robot::flangeAt(campaign.robot, posture);
-    const Matrix6d jacobian = robot::jacobianAt(campaign.robot, posture, flange.translation());
+    const Jacobian jacobian = robot::jacobianAt(campaign.robot, posture, flange.translation());
     EXPECT_GE(identification::postureConditioning(jacobian, 1.0).dexterity, options.rules.least_dexterity - 1e-9)
         << one.id;
     const Eigen::Vector3d hook = flange * spec.loading->hook_in_flange;
@@ -250,13 +250,13 @@ TEST(Plan, AddsToACampaignWhatItLacks) {
 }
 
 /// Mean square of the standard deviations of c over k's, by Partial Pose, of one simulated campaign.
-Vector6d squaresOf(const simulation::SimulationSpec& spec) {
+JointVector squaresOf(const simulation::SimulationSpec& spec) {
   identification::IdentifyOptions quick;
   quick.subsets.most_all = 1;
   quick.subsets.sample = 2;
   const identification::StiffnessEstimate estimate =
       identification::identify(simulation::simulate(spec), quick).of(identification::Method::partial_pose).estimate;
-  Vector6d squares = Vector6d::Zero();
+  JointVector squares = JointVector::Zero(6);
   for (int j = 1; j < 6; ++j) {
     squares[j] = estimate.covariance(j, j) * std::pow(*spec.machine.joints[static_cast<std::size_t>(j)].torsion, 2);
   }
@@ -272,7 +272,7 @@ TEST(Plan, TenChosenPosturesAreWorthTwentyRandomOnes) {
   options.candidates = 3000;
   const planning::Plan plan = planning::planCampaign(before, nullptr, options);
   ASSERT_EQ(plan.postures.size(), 10u);
-  Vector6d chosen = Vector6d::Zero(), random = Vector6d::Zero();
+  JointVector chosen = JointVector::Zero(6), random = JointVector::Zero(6);
   constexpr int kMachines = 8;
   for (std::uint64_t seed = 1; seed <= kMachines; ++seed) {
     simulation::SimulationSpec machine = spec;

@@ -19,7 +19,7 @@ struct Planned {
   UnloadedSpec spec;
   campaign::Campaign campaign;
   planning::PlanningInputs inputs;
-  std::vector<Vector6d> postures, workspace;
+  std::vector<JointVector> postures, workspace;
 
   explicit Planned(int count) {
     campaign.robot = spec.nominal.robot();
@@ -43,17 +43,18 @@ TEST(UnloadedInformation, ColumnsAreThoseOfTheArm) {
   const Planned planned(3);
   const std::vector<Eigen::MatrixXd> rows = planned.information().rowsOf(planned.postures);
   ASSERT_EQ(rows.size(), 3u);
-  const Eigen::Index geometry = ArmParameters::count(3);
+  const ArmParameters layout(planned.campaign.robot.joints());
+  const Eigen::Index geometry = layout.count(3);
   const ChainArm& chain = planned.spec.nominal;
   for (std::size_t p = 0; p < rows.size(); ++p) {
-    const Vector6d& q = planned.postures[p];
+    const JointVector& q = planned.postures[p];
     const auto frames = chain.framesAt(q);
-    const Vector6d torque = chain.weightTorque(q);
+    const JointVector torque = chain.weightTorque(q);
     ASSERT_EQ(rows[p].rows(), 9);
     for (Eigen::Index t = 0; t < 3; ++t) {
-      const Eigen::Matrix3d shift = planned.spec.noise * rows[p].block<3, 3>(3 * t, ArmParameters::kBaseAt + 3);
+      const Eigen::Matrix3d shift = planned.spec.noise * rows[p].block<3, 3>(3 * t, layout.baseAt() + 3);
       EXPECT_LT((shift.cwiseAbs() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff(), 1e-9) << p;
-      const Eigen::Matrix3d own = planned.spec.noise * rows[p].block<3, 3>(3 * t, ArmParameters::targetAt(t));
+      const Eigen::Matrix3d own = planned.spec.noise * rows[p].block<3, 3>(3 * t, layout.targetAt(static_cast<std::size_t>(t)));
       EXPECT_LT((own.transpose() * own - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff(), 1e-9) << p;
       // The first of the effects is joint 2's compliance: joint 1 stands upright and has no torque.
       const Eigen::Vector3d at = frames[6] * planned.spec.on_flange[static_cast<std::size_t>(t)];
@@ -88,7 +89,7 @@ TEST(UnloadedInformation, DetailsAreThoseOfTheSequencesThemselves) {
   for (std::size_t i = 1; i < sight.predicted_after.size(); ++i)
     EXPECT_LT(sight.predicted_after[i], sight.predicted_after[i - 1]) << i;
   // Effects of the order are weighed in it too, so that a shorter sequence has other ones: some per cent.
-  const std::vector<Vector6d> first(planned.postures.begin(), planned.postures.begin() + 12);
+  const std::vector<JointVector> first(planned.postures.begin(), planned.postures.begin() + 12);
   EXPECT_NEAR(information.sightOf(first, false).predicted / sight.predicted_after[11], 1.0, 0.1);
   EXPECT_LE(sight.predicted_geometry, sight.predicted);
   for (const planning::EffectSight& one : sight.effects) EXPECT_GE(one.inflation, 1.0 - 1e-9) << one.effect;

@@ -28,7 +28,7 @@ TEST(CartesianStiffness, TwoBarArmByHand) {
   // turn of joint 1 moves it by (-0.5, 1), of joint 2 by (-0.5, 0), so C = c1 [0.25 -0.5; -0.5 1] + c2 [0.25
   // 0; 0 0].
   const robot::Robot arm = planarArm(1.0, 0.5);
-  Vector6d q = Vector6d::Zero(), c = Vector6d::Zero();
+  JointVector q = JointVector::Zero(6), c = JointVector::Zero(6);
   q[1] = std::numbers::pi / 2.0;
   c.head<2>() << 1e-6, 4e-6;
   const robot::ArmPosture posture = robot::postureAt(arm, q);
@@ -54,7 +54,7 @@ TEST(CartesianStiffness, TwoBarArmByHand) {
 struct LoadedExample {
   ChainArm chain = exampleChain();
   frames::LoadingGeometry geometry;
-  Vector6d q, c = exampleCompliance();
+  JointVector q, c = exampleCompliance();
   Eigen::Vector3d tcp{0.0, 0.0, 0.1};
   effects::FlangeLoad load{{0.05, -0.1, 0.4}, {400.0, -700.0, -1500.0}, Eigen::Vector3d::Zero()};
 
@@ -75,9 +75,9 @@ TEST(CartesianStiffness, IsTheDerivativeOfTheEquilibriumWithKc) {
     const robot::ArmPosture posture = arm.rest(arm.load);
     const Eigen::Isometry3d flange = robot::flangeAt(arm.geometry.arm, posture);
     const robot::Wrench wrench{flange * arm.load.point_in_flange, arm.load.force, arm.load.moment};
-    const Matrix6d kc = robot::geometricStiffness(robot::axesAt(arm.geometry.arm, posture), wrench);
+    const JointMatrix kc = robot::geometricStiffness(robot::axesAt(arm.geometry.arm, posture), wrench);
     // The force changes at its own point: C_x there.
-    const Matrix6d jacobian = robot::jacobianAt(arm.geometry.arm, posture, wrench.point);
+    const Jacobian jacobian = robot::jacobianAt(arm.geometry.arm, posture, wrench.point);
     const robot::CartesianStiffness with = robot::cartesianStiffness(wrench.point, jacobian, arm.c, kc);
     const robot::CartesianStiffness without = robot::cartesianStiffness(wrench.point, jacobian, arm.c);
     Eigen::Matrix3d measured;
@@ -107,7 +107,7 @@ TEST(CartesianStiffness, IsReciprocalAndInvertsToPaper4) {
     const Eigen::Vector3d point = robot::flangeAt(arm.geometry.arm, posture) * arm.tcp;
     const robot::Wrench wrench{robot::flangeAt(arm.geometry.arm, posture) * arm.load.point_in_flange, arm.load.force,
                                Eigen::Vector3d::Zero()};
-    const Matrix6d jacobian = robot::jacobianAt(arm.geometry.arm, posture, point);
+    const Jacobian jacobian = robot::jacobianAt(arm.geometry.arm, posture, point);
     const robot::CartesianStiffness found = robot::cartesianStiffness(
         point, jacobian, arm.c, robot::geometricStiffness(robot::axesAt(arm.geometry.arm, posture), wrench));
     ASSERT_TRUE(found.invertible);
@@ -125,14 +125,100 @@ TEST(CartesianStiffness, IsReciprocalAndInvertsToPaper4) {
   }
 }
 
+/// Springs of the size that the arm needs: a few tenths of a milliradian under the loads below.
+JointVector springsOf(const ChainArm& chain) { return JointVector::LinSpaced(chain.joints(), 1e-6, 5e-6); }
+
+TEST(CartesianStiffness, OfMoreThanSixJointsIsTheInverseOfTheirCompliance) {
+  for (const ChainArm& chain : {sevenAxisChain(), eightAxisChain()}) {
+    const robot::Robot arm = chain.robot();
+    const JointVector compliance = springsOf(chain);
+    Noise noise(2);
+    for (int k = 0; k < 20; ++k) {
+      const JointVector q = somePosture(noise, chain);
+      const Eigen::Vector3d point = chain.flangeAt(q) * Eigen::Vector3d(0.0, 0.0, 0.1);
+      const Jacobian jacobian = robot::jacobianAt(arm, robot::postureAt(arm, q), point);
+      const robot::CartesianStiffness found = robot::cartesianStiffness(point, jacobian, compliance);
+      Matrix6d expected = Matrix6d::Zero();  // J K^-1 J^T, a spring at a time
+      for (int j = 0; j < chain.joints(); ++j)
+        expected += compliance[j] * jacobian.col(j) * jacobian.col(j).transpose();
+      EXPECT_LT((found.compliance - expected).norm(), 1e-14 * expected.norm()) << chain.joints();
+      ASSERT_TRUE(found.invertible) << chain.joints();
+      const Matrix6d inverse = expected.inverse();
+      // Rounding times a condition number of some thousands.
+      EXPECT_LT((found.stiffness - inverse).norm(), 1e-10 * inverse.norm()) << chain.joints();
+      EXPECT_LT((found.stiffness * found.compliance - Matrix6d::Identity()).norm(), 1e-10) << chain.joints();
+
+      // A rigid joint less, six springs are left or seven; then fewer than the directions of the flange.
+      JointVector stiffer = compliance;
+      stiffer[2] = 0.0;
+      EXPECT_TRUE(robot::cartesianStiffness(point, jacobian, stiffer).invertible) << chain.joints();
+      for (int j = 3; j < chain.joints() - 3; ++j) stiffer[j] = 0.0;
+      const robot::CartesianStiffness locked = robot::cartesianStiffness(point, jacobian, stiffer);
+      EXPECT_FALSE(locked.invertible) << chain.joints();
+      EXPECT_TRUE(locked.stiffness.isZero());
+    }
+  }
+}
+
+TEST(CartesianStiffness, OfFiveJointsIsNotInvertible) {
+  const ChainArm chain = fiveAxisChain();
+  Noise noise(3);
+  const JointVector q = somePosture(noise, chain);
+  const Eigen::Vector3d point = chain.flangeAt(q).translation();
+  const Jacobian jacobian = robot::jacobianAt(chain.robot(), robot::postureAt(chain.robot(), q), point);
+  const robot::CartesianStiffness found = robot::cartesianStiffness(point, jacobian, springsOf(chain));
+  EXPECT_FALSE(found.invertible);
+  EXPECT_TRUE(found.stiffness.isZero());
+  for (const robot::PrincipalStiffness& one : found.principal) EXPECT_TRUE(std::isfinite(one.stiffness));
+  EXPECT_GE(found.anisotropy(), 1.0);
+}
+
+/// Where the flange's point comes to rest under a dead force there, springs and load on the moved arm.
+JointVector settled(const ChainArm& chain, const JointVector& q, const Eigen::Vector3d& in_flange,
+                    const Eigen::Vector3d& force) {
+  JointVector at = q;
+  for (int i = 0; i < 40; ++i) {  // contracts a thousandfold a turn
+    at = q + springsOf(chain).cwiseProduct(
+                 chain.torqueOf(at, chain.joints(), chain.flangeAt(at) * in_flange, force, Eigen::Vector3d::Zero()));
+  }
+  return at;
+}
+
+TEST(CartesianStiffness, WithKcIsTheDerivativeOfTheEquilibriumOfAnyNumberOfJoints) {
+  const Eigen::Vector3d hook(0.05, -0.1, 0.2), force(100.0, -150.0, -300.0);
+  for (const ChainArm& chain : {fiveAxisChain(), sevenAxisChain(), eightAxisChain()}) {
+    const robot::Robot arm = chain.robot();
+    Noise noise(4);
+    for (int k = 0; k < 5; ++k) {
+      const JointVector q = somePosture(noise, chain), rest = settled(chain, q, hook, force);
+      const robot::ArmPosture posture = robot::postureAt(arm, rest);
+      const Eigen::Vector3d point = chain.flangeAt(rest) * hook;
+      const JointMatrix kc =
+          robot::geometricStiffness(robot::axesAt(arm, posture), {point, force, Eigen::Vector3d::Zero()});
+      const robot::CartesianStiffness with =
+          robot::cartesianStiffness(point, robot::jacobianAt(arm, posture, point), springsOf(chain), kc);
+      Eigen::Matrix3d measured;
+      constexpr double kStep = 3.0;  // N
+      for (int axis = 0; axis < 3; ++axis) {
+        const Eigen::Vector3d step = kStep * Eigen::Vector3d::Unit(axis);
+        measured.col(axis) = (chain.flangeAt(settled(chain, q, hook, force + step)) * hook -
+                              chain.flangeAt(settled(chain, q, hook, force - step)) * hook) /
+                             (2.0 * kStep);
+      }
+      // A hundredth of the load's own second order, squared, and rounding of 1e-16 m against moves of 1e-5 m.
+      EXPECT_LT((with.compliance.topLeftCorner<3, 3>() - measured).norm(), 1e-7 * measured.norm()) << chain.joints();
+    }
+  }
+}
+
 TEST(PostureConditioning, ByHandAndInASingularity) {
   // Singular values 2 (three times, lengths over L = 0.5 m) and 1 (three times): kappa is
   // 1/6 sqrt(3 * 4 + 3) sqrt(3 / 4 + 3) = 1.25.
-  const identification::PostureConditioning found = identification::postureConditioning(Matrix6d::Identity(), 0.5);
+  const identification::PostureConditioning found = identification::postureConditioning(Jacobian::Identity(6, 6), 0.5);
   EXPECT_NEAR(found.kappa, 1.25, 1e-14);
   EXPECT_NEAR(found.kappa_two, 2.0, 1e-14);
   EXPECT_NEAR(found.dexterity, 0.8, 1e-14);
-  EXPECT_NEAR(identification::postureConditioning(Matrix6d::Identity(), 1.0).kappa, 1.0, 1e-14);
+  EXPECT_NEAR(identification::postureConditioning(Jacobian::Identity(6, 6), 1.0).kappa, 1.0, 1e-14);
   // Axis 5 at zero puts axes 4 and 6 in one line.
   const robot::Robot arm = exampleChain().robot();
   const robot::ArmPosture straight = robot::postureAt(arm, degrees(10, 20, -10, 30, 0, 40));
@@ -143,11 +229,11 @@ TEST(PostureConditioning, ByHandAndInASingularity) {
 }
 
 /// By central differences of the flange's pose: rows 0-2 its origin, rows 3-5 its turn.
-Matrix6d differencedJacobian(const robot::Robot& arm, const Vector6d& q) {
+Jacobian differencedJacobian(const robot::Robot& arm, const JointVector& q) {
   constexpr double kStep = 1e-5;
-  Matrix6d jacobian;
-  for (int j = 0; j < 6; ++j) {
-    const Vector6d step = kStep * Vector6d::Unit(j);
+  Jacobian jacobian(6, arm.joints());
+  for (int j = 0; j < arm.joints(); ++j) {
+    const JointVector step = kStep * JointVector::Unit(arm.joints(), j);
     const Eigen::Isometry3d ahead = robot::flangeAt(arm, robot::postureAt(arm, q + step)),
                             behind = robot::flangeAt(arm, robot::postureAt(arm, q - step));
     const Eigen::AngleAxisd turn(ahead.linear() * behind.linear().transpose());
@@ -164,6 +250,7 @@ TEST(PostureStiffness, IsOfTheMethodsOwnGeometryWherePosturesWereMadeInAnother) 
   result.characteristic_length.condition = 1.0;
   identification::MethodResult& method = result.methods[static_cast<std::size_t>(identification::Method::partial_pose)];
   method.available = true;
+  method.estimate = identification::StiffnessEstimate(6);
   method.estimate.compliance = machine.compliance;
   method.geometry = machine.geometry;
   metrology::Line& axis = method.geometry.arm.axes_in_base_at_zero[2];  // a calibration that finds much
@@ -174,7 +261,7 @@ TEST(PostureStiffness, IsOfTheMethodsOwnGeometryWherePosturesWereMadeInAnother) 
   const identification::PostureStiffnesses found(campaign, result, identification::Method::partial_pose);
   ASSERT_EQ(found.size(), 4u);
   for (std::size_t i = 0; i < found.size(); ++i) {
-    const Matrix6d jacobian = differencedJacobian(method.geometry.arm, result.cases[i].q_sagged);
+    const Jacobian jacobian = differencedJacobian(method.geometry.arm, result.cases[i].q_sagged);
     // Differences are good to the square of the step; the shift alone changes kappa by a hundredth.
     EXPECT_NEAR(found.at(i).conditioning.kappa, identification::postureConditioning(jacobian, 0.7).kappa, 1e-6) << i;
   }

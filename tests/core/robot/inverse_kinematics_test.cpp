@@ -24,12 +24,12 @@ Eigen::Isometry3d someTool() {
   return tool;
 }
 
-Vector6d drawn(std::mt19937_64& random, double reach) {
+JointVector drawn(std::mt19937_64& random, double reach, int joints = 6) {
   std::uniform_real_distribution<double> angle(-reach, reach);
-  return Vector6d::NullaryExpr([&] { return angle(random); });
+  return JointVector::NullaryExpr(joints, [&] { return angle(random); });
 }
 
-Eigen::Isometry3d toolAt(const Robot& arm, const Vector6d& q) {
+Eigen::Isometry3d toolAt(const Robot& arm, const JointVector& q) {
   return robot::flangeAt(arm, robot::postureAt(arm, q)) * someTool();
 }
 
@@ -39,7 +39,7 @@ TEST(InverseKinematics, BringsBackJointsNearby) {
     const Robot arm = robot::readUrdf(file, "base_link", "tool0");
     std::mt19937_64 random(3);
     for (int k = 0; k < 100; ++k) {
-      const Vector6d q = drawn(random, 2.0), start = q + drawn(random, 0.01);
+      const JointVector q = drawn(random, 2.0), start = q + drawn(random, 0.01);
       const Eigen::Isometry3d pose = toolAt(arm, q);
       if (robot::conditioningAt(robot::axesAt(arm, robot::postureAt(arm, q)), pose.translation()) < 0.02) continue;
       const robot::InverseKinematics found = robot::inverseKinematics(arm, pose, someTool(), start);
@@ -60,9 +60,9 @@ TEST(InverseKinematics, OutOfReachSaysByHowMuch) {
 }
 
 /// Branches of a posture away from singularities.
-std::vector<Vector6d> branchesOf(const Robot& arm, const Eigen::Isometry3d& pose, int starts) {
+std::vector<JointVector> branchesOf(const Robot& arm, const Eigen::Isometry3d& pose, int starts) {
   std::mt19937_64 random(5);
-  std::vector<Vector6d> seeds;
+  std::vector<JointVector> seeds;
   for (int k = 0; k < starts; ++k) seeds.push_back(drawn(random, 3.1));
   return robot::inverseKinematicsBranches(arm, pose, someTool(), seeds);
 }
@@ -71,11 +71,11 @@ std::vector<Vector6d> branchesOf(const Robot& arm, const Eigen::Isometry3d& pose
 TEST(InverseKinematics, FindsTheEightBranchesOfASphericalWrist) {
   const Robot arm = robot::readUrdf(kArms[0], "base_link", "tool0");
   const Eigen::Isometry3d pose = toolAt(arm, degrees(10, -30, 10, 40, 60, -20));
-  const std::vector<Vector6d> branches = branchesOf(arm, pose, 400);
+  const std::vector<JointVector> branches = branchesOf(arm, pose, 400);
   EXPECT_GE(branches.size(), 4u);
   EXPECT_LE(branches.size(), 8u);
   EXPECT_EQ(branches.size() % 2, 0u);  // each has the wrist turned over
-  for (const Vector6d& q : branches) {
+  for (const JointVector& q : branches) {
     const Eigen::Isometry3d held = toolAt(arm, q);
     EXPECT_LT((held.translation() - pose.translation()).norm(), 1e-9);
     EXPECT_LT((held.linear() - pose.linear()).norm(), 1e-9);
@@ -87,9 +87,81 @@ TEST(InverseKinematics, TurnsAreTakenNearTheMiddleOfTheLimits) {
   Robot arm = robot::readUrdf(kArms[0], "base_link", "tool0");
   arm.limits[5] = {1.0, 9.0};
   arm.limits[3] = {-INFINITY, INFINITY};
-  const Vector6d moved = robot::withinTurns(arm, degrees(0, 0, 0, 350, 0, -90));
+  const JointVector moved = robot::withinTurns(arm, degrees(0, 0, 0, 350, 0, -90));
   EXPECT_NEAR(moved[5], -0.5 * EIGEN_PI + 2.0 * EIGEN_PI, 1e-12);
   EXPECT_NEAR(moved[3], radians(-10), 1e-12);
+}
+
+// A redundant arm has a family of solutions; one of them is as good as another.
+TEST(InverseKinematics, OfMoreThanSixJointsHoldsThePose) {
+  Noise noise(11);
+  std::mt19937_64 random(12);
+  for (const ChainArm& chain : {sevenAxisChain(), eightAxisChain()}) {
+    const Robot arm = chain.robot();
+    for (int k = 0; k < 100; ++k) {
+      const JointVector q = somePosture(noise, chain), start = q + drawn(random, 0.1, chain.joints());
+      const Eigen::Isometry3d pose = chain.flangeAt(q) * someTool();
+      const robot::InverseKinematics found = robot::inverseKinematics(arm, pose, someTool(), start);
+      ASSERT_TRUE(found.reached) << chain.joints() << " joints, " << k << ": " << found.missed;
+      ASSERT_EQ(found.q.size(), chain.joints());
+      const Eigen::Isometry3d held = chain.flangeAt(found.q) * someTool();
+      EXPECT_LT((held.translation() - pose.translation()).norm(), 1e-9);
+      EXPECT_LT((held.linear() - pose.linear()).norm(), 1e-9);
+      EXPECT_LT((found.q - start).norm(), 2.0);  // no whole turns on the way
+    }
+  }
+}
+
+TEST(InverseKinematics, OfFiveJointsReachesWhatItsWristCanHold) {
+  const ChainArm chain = fiveAxisChain();
+  const Robot arm = chain.robot();
+  Noise noise(13);
+  std::mt19937_64 random(14);
+  for (int k = 0; k < 100; ++k) {
+    const JointVector q = somePosture(noise, chain), start = q + drawn(random, 0.01, 5);
+    const Eigen::Isometry3d pose = chain.flangeAt(q) * someTool();
+    const robot::InverseKinematics found = robot::inverseKinematics(arm, pose, someTool(), start);
+    ASSERT_TRUE(found.reached) << k << ": " << found.missed << " m, " << found.turned;
+    EXPECT_LT((found.q - q).cwiseAbs().maxCoeff(), 1e-7) << k;  // as of six joints, above
+
+    // Leaning out of the arm's plane, which no joint of the wrist does: the nearest is not there.
+    Eigen::Isometry3d leaning = chain.flangeAt(q);
+    leaning.linear() =
+        Eigen::AngleAxisd(0.1, chain.framesAt(q)[3].linear() * Eigen::Vector3d::UnitX()) * leaning.linear();
+    const robot::InverseKinematics nearest = robot::inverseKinematics(arm, leaning, Eigen::Isometry3d::Identity(), q);
+    EXPECT_FALSE(nearest.reached) << k;
+    EXPECT_GT(nearest.missed + nearest.turned, 0.01) << k;
+  }
+}
+
+TEST(InverseKinematics, BranchesOfSevenJointsAllHoldThePose) {
+  const ChainArm chain = sevenAxisChain();
+  const Robot arm = chain.robot();
+  Noise noise(15);
+  const Eigen::Isometry3d pose = chain.flangeAt(somePosture(noise, chain)) * someTool();
+  std::mt19937_64 random(16);
+  std::vector<JointVector> seeds;
+  for (int k = 0; k < 20; ++k) seeds.push_back(drawn(random, 2.0, 7));
+  const std::vector<JointVector> branches = robot::inverseKinematicsBranches(arm, pose, someTool(), seeds);
+  ASSERT_FALSE(branches.empty());
+  for (const JointVector& q : branches)
+    EXPECT_LT(((chain.flangeAt(q) * someTool()).matrix() - pose.matrix()).norm(), 1e-9);
+}
+
+// Singular values of a Jacobian of five or seven columns: as many as there are joints, six at the most.
+TEST(Conditioning, IsZeroInSingularitiesOfAnyNumberOfJoints) {
+  Noise noise(17);
+  for (const ChainArm& chain : chainsOfAllSizes()) {
+    const Robot arm = chain.robot();
+    const auto conditioning = [&](const JointVector& q) {
+      return robot::conditioningAt(robot::axesAt(arm, robot::postureAt(arm, q)), chain.flangeAt(q).translation());
+    };
+    for (int k = 0; k < 20; ++k) EXPECT_GT(conditioning(somePosture(noise, chain)), 1e-3) << chain.joints();
+  }
+  const ChainArm upright = sevenAxisChain();
+  EXPECT_LT(
+      robot::conditioningAt(upright.robot().axes_in_base_at_zero, upright.flangeAt(upright.noAngles()).translation()),
+      1e-12);
 }
 
 }  // namespace inverse_kinematics_test

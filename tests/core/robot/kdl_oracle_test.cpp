@@ -72,15 +72,15 @@ KDL::Chain chainOf(const urdf::ModelInterface& model, const std::string& base, c
 
 Eigen::Vector3d vectorOf(const KDL::Vector& v) { return {v.x(), v.y(), v.z()}; }
 
-KDL::JntArray jointsOf(const Vector6d& q) {
-  KDL::JntArray joints(6);
+KDL::JntArray jointsOf(const JointVector& q) {
+  KDL::JntArray joints(static_cast<unsigned>(q.size()));
   joints.data = q;
   return joints;
 }
 
 /// Mass and centre of each moving body, joints at zero: segments up to the next joint that moves are one.
-std::array<robot::BodyMass, 7> bodiesOf(const KDL::Chain& chain) {
-  std::array<robot::BodyMass, 7> bodies;
+PerBody<robot::BodyMass> bodiesOf(const KDL::Chain& chain) {
+  PerBody<robot::BodyMass> bodies(chain.getNrOfJoints() + 1);
   KDL::Frame at = KDL::Frame::Identity();
   std::size_t body = 0;
   for (unsigned i = 0; i < chain.getNrOfSegments(); ++i) {
@@ -127,7 +127,7 @@ void expectTheSame(const fs::path& file) {
   std::uniform_real_distribution<double> angle(-3.0, 3.0);
   constexpr int kPostures = 100;
   for (int k = 0; k < kPostures; ++k) {
-    const Vector6d q = Vector6d::NullaryExpr([&] { return angle(random); });
+    const JointVector q = JointVector::NullaryExpr(ours.joints(), [&] { return angle(random); });
     const KDL::JntArray joints = jointsOf(q);
     const robot::ArmPosture posture = robot::postureAt(ours, q);
 
@@ -148,7 +148,7 @@ void expectTheSame(const fs::path& file) {
     // KDL states the torque that holds the arm, which is opposite to what its weight makes.
     KDL::JntArray holding(6);
     ASSERT_GE(statics.JntToGravity(joints, holding), 0);
-    EXPECT_LT((robot::weightTorque(ours, posture, weight) + Vector6d(holding.data)).cwiseAbs().maxCoeff(), kTorque);
+    EXPECT_LT((robot::weightTorque(ours, posture, weight) + JointVector(holding.data)).cwiseAbs().maxCoeff(), kTorque);
   }
 }
 
@@ -173,7 +173,7 @@ TEST(RobotByKdl, InverseKinematicsHoldThePose) {
     std::uniform_real_distribution<double> angle(-2.5, 2.5), off(-0.25, 0.25);
     constexpr int kPoses = 1000;
     for (int k = 0; k < kPoses; ++k) {
-      const Vector6d q = Vector6d::NullaryExpr([&] { return angle(random); });
+      const JointVector q = JointVector::NullaryExpr(ours.joints(), [&] { return angle(random); });
       KDL::Frame wanted, held;
       ASSERT_GE(place.JntToCart(jointsOf(q), wanted), 0);
       Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
@@ -182,7 +182,7 @@ TEST(RobotByKdl, InverseKinematicsHoldThePose) {
         for (int column = 0; column < 3; ++column) pose.linear()(row, column) = wanted.M(row, column);
       }
       // From a quarter of a radian off in every joint.
-      const Vector6d start = q + Vector6d::NullaryExpr([&] { return off(random); });
+      const JointVector start = q + JointVector::NullaryExpr(q.size(), [&] { return off(random); });
       const robot::InverseKinematics found = robot::inverseKinematics(ours, pose, Eigen::Isometry3d::Identity(), start);
       if (!found.reached) continue;
       ++reached;

@@ -4,6 +4,8 @@
 
 #include <limits>
 #include <numbers>
+#include <string>
+#include <vector>
 #include "core/io/input_error.h"
 #include "core/robot/kinematics.h"
 
@@ -107,6 +109,73 @@ TEST(ReadUrdf, LumpsTheMassesThatAreFixedTogether) {
   EXPECT_NEAR((robot.bodies[3].com_in_base_at_zero - Eigen::Vector3d(0.3, 0.75, 1.625)).norm(), 0, kRounding);
 }
 
+/// The text with the joints of these names of another type.
+std::string withTypes(std::string text, const std::vector<std::string>& joints, const std::string& type) {
+  for (const std::string& joint : joints) {
+    const std::string name = "name=\"" + joint + "\" type=\"";
+    const std::size_t at = text.find(name) + name.size();
+    text.replace(at, text.find('"', at) - at, type);
+  }
+  return text;
+}
+
+/// So many joints, one above the other, 0.1 m apart.
+std::string stack(int joints) {
+  std::string text = "<robot name=\"stack\"><link name=\"l0\"/>";
+  for (int j = 1; j <= joints; ++j) {
+    const std::string number = std::to_string(j), before = std::to_string(j - 1);
+    text += "<link name=\"l" + number + "\"><inertial><mass value=\"" + number +
+            "\"/></inertial></link><joint name=\"j" + number + "\" type=\"continuous\"><parent link=\"l" + before +
+            "\"/><child link=\"l" + number + "\"/><origin xyz=\"0 0 0.1\"/></joint>";
+  }
+  return text + "</robot>";
+}
+
+TEST(ReadUrdf, HasAsManyJointsAsTheChain) {
+  const robot::Robot five = robot::parseUrdf(withTypes(kRobot, {"j2"}, "fixed"), "odd.urdf", "base", "tool0");
+  EXPECT_EQ(five.joints(), 5);
+  EXPECT_EQ(five.joint_names, (PerJoint<std::string>{"j1", "j3", "j4", "j5", "j6"}));
+  EXPECT_EQ(five.limits.size(), 5u);
+  EXPECT_EQ(five.limits[1].upper, 1.0);
+  EXPECT_NEAR((five.axes_in_base_at_zero[1].point - Eigen::Vector3d(0.3, 0, 1.5)).norm(), 0, kRounding);
+  ASSERT_EQ(five.bodies.size(), 6u);
+  EXPECT_EQ(five.bodies[1].mass_kg, 100.0);  // l1 and l2 are one body
+  EXPECT_EQ(five.bodies[2].mass_kg, 80.0);
+  EXPECT_EQ(link(five, "motor").body, 2);
+  EXPECT_EQ(link(five, "tool0").body, 5);
+
+  const robot::Robot seven = robot::parseUrdf(withTypes(kRobot, {"face"}, "continuous"), "odd.urdf", "base", "tool0");
+  EXPECT_EQ(seven.joints(), 7);
+  EXPECT_EQ(seven.joint_names.back(), "face");
+  EXPECT_EQ(seven.limits.back().upper, std::numeric_limits<double>::infinity());
+  EXPECT_NEAR((seven.axes_in_base_at_zero.back().direction - Eigen::Vector3d(0, 1, 0)).norm(), 0, kRounding);
+  EXPECT_EQ(seven.bodies.size(), 8u);
+  EXPECT_EQ(link(seven, "l6").body, 6);
+  EXPECT_EQ(link(seven, "tool0").body, 7);
+}
+
+TEST(ReadUrdf, TakesFourToEightJoints) {
+  for (int joints = kFewestJoints; joints <= kMostJoints; ++joints) {
+    const robot::Robot robot = robot::parseUrdf(stack(joints), "stack.urdf", "l0", "l" + std::to_string(joints));
+    EXPECT_EQ(robot.joints(), joints);
+    EXPECT_EQ(robot.bodies.back().mass_kg, joints);
+    EXPECT_NEAR(robot.base_from_flange_at_zero.translation().z(), 0.1 * joints, kRounding);
+  }
+  const auto why = [](int joints) -> std::string {
+    try {
+      robot::parseUrdf(stack(joints), "stack.urdf", "l0", "l" + std::to_string(joints));
+    } catch (const io::InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(why(3),
+            "stack.urdf:1: joint: expected 4 to 8 revolute joints between 'l0' and 'l3'; there are 3: j1, j2, j3");
+  EXPECT_EQ(why(9),
+            "stack.urdf:1: joint: expected 4 to 8 revolute joints between 'l0' and 'l9'; there are 9: j1, j2, j3, j4, "
+            "j5, j6, j7, j8, j9");
+}
+
 struct RejectedUrdf {
   const char *find, *replace, *message;
 };
@@ -117,11 +186,8 @@ const RejectedUrdf kRejected[] = {
      "type: 'prismatic': expected revolute joints between 'base' and 'tool0'; joint 'j2' is not"},
     {"name=\"j2\" type=\"revolute\"", "name=\"j2\" type=\"floating\"", "type: 'floating': expected revolute joints"},
     {"name=\"j2\" type=\"revolute\"", "name=\"j2\" type=\"planar\"", "type: 'planar': expected revolute joints"},
-    {"name=\"j2\" type=\"revolute\"", "name=\"j2\" type=\"fixed\"",
-     "expected six revolute joints between 'base' and 'tool0'; there are 5: j1, j3, j4, j5, j6"},
-    {"name=\"face\" type=\"fixed\"", "name=\"face\" type=\"continuous\"", "there are 7: j1, j2, j3, j4, j5, j6, face"},
     {"<axis xyz=\"0 0 2\"/>", "<mimic joint=\"j2\"/>",
-     "mimic: 'j1': expected six joints with angles of their own; this one follows another joint"},
+     "mimic: 'j1': expected joints with angles of their own; this one follows another joint"},
     {"<axis xyz=\"0 0 2\"/>", "<axis xyz=\"0 0 0\"/>", "xyz: '0 0 0': expected an axis that is not zero"},
     {"<axis xyz=\"0 0 2\"/>", "<axis xyz=\"0 ${s} 1\"/>", "xyz: '0 ${s} 1': expected a number; expand xacro first"},
     {"<origin xyz=\"0.3 0 0\"/>", "<origin xyz=\"${length} 0 0\"/>", "expand xacro first"},
@@ -151,7 +217,7 @@ const RejectedUrdf kRejected[] = {
     {"<link name=\"world\"/>", "<link name=\"world\"/><!--", "expected well-formed XML"},
 };
 
-TEST(ReadUrdf, RefusesWhatIsNoChainOfSixJoints) {
+TEST(ReadUrdf, RefusesWhatIsNoChainOfRevoluteJoints) {
   for (const RejectedUrdf& test : kRejected) {
     std::string text = kRobot;
     const std::size_t at = text.find(test.find);
@@ -183,7 +249,7 @@ TEST(ReadUrdf, RefusesLinksThatAreNotOnOneChain) {
             "odd.urdf:2: flange_link: 'base': expected a link beyond 'tool0'; the way back from it ends at "
             "'world'");
   EXPECT_EQ(why("base", "base"),
-            "odd.urdf:2: joint: expected six revolute joints between 'base' and 'base'; there are 0");
+            "odd.urdf:2: joint: expected 4 to 8 revolute joints between 'base' and 'base'; there are 0");
   EXPECT_EQ(why("world", "tool0"), "");
 }
 

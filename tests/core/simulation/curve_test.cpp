@@ -15,7 +15,7 @@ namespace curve_test {
 /// ahead of the axis, turns it by 1.6 F / k (to the twist itself, relatively; twists here are below 1e-3).
 simulation::SimulationSpec axisTwo(double rate) {
   simulation::SimulationSpec spec = armSpec();
-  spec.machine.joints = {};
+  spec.machine.joints.assign(6, {});
   spec.machine.joints[1].torsion = rate;
   return spec;
 }
@@ -24,7 +24,7 @@ simulation::AppliedLoad down(double force) { return simulation::DeadForce{Vector
 
 double twist(const simulation::SimulationSpec& spec, double force) {
   const simulation::MachineState state =
-      simulation::equilibrium(simulation::buildMachine(spec), Vector6d::Zero(), down(force));
+      simulation::equilibrium(simulation::buildMachine(spec), JointVector::Zero(6), down(force));
   EXPECT_TRUE(state.converged);
   return state.deformation[0];
 }
@@ -110,7 +110,7 @@ TEST(SimulationCurve, frictionKeepsTheWayBackFromTheWayOut) {
   spec.loading.emplace();
   spec.loading->load = simulation::CablePull{{500.0}, std::nullopt, Vector3d(0, 0, -1)};
   spec.loading->repeats = 1;
-  spec.postures.push_back({});
+  spec.postures.push_back({JointVector::Zero(6), {}});
   const campaign::Campaign campaign = simulation::measureWithoutNoise(simulation::buildMachine(spec), spec);
   const double out = (torque - f) / 1e6, back = kf * (out - f / kf) / (1e6 + kf);
   const auto height = [&](std::size_t step) { return campaign.loading->rows[3 * step].point.z(); };
@@ -127,7 +127,7 @@ TEST(SimulationCurve, frictionStartsAnewAtEveryPosture) {
   spec.machine.joints[1].friction = simulation::JointFriction{100.0, 4e5, 4};
   spec.loading.emplace();
   spec.loading->load = simulation::HangingWeights{{20.0, 60.0}};
-  spec.postures = {{Vector6d::Zero(), {}}, {Vector6d::Zero(), {}}};
+  spec.postures = {{JointVector::Zero(6), {}}, {JointVector::Zero(6), {}}};
   const campaign::Campaign campaign = simulation::measureWithoutNoise(simulation::buildMachine(spec), spec);
   const std::size_t half = campaign.loading->rows.size() / 2;
   for (std::size_t r = 0; r < half; ++r) {

@@ -21,7 +21,7 @@ simulation::SimulationSpec day() {
   spec.loading->load = simulation::HangingWeights{{50.0, 100.0, 150.0}};
   spec.loading->hook_in_flange = Vector3d(0.1, 0.06, 0.2);
   spec.postures = {{posture(), {}}, {0.5 * posture(), {}}};
-  spec.circle_sweeps = {{1, -0.5, 0.5, 5, Vector6d::Zero()}};
+  spec.circle_sweeps = {{1, -0.5, 0.5, 5, JointVector::Zero(6)}};
   spec.nests = {{"N1", {2, -2, 0}}, {"N2", {1, 2, 0}}, {"N3", {3, 1, 0.5}}};
   spec.nests_after_sweeps = true;
   return spec;
@@ -183,7 +183,7 @@ TEST(SimulationDay, machineAtAPostureAndATime) {
   spec.machine.growths = {{3, 1e-3, 3600.0}};
   const simulation::ElasticMachine machine = simulation::buildMachine(spec);
   ASSERT_TRUE(machine.changes());
-  const Vector6d q = posture();
+  const JointVector q = posture();
   const simulation::ElasticMachine now = simulation::machineAt(machine, q, 3600.0);
   const double come = 1.0 - std::exp(-1.0);
   EXPECT_NEAR(now.elements[1].stiffness(5, 5), 3e6 * (1 + 0.1 * std::sin(2 * q[1] + 0.3)), 1e-6);

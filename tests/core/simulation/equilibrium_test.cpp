@@ -12,7 +12,7 @@ using Eigen::Vector3d;
 namespace equilibrium_test {
 
 /// Rigid kinematics written out a second time, with a small extra turn at one joint, fixed in its body.
-Vector3d rigidPoint(const robot::Robot& robot, const Vector6d& q, const Vector3d& in_flange, int joint = -1,
+Vector3d rigidPoint(const robot::Robot& robot, const JointVector& q, const Vector3d& in_flange, int joint = -1,
                     const Vector3d& extra = Vector3d::Zero()) {
   Vector3d p = robot.base_from_flange_at_zero * in_flange;
   for (int i = 5; i >= 0; --i) {
@@ -25,7 +25,7 @@ Vector3d rigidPoint(const robot::Robot& robot, const Vector6d& q, const Vector3d
 }
 
 /// d point / d (turn of joint i about `direction`), by central differences.
-Vector3d column(const robot::Robot& robot, const Vector6d& q, const Vector3d& in_flange, int joint,
+Vector3d column(const robot::Robot& robot, const JointVector& q, const Vector3d& in_flange, int joint,
                 const Vector3d& direction) {
   const double h = 1e-4;
   return (rigidPoint(robot, q, in_flange, joint, h * direction) -
@@ -34,7 +34,7 @@ Vector3d column(const robot::Robot& robot, const Vector6d& q, const Vector3d& in
 }
 
 /// J_m C J_w' F over torsion and both tilts of every joint.
-Vector3d linearDisplacement(const simulation::SimulationSpec& spec, const Vector6d& q, const Vector3d& measured,
+Vector3d linearDisplacement(const simulation::SimulationSpec& spec, const JointVector& q, const Vector3d& measured,
                             const simulation::DeadForce& load) {
   Vector3d sum = Vector3d::Zero();
   for (int i = 0; i < 6; ++i) {
@@ -59,7 +59,7 @@ double energyAt(const simulation::ElasticMachine& machine, const simulation::App
 // above it, so k t = F (a cos t + b sin t), solved here by bisection.
 TEST(SimulationEquilibrium, oneSpringByHand) {
   simulation::SimulationSpec spec = armSpec();
-  spec.machine.joints = {};
+  spec.machine.joints.assign(6, {});
   spec.machine.joints[1].torsion = 2e4;  // soft: a turn of several degrees, far from linear
   const double force = 1500.0, a = 1.6, b = 1.3;
   double low = 0.0, high = 1.0;
@@ -69,7 +69,7 @@ TEST(SimulationEquilibrium, oneSpringByHand) {
   }
   const simulation::ElasticMachine machine = simulation::buildMachine(spec);
   const simulation::MachineState state = simulation::equilibrium(
-      machine, Vector6d::Zero(), simulation::DeadForce{Vector3d::Zero(), Vector3d(0, 0, -force)});
+      machine, JointVector::Zero(6), simulation::DeadForce{Vector3d::Zero(), Vector3d(0, 0, -force)});
   ASSERT_TRUE(state.converged);
   EXPECT_GT(low, 0.1);
   EXPECT_NEAR(state.deformation[0], low, 1e-12);  // the solver's own promise
@@ -82,14 +82,14 @@ TEST(SimulationEquilibrium, oneSpringByHand) {
 // at the tip: u = F l^3/3EI + F l/kGA + 0.3 F l^2/2EI, and r = F l^2/2EI + 0.3 F l/EI.
 TEST(SimulationEquilibrium, beamByHand) {
   simulation::SimulationSpec spec = armSpec();
-  spec.machine.joints = {};
+  spec.machine.joints.assign(6, {});
   spec.machine.links = {{3, 1e6, std::nullopt, 2e7, std::nullopt}};
   const double force = 1.0, l = 1.3, ei = 1e6, kga = 2e7;
   const double u = force * (l * l * l / (3 * ei) + l / kga + 0.3 * l * l / (2 * ei));
   const double r = force * (l * l / (2 * ei) + 0.3 * l / ei);
   const simulation::ElasticMachine machine = simulation::buildMachine(spec);
   const simulation::MachineState state = simulation::equilibrium(
-      machine, Vector6d::Zero(), simulation::DeadForce{Vector3d::Zero(), Vector3d(0, 0, -force)});
+      machine, JointVector::Zero(6), simulation::DeadForce{Vector3d::Zero(), Vector3d(0, 0, -force)});
   ASSERT_TRUE(state.converged);
   // A micrometre: finite rotations matter to 1e-6 of it only.
   EXPECT_NEAR(2.2 - state.base_from_flange.translation().z(), u + 0.3 * r, 1e-5 * u);
@@ -158,7 +158,7 @@ TEST(SimulationEquilibrium, smallLoadsAreLinear) {
 
 TEST(SimulationEquilibrium, withoutComplianceItIsRigidKinematics) {
   simulation::SimulationSpec spec = armSpec();
-  spec.machine.joints = {};
+  spec.machine.joints.assign(6, {});
   const simulation::ElasticMachine machine = simulation::buildMachine(spec);
   const simulation::MachineState state =
       simulation::equilibrium(machine, posture(), simulation::DeadForce{{0, 0, 0}, {0, 0, -1e6}});
@@ -171,7 +171,7 @@ TEST(SimulationEquilibrium, withoutComplianceItIsRigidKinematics) {
 
 TEST(SimulationEquilibrium, rigidGeometryIsTheMachineWithoutCompliance) {
   simulation::SimulationSpec spec = fullSpec();
-  spec.machine.joints = {};
+  spec.machine.joints.assign(6, {});
   spec.machine.links.clear();
   spec.machine.base_rotation.reset();
   const simulation::ElasticMachine machine = simulation::buildMachine(spec);
@@ -194,12 +194,12 @@ TEST(SimulationEquilibrium, rigidGeometryIsTheMachineWithoutCompliance) {
 // A mass 1 m above one spring: it takes more than m g h = 981 Nm/rad to hold it upright.
 TEST(SimulationEquilibrium, refusesAnUnstableRest) {
   simulation::SimulationSpec spec = armSpec();
-  spec.machine.joints = {};
+  spec.machine.joints.assign(6, {});
   spec.machine.joints[1].torsion = 100.0;
   spec.nominal.bodies[2] = {100.0, {0.4, 0.0, 1.9}};
-  EXPECT_FALSE(simulation::equilibrium(simulation::buildMachine(spec), Vector6d::Zero()).converged);
+  EXPECT_FALSE(simulation::equilibrium(simulation::buildMachine(spec), JointVector::Zero(6)).converged);
   spec.machine.joints[1].torsion = 2000.0;
-  EXPECT_TRUE(simulation::equilibrium(simulation::buildMachine(spec), Vector6d::Zero()).converged);
+  EXPECT_TRUE(simulation::equilibrium(simulation::buildMachine(spec), JointVector::Zero(6)).converged);
 }
 
 // At zero, and on both sides of the change from series to closed form.

@@ -18,8 +18,8 @@ TEST(SimulationGears, DriveTorqueOfAHangingLoadByHand) {
   for (simulation::JointStiffness& joint : spec.machine.joints) joint = {};
   const simulation::ElasticMachine machine = simulation::buildMachine(spec);
   const simulation::AppliedLoad load = simulation::DeadForce{Vector3d::Zero(), {0, 0, -1000}, Vector3d::Zero()};
-  const simulation::MachineState state = simulation::equilibrium(machine, Vector6d::Zero(), load);
-  const Vector6d torque = simulation::driveTorques(machine, state, load, nullptr);
+  const simulation::MachineState state = simulation::equilibrium(machine, JointVector::Zero(6), load);
+  const JointVector torque = simulation::driveTorques(machine, state, load, nullptr);
   EXPECT_NEAR(torque[1], 1600.0, 1e-3);
   EXPECT_NEAR(torque[2], -1600.0, 1e-3);
   EXPECT_NEAR(torque[0], 0.0, 1e-3);

@@ -24,15 +24,15 @@ simulation::SimulationSpec day() {
   spec.loading.emplace();
   spec.loading->load = simulation::HangingWeights{{50.0, 150.0}};
   spec.loading->hook_in_flange = Vector3d(0.1, 0.06, 0.2);
-  spec.posture_draw.emplace();
+  spec.posture_draw.emplace(6);
   spec.posture_draw->count = 4;
   spec.posture_draw->low = kDeg * (Vector6d() << -40, -30, -50, -90, -90, -120).finished();
   spec.posture_draw->high = kDeg * (Vector6d() << 40, 40, 20, 90, 90, 120).finished();
-  spec.posture_draw->min_abs_sin_q5 = 0.5;
+  spec.posture_draw->min_abs_sin_bend = 0.5;
   spec.posture_draw->min_height = 0.9;
   spec.posture_draw->max_flange_up = 20 * kDeg;
   spec.posture_draw->min_hang_clearance = 0.15;
-  spec.circle_sweeps = {{1, -0.5, 0.5, 5, Vector6d::Zero()}, {4, -1.0, 1.0, 6, posture()}};
+  spec.circle_sweeps = {{1, -0.5, 0.5, 5, JointVector::Zero(6)}, {4, -1.0, 1.0, 6, posture()}};
   spec.wrist_sweep.emplace();
   spec.wrist_sweep->readings = 10;
   spec.wrist_sweep->low = Vector3d(-2, -1, -2);
@@ -151,9 +151,9 @@ TEST(SimulationMeasure, drawnPosturesKeepTheirRulesAndAreNested) {
 // At zero the flange is level, 2 m out and 2.2 m high. 0.2 m ahead of it and 0.1 m above, the nearest lower
 // part of the arm is the flange itself, 0.2 m back.
 TEST(SimulationMeasure, hangClearanceByHand) {
-  EXPECT_NEAR(simulation::hangClearance(arm(), Vector6d::Zero(), Vector3d(0.1, 0, 0.2)), 0.2, 1e-12);
+  EXPECT_NEAR(simulation::hangClearance(arm(), JointVector::Zero(6), Vector3d(0.1, 0, 0.2)), 0.2, 1e-12);
   // 0.1 m below the flange's level only shoulder and upper arm are lower, at x = 0.4 m.
-  EXPECT_NEAR(simulation::hangClearance(arm(), Vector6d::Zero(), Vector3d(-0.1, 0, 0.2)), 1.8, 1e-12);
+  EXPECT_NEAR(simulation::hangClearance(arm(), JointVector::Zero(6), Vector3d(-0.1, 0, 0.2)), 1.8, 1e-12);
 }
 
 TEST(SimulationMeasure, cablesPullTowardsTheirAnchorOrTheirDirection) {
@@ -174,7 +174,7 @@ TEST(SimulationMeasure, cablesPullTowardsTheirAnchorOrTheirDirection) {
 TEST(SimulationMeasure, namesThePostureThatCannotCarryItsLoad) {
   simulation::SimulationSpec spec = day();
   spec.machine.joints[1].torsion = 5e4;
-  spec.postures.push_back({Vector6d::Zero(), std::nullopt});
+  spec.postures.push_back({JointVector::Zero(6), std::nullopt});
   spec.circle_sweeps.clear();
   spec.wrist_sweep.reset();
   try {

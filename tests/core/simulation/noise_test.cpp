@@ -63,7 +63,7 @@ TEST(SimulationLoadCell, readsGainMisalignmentAndBiasUnderLoadOnly) {
   cell.gain_error = 0.01;
   cell.bias << 5, 0, 0, 0, 0, 0.5;
   campaign::States states;
-  states.rows.resize(2);
+  states.rows.assign(2, campaign::State(6));
   states.rows[1].wrench_in_cell << 0, 100, 7, 20, 0, 0;
   simulation::addLoadCellErrors(cell, 1, states);
   EXPECT_TRUE(states.rows[0].wrench_in_cell.isZero());

@@ -10,17 +10,17 @@ namespace stiffscope::simulation {
 namespace posture_spacing_test {
 
 /// A box whose third joint stands still.
-const Vector6d kLow = (Vector6d() << -1.0, -0.5, 0.3, -2.0, -3.0, 0.0).finished();
-const Vector6d kHigh = (Vector6d() << 1.0, 0.5, 0.3, 2.0, 3.0, 0.5).finished();
+const JointVector kLow = (Vector6d() << -1.0, -0.5, 0.3, -2.0, -3.0, 0.0).finished();
+const JointVector kHigh = (Vector6d() << 1.0, 0.5, 0.3, 2.0, 3.0, 0.5).finished();
 
-Vector6d draw(std::mt19937_64& random) {
+JointVector draw(std::mt19937_64& random) {
   std::uniform_real_distribution<double> share;
-  Vector6d q;
+  JointVector q(6);
   for (int i = 0; i < 6; ++i) q[i] = kLow[i] + share(random) * (kHigh[i] - kLow[i]);
   return q;
 }
 
-double squaredByHand(const Vector6d& a, const Vector6d& b) {
+double squaredByHand(const JointVector& a, const JointVector& b) {
   double sum = 0.0;
   for (int i = 0; i < 6; ++i) {
     if (i == 2) continue;
@@ -37,12 +37,12 @@ TEST(PostureSpacing, WithoutAnyIsInfinite) {
 
 TEST(PostureSpacing, IsTheLeastOfAllDistances) {
   simulation::PostureSpacing spacing(kLow, kHigh);
-  std::vector<Vector6d> before;
+  std::vector<JointVector> before;
   std::mt19937_64 random(3);
   for (int n = 0; n < 600; ++n) {
-    const Vector6d q = draw(random);
+    const JointVector q = draw(random);
     double least = std::numeric_limits<double>::infinity();
-    for (const Vector6d& one : before) least = std::min(least, squaredByHand(q, one));
+    for (const JointVector& one : before) least = std::min(least, squaredByHand(q, one));
     EXPECT_EQ(spacing.squaredToNearest(q, 0.0), least) << n;  // the same sum of the same numbers
     // Where the nearest is near enough, some posture that is; else the nearest.
     const double enough = 0.05, found = spacing.squaredToNearest(q, enough);

@@ -97,12 +97,12 @@ TEST(SimulationSprings, reciprocity) {
 // A rod from the crank of joint 2 (0.3 m) to that of joint 3 (0.2 m), e = 0.3 t2 + 0.2 t3: a 2x2 stiffness.
 TEST(SimulationSprings, parallelogramRodByHand) {
   simulation::SimulationSpec spec = armSpec();
-  spec.machine.joints = {};
+  spec.machine.joints.assign(6, {});
   spec.machine.joints[1].torsion = 3e6;
   spec.machine.joints[2].torsion = 2e6;
   spec.machine.shared_springs = {{{1, 2}, {0.3, 0.2}, 2e7}};
   const simulation::MachineState state = simulation::equilibrium(
-      simulation::buildMachine(spec), Vector6d::Zero(), simulation::DeadForce{Vector3d::Zero(), Vector3d(0, 0, -1)});
+      simulation::buildMachine(spec), JointVector::Zero(6), simulation::DeadForce{Vector3d::Zero(), Vector3d(0, 0, -1)});
   // Both axes stand 1.6 m behind the flange; joint 3's points the other way.
   Eigen::Matrix2d stiffness;
   stiffness << 3e6 + 2e7 * 0.09, 2e7 * 0.06, 2e7 * 0.06, 2e6 + 2e7 * 0.04;
@@ -114,18 +114,18 @@ TEST(SimulationSprings, parallelogramRodByHand) {
 // turns joint 2 by -0.5 / sqrt(2) kNm about +y (it pulls the arm back).
 TEST(SimulationSprings, gravityCompensatorByHand) {
   simulation::SimulationSpec spec = armSpec();
-  spec.machine.joints = {};
+  spec.machine.joints.assign(6, {});
   spec.machine.joints[1].torsion = 1e8;
   spec.machine.link_springs = {{1, 2, {-0.1, 0, 0.9}, {0.4, 0, 1.4}, 2000.0, 1000.0}};
   const simulation::ElasticMachine machine = simulation::buildMachine(spec);
-  const double at_zero = simulation::equilibrium(machine, Vector6d::Zero()).deformation[0];
+  const double at_zero = simulation::equilibrium(machine, JointVector::Zero(6)).deformation[0];
   EXPECT_NEAR(at_zero, -500.0 / std::sqrt(2.0) / 1e8, 1e-4 * 3.5e-6);  // its own rate, 1e3 of 1e8 Nm/rad
   // With joint 2 at +30 deg the far end is at 0.5 (sin 30, cos 30) m from the axis.
   const double x = 0.5 + 0.25, z = 0.5 * std::cos(M_PI / 6), length = std::hypot(x, z);
   const double tension = 1000.0 + 2000.0 * (length - std::hypot(0.5, 0.5));
   // Torque about +y of a force f at r is r_z f_x - r_x f_z.
   const double torque = tension / length * (z * -x - 0.25 * -z);
-  Vector6d q = Vector6d::Zero();
+  JointVector q = JointVector::Zero(6);
   q[1] = M_PI / 6;
   EXPECT_NEAR(simulation::equilibrium(machine, q).deformation[0], torque / 1e8, 1e-4 * std::abs(torque / 1e8));
 }
@@ -144,15 +144,15 @@ TEST(SimulationSprings, aSpringToTheBaseLoadsNoFloor) {
 // 100 N along the flange's x at 0.2 m above the plate: 100 / kx, and 20 Nm / ky about y.
 TEST(SimulationSprings, toolPlateByHand) {
   simulation::SimulationSpec spec = armSpec();
-  spec.machine.joints = {};
+  spec.machine.joints.assign(6, {});
   spec.machine.tool_plate = simulation::ToolPlate{{2e7, 3e7, 5e7}, {1e6, 2e6, 3e6}};
   spec.targets = {{"P10", {0.0, 0.0, 0.3}}};
   const simulation::ElasticMachine machine = simulation::buildMachine(spec);
   const Eigen::Matrix3d flange = spec.nominal.base_from_flange_at_zero.linear();
   const simulation::MachineState state = simulation::equilibrium(
-      machine, Vector6d::Zero(), simulation::DeadForce{{0, 0, 0.2}, flange * Vector3d(100, 0, 0)});
+      machine, JointVector::Zero(6), simulation::DeadForce{{0, 0, 0.2}, flange * Vector3d(100, 0, 0)});
   const Vector3d moved = flange.transpose() * (state.targets_in_base[0] -
-                                               simulation::equilibrium(machine, Vector6d::Zero()).targets_in_base[0]);
+                                               simulation::equilibrium(machine, JointVector::Zero(6)).targets_in_base[0]);
   const double expected = 100.0 / 2e7 + 0.3 * 20.0 / 2e6;
   EXPECT_NEAR(moved.x(), expected, 1e-4 * expected);
   EXPECT_LT(std::abs(moved.y()), 1e-12);
@@ -161,12 +161,12 @@ TEST(SimulationSprings, toolPlateByHand) {
 // A pedestal that rests on 2e6 Nm/rad to one side and on twice that to the other.
 TEST(SimulationSprings, oneSidedContact) {
   simulation::SimulationSpec spec = armSpec();
-  spec.machine.joints = {};
+  spec.machine.joints.assign(6, {});
   spec.machine.base_rotation = Vector3d(2e6, 2e6, 2e6);
   spec.machine.base_contacts = {{1, false, 2e6, 0.0}};
   const simulation::ElasticMachine machine = simulation::buildMachine(spec);
   const auto turn = [&](double force) {
-    return simulation::equilibrium(machine, Vector6d::Zero(),
+    return simulation::equilibrium(machine, JointVector::Zero(6),
                                    simulation::DeadForce{Vector3d::Zero(), Vector3d(0, 0, force)})
         .deformation[1];
   };

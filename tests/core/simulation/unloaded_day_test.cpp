@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 
 namespace unloaded_day_test {
 
-Vector6d deg(double a, double b, double c, double d, double e, double f) {
+JointVector deg(double a, double b, double c, double d, double e, double f) {
   return kDeg * (Vector6d() << a, b, c, d, e, f).finished();
 }
 
@@ -23,7 +23,7 @@ SimulationSpec rigidDay() {
   SimulationSpec spec = armSpec();
   for (JointStiffness& joint : spec.machine.joints) joint = {};
   spec.unloaded_repeats = 2;
-  for (const Vector6d& q : {posture(), deg(-30, 40, 10, -60, 35, 90), deg(60, -20, -50, 100, -70, 20), posture()}) {
+  for (const JointVector& q : {posture(), deg(-30, 40, 10, -60, 35, 90), deg(60, -20, -50, 100, -70, 20), posture()}) {
     spec.postures.push_back({q, {}});
   }
   return spec;
@@ -32,7 +32,7 @@ SimulationSpec rigidDay() {
 campaign::Campaign dayOf(const SimulationSpec& spec) { return measureWithoutNoise(buildMachine(spec), spec); }
 
 /// Where a rigid nominal arm at true angles q shows a point of its flange to the tracker.
-Vector3d shownAt(const SimulationSpec& spec, const Vector6d& q, const Vector3d& on_flange) {
+Vector3d shownAt(const SimulationSpec& spec, const JointVector& q, const Vector3d& on_flange) {
   return spec.tracker.base_from_tracker.inverse() * (nominalFlange(spec.nominal, q) * on_flange);
 }
 
@@ -51,7 +51,7 @@ double farthestFrom(const SimulationSpec& spec, const TrueAngles& trueAngles) {
 
 constexpr double kExact = 1e-12;  // m, of metres
 
-Vector6d listed(const SimulationSpec& spec, int pose) { return spec.postures[static_cast<std::size_t>(pose)].q; }
+JointVector listed(const SimulationSpec& spec, int pose) { return spec.postures[static_cast<std::size_t>(pose)].q; }
 
 TEST(SimulationUnloaded, isPosturesAtStepZeroAlone) {
   SimulationSpec spec = rigidDay();
@@ -75,7 +75,7 @@ TEST(SimulationUnloaded, ratioOfTheOwnAngleAndOfAnothers) {
   spec.machine.joints[4].ratio = JointRatio{-3e-4, 3};
   EXPECT_LT(farthestFrom(spec,
                          [&](int pose) {
-                           Vector6d q = listed(spec, pose);
+                           JointVector q = listed(spec, pose);
                            q[4] -= 3e-4 * q[3];
                            q[1] *= 1.0 + 2e-4;
                            return q;
@@ -88,7 +88,7 @@ TEST(SimulationUnloaded, gearErrorOfAnOrderThatIsNotWhole) {
   spec.machine.joints[1].angle_wave = JointWave{5e-5, 17.25, 0.7};
   EXPECT_LT(farthestFrom(spec,
                          [&](int pose) {
-                           Vector6d q = listed(spec, pose);
+                           JointVector q = listed(spec, pose);
                            q[1] += 5e-5 * std::sin(17.25 * q[1] + 0.7);
                            return q;
                          }),
@@ -103,7 +103,7 @@ TEST(SimulationUnloaded, playLagsOnTheSideFromWhichTheJointCame) {
   const std::array<double, 4> sides{1.0, -1.0, 1.0, -1.0};  // 20, -30, 60, 20 deg
   EXPECT_LT(farthestFrom(spec,
                          [&](int pose) {
-                           Vector6d q = listed(spec, pose);
+                           JointVector q = listed(spec, pose);
                            q[0] -= half * sides[static_cast<std::size_t>(pose)];
                            return q;
                          }),
@@ -112,7 +112,7 @@ TEST(SimulationUnloaded, playLagsOnTheSideFromWhichTheJointCame) {
 }
 
 TEST(SimulationUnloaded, aJointThatStandsKeepsItsSide) {
-  Arrival arrival;
+  Arrival arrival(6);
   arrival.moveTo(deg(10, 0, 0, 0, 0, 0));
   arrival.moveTo(deg(10, -5, 0, 0, 0, 0));
   EXPECT_EQ(arrival.side, (Vector6d() << 1, -1, 0, 0, 0, 0).finished());
@@ -131,7 +131,7 @@ TEST(SimulationUnloaded, aTorqueAboveFrictionTakesTheLinkToItsOwnSide) {
     spec.machine.joints[1].lost_motion = LostMotion{width, held ? 1.1 * torque : 0.9 * torque};
     EXPECT_LT(farthestFrom(spec,
                            [&](int pose) {
-                             Vector6d q = listed(spec, pose);
+                             JointVector q = listed(spec, pose);
                              // At its first posture the joint has not moved from zero; leaning 5 deg the torque is
                              // within a tenth: 1.3 cos 5 + 1.1 sin 5 = 1.39 m.
                              q[1] += held ? (pose == 0 ? 0.0 : -0.5 * width) : 0.5 * width;
@@ -144,13 +144,13 @@ TEST(SimulationUnloaded, aTorqueAboveFrictionTakesTheLinkToItsOwnSide) {
 
 TEST(SimulationUnloaded, anEarlyLogLacksAShareOfTheMove) {
   SimulationSpec spec = rigidDay();
-  spec.early_log = EarlyLog{0.4, Vector6d::Constant(0.08)};
+  spec.early_log = EarlyLog{0.4, JointVector::Constant(6, 0.08)};
   spec.early_log->time_constants[5] = 0.05;
   const campaign::Campaign campaign = dayOf(spec);
-  Vector6d before = Vector6d::Zero();
+  JointVector before = JointVector::Zero(6);
   for (std::size_t p = 0; p < spec.postures.size(); ++p) {
-    const Vector6d move = spec.postures[p].q - before;
-    Vector6d expected = spec.postures[p].q - std::exp(-5.0) * move;
+    const JointVector move = spec.postures[p].q - before;
+    JointVector expected = spec.postures[p].q - std::exp(-5.0) * move;
     expected[5] = spec.postures[p].q[5] - std::exp(-8.0) * move[5];
     EXPECT_LT((campaign.states->rows[p].q - expected).norm(), 1e-15);
     before = spec.postures[p].q;
@@ -164,7 +164,7 @@ TEST(SimulationUnloaded, aBeltSlipsAtATime) {
   spec.machine.joints[2].zero_jump = ZeroJump{1e-4, from_s};
   EXPECT_LT(farthestFrom(spec,
                          [&](int pose) {
-                           Vector6d q = listed(spec, pose);
+                           JointVector q = listed(spec, pose);
                            if (pose >= 2) q[2] += 1e-4;
                            return q;
                          }),
@@ -211,7 +211,7 @@ TEST(SimulationUnloaded, linksGrowAndZerosWanderWithTemperature) {
   EXPECT_LT(farthestFrom(spec,
                          [&](int pose) {
                            const double time = campaign.states->rows[static_cast<std::size_t>(pose)].time_s;
-                           Vector6d q = listed(spec, pose);
+                           JointVector q = listed(spec, pose);
                            q[3] += 2e-5 * (spec.temperature->lagged(time, 50.0) - 20.0);
                            return q;
                          }),
@@ -239,7 +239,7 @@ TEST(SimulationUnloaded, aReflectorIsReseatedAtATime) {
 TEST(SimulationUnloaded, aReflectorRattlesBetweenTwoSeats) {
   SimulationSpec spec = rigidDay();
   spec.postures.clear();
-  for (int p = 0; p < 60; ++p) spec.postures.push_back({p % 2 == 0 ? posture() : Vector6d(0.5 * posture()), {}});
+  for (int p = 0; p < 60; ++p) spec.postures.push_back({p % 2 == 0 ? posture() : JointVector(0.5 * posture()), {}});
   const campaign::Campaign before = dayOf(spec);
   TargetMotion motion;
   motion.kind = TargetMotion::Kind::rattling;
@@ -296,7 +296,7 @@ TEST(SimulationUnloaded, theOwnWeightTwistsAJoint) {
   const double k = 4e7, turn = 100.0 * 9.80665 * 1.3 / k;
   spec.machine.joints[1].torsion = k;
   // The torque grows by the lean: a share of m g h / k = 100 * 9.8 * 1.1 / 4e7 of 3e-5 rad.
-  EXPECT_LT(farthestFrom(spec, [&](int) { return Vector6d(turn * Vector6d::Unit(1)); }), 3e-5 * 3e-5 * 3.0);
+  EXPECT_LT(farthestFrom(spec, [&](int) { return JointVector(turn * JointVector::Unit(6, 1)); }), 3e-5 * 3e-5 * 3.0);
 }
 
 /// Station of which only this is wrong, at the origin with base_link's axes.

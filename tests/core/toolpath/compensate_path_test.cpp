@@ -60,10 +60,10 @@ TEST(CompensatePath, HoldsThePathUnderLoad) {
     const Eigen::Isometry3d& workpiece = path.job.base_from_workpiece;
     const Eigen::Isometry3d wanted = workpiece * path.job.path.poses[i].workpiece_from_tool;
     const Vector3d force = workpiece.linear() * path.job.load.constant.head<3>();
-    const auto toolAt = [&](const Vector6d& settled) {
+    const auto toolAt = [&](const JointVector& settled) {
       return Eigen::Isometry3d(path.lab.actual.flangeAt(settled) * path.job.flange_from_tool);
     };
-    const Vector6d &q = pose.compensated.posture.q, &commands = pose.compensated.commands;
+    const JointVector &q = pose.compensated.posture.q, &commands = pose.compensated.commands;
     const Eigen::Isometry3d unloaded = toolAt(path.lab.settled(q)), loaded = toolAt(path.lab.settled(q, force)),
                             back = toolAt(path.lab.settled(commands, force));
     // Ends of iterations at 1e-9 m and rad, two of them.
@@ -186,7 +186,7 @@ TEST(CompensatePath, TheSimulatorStaysOnTheMilledPath) {
     EXPECT_TRUE(pose.compensated.solved) << pose.compensated.posture.id << ": "
                                          << reports::words(pose.compensated.reason);
     if (!pose.compensated.solved) continue;
-    const Vector6d &q = pose.compensated.posture.q, &commands = pose.compensated.commands;
+    const JointVector &q = pose.compensated.posture.q, &commands = pose.compensated.commands;
     if (i > 0) longest = std::max(longest, (q - path.poses[i - 1].compensated.posture.q).cwiseAbs().maxCoeff());
     const simulation::MachineState unloaded = simulation::equilibrium(machine, q);
     const simulation::AppliedLoad load = deadForce(pose, job, unloaded.base_from_flange);

@@ -23,11 +23,11 @@ struct SampleArm {
     tool.linear() = robot::rotationFromRpy({0.0, radians(45), 0.0});
   }
 
-  Eigen::Isometry3d toolAt(const Vector6d& q) const { return robot::flangeAt(arm, robot::postureAt(arm, q)) * tool; }
+  Eigen::Isometry3d toolAt(const JointVector& q) const { return robot::flangeAt(arm, robot::postureAt(arm, q)) * tool; }
 };
 
 /// The tool moved in a circle about a point aside of where `q` holds it, keeping its direction.
-std::vector<Eigen::Isometry3d> circle(const SampleArm& sample, const Vector6d& q, double radius, int poses) {
+std::vector<Eigen::Isometry3d> circle(const SampleArm& sample, const JointVector& q, double radius, int poses) {
   const Eigen::Isometry3d first = sample.toolAt(q);
   std::vector<Eigen::Isometry3d> path;
   for (int k = 0; k < poses; ++k) {
@@ -47,7 +47,7 @@ double longestStep(const toolpath::JointPath& path) {
 
 TEST(JointPath, StaysOnTheBranchOfTheStart) {
   const SampleArm sample;
-  const Vector6d q = degrees(15, 10, -15, 40, 70, -20);
+  const JointVector q = degrees(15, 10, -15, 40, 70, -20);
   const auto poses = circle(sample, q, 0.2, 60);
   toolpath::JointPathOptions options;
   options.start = q;
@@ -83,7 +83,7 @@ TEST(JointPath, WithoutAStartTheBranchOfLeastCostIsTaken) {
 // farther from limits and singularities than any fixed turn of the same start leaves it.
 TEST(JointPath, TheFreeTurnStaysAwayFromLimits) {
   SampleArm sample;
-  const Vector6d q = degrees(15, 10, -15, 40, 70, -20);
+  const JointVector q = degrees(15, 10, -15, 40, 70, -20);
   const auto poses = circle(sample, q, 0.25, 60);
   toolpath::JointPathOptions options;
   options.start = q;
@@ -112,7 +112,7 @@ TEST(JointPath, TheFreeTurnStaysAwayFromLimits) {
 
 TEST(JointPath, WhatIsOutOfReachIsNamedAndTheRestGoesOn) {
   const SampleArm sample;
-  const Vector6d q = degrees(15, 10, -15, 40, 70, -20);
+  const JointVector q = degrees(15, 10, -15, 40, 70, -20);
   auto poses = circle(sample, q, 0.05, 12);
   poses[5].translation().x() += 5.0;
   toolpath::JointPathOptions options;
@@ -127,7 +127,7 @@ TEST(JointPath, WhatIsOutOfReachIsNamedAndTheRestGoesOn) {
 TEST(JointPath, AJumpAtASingularityIsNamed) {
   SampleArm sample;
   sample.tool = Eigen::Isometry3d::Identity();
-  const Vector6d q = degrees(0, 10, -10, 0.3, 12, 0);
+  const JointVector q = degrees(0, 10, -10, 0.3, 12, 0);
   const Eigen::Isometry3d first = sample.toolAt(q);
   const robot::ArmAxes axes = robot::axesAt(sample.arm, robot::postureAt(sample.arm, q));
   std::vector<Eigen::Isometry3d> poses;
@@ -149,7 +149,7 @@ TEST(JointPath, AJumpAtASingularityIsNamed) {
 
 TEST(JointPath, WholeTurnsAreChosenForThePath) {
   SampleArm sample;
-  const Vector6d q = degrees(15, 10, -15, 40, 70, 100);
+  const JointVector q = degrees(15, 10, -15, 40, 70, 100);
   const auto poses = circle(sample, q, 0.1, 12);
   // Joint 6 may only stand between -300 and -200 deg.
   sample.arm.limits[5] = {radians(-300), radians(-200)};

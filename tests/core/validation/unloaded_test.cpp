@@ -38,7 +38,7 @@ TEST(BlindUnloadedMachines, areRigidAndSpreadOverTheWorkspace) {
     with_nests += spec.nests.empty() ? 0 : 1;
     alone += spec.targets.size() == 1 ? 1 : 0;
     with_temperature += spec.temperature ? 1 : 0;
-    Vector6d low = spec.postures.front().q, high = low;
+    JointVector low = spec.postures.front().q, high = low;
     for (const auto& posture : spec.postures) {
       low = low.cwiseMin(posture.q);
       high = high.cwiseMax(posture.q);
@@ -57,7 +57,7 @@ TEST(BlindUnloadedSize, geometryIsNoEffect) {
   EXPECT_LT(sizer.background(), 1e-6);
   EXPECT_EQ(sizer.measure(lab.spec).positions, 0.0);
   simulation::SimulationSpec other = lab.spec;
-  std::array<simulation::AxisError, 6> errors = simulation::drawAxisErrors(lab.spec);
+  PerJoint<simulation::AxisError> errors = simulation::drawAxisErrors(lab.spec);
   errors[1].zero += 1e-5;
   errors[2].offset += Vector3d(2e-5, 1e-5, 3e-5);
   errors[4].tilt += Vector3d(1e-5, 2e-5, 0);

@@ -9,8 +9,8 @@ namespace stiffscope {
 namespace point_stiffness_test {
 
 struct PlacedArm : KnownArm {
-  compensation::Certainty certainty;
-  Vector6d q = degrees(20, 10, -20, 50, 60, -30);
+  compensation::Certainty certainty{{}, compensation::IdentifiedRange(6)};
+  JointVector q = degrees(20, 10, -20, 50, 60, -30);
 
   PlacedArm() {
     certainty.draws = compensation::springDraws(estimate, estimate.covariance);
@@ -22,7 +22,8 @@ struct PlacedArm : KnownArm {
   /// The arm at rest by its springs, as an arm with effects is handed over.
   effects::EffectDeflection springsAsEffects() const {
     effects::EffectDeflection with;
-    with.flange = [this](const Vector6d& commands, const effects::FlangeLoad& load) {
+    with.spring_covariance = JointMatrix::Zero(6, 6);
+    with.flange = [this](const JointVector& commands, const effects::FlangeLoad& load) {
       const auto angles = effects::loadedAngles(geometry, estimate.compliance, commands, load);
       return std::optional<Eigen::Isometry3d>(
           robot::flangeAt(geometry.arm, robot::postureAt(geometry.arm, angles.value())));
@@ -95,7 +96,7 @@ TEST(PointStiffness, WhatHidesDoesNotTakeTheFitsOwnErrorAway) {
   const Eigen::Index count = draws.size();
   draws.compliance.setZero();
   draws.parameters = Eigen::RowVectorXd::LinSpaced(count, 0.0, 1.0);
-  draws.by = [](const Vector6d&, const effects::FlangeLoad& load, const std::vector<Eigen::Vector3d>&) {
+  draws.by = [](const JointVector&, const effects::FlangeLoad& load, const std::vector<Eigen::Vector3d>&) {
     return Eigen::MatrixXd(kMore * load.force);
   };
   const auto place = workspace::pointStiffness(day.arm(), day.q);
@@ -130,7 +131,7 @@ TEST(PointStiffness, AJointOfUnknownStiffnessTakesItsDirectionAway) {
   day.estimate.compliance[0] = -1e-7;  // no spring
   EXPECT_EQ(workspace::pointStiffness(day.arm(), day.q)->unknown, std::vector<int>{0});
   // Of a wholly unknown arm nothing is said.
-  day.estimate.identifiable.fill(false);
+  day.estimate.identifiable.assign(6, false);
   day.estimate.compliance.setZero();
   EXPECT_TRUE(workspace::pointStiffness(day.arm(), day.q)->of_springs.empty());
 }

@@ -12,7 +12,7 @@ namespace stiffscope {
 namespace slice_test {
 
 struct SlicedArm : KnownArm {
-  compensation::Certainty certainty;
+  compensation::Certainty certainty{{}, compensation::IdentifiedRange(6)};
   std::vector<workspace::NamedPosture> postures{{"a", degrees(20, 10, -20, 50, 60, -30)},
                                                 {"b", degrees(10, 0, -10, 40, 60, -20)},
                                                 {"c", degrees(-40, 30, -30, 0, 50, 0)}};
@@ -36,11 +36,11 @@ TEST(ContinuedAngles, BringsTheFlangeThereOnTheSameBranch) {
   Noise noise(4);
   int reached = 0;
   for (int i = 0; i < 50; ++i) {
-    const Vector6d start = somePosture(noise);
-    Vector6d moved = start;
+    const JointVector start = somePosture(noise);
+    JointVector moved = start;
     for (double& one : moved) one += 0.05 * noise.normal();
     const Eigen::Isometry3d wanted = day.lab.actual.flangeAt(moved);
-    const auto found = workspace::continuedAngles(day.geometry.arm, wanted, start, 0.01);
+    const auto found = workspace::continuedAngles(day.geometry.arm, wanted, Eigen::Vector3d::Zero(), start, 0.01, 0.0);
     if (!found) continue;
     ++reached;
     EXPECT_LT((day.lab.actual.flangeAt(*found).matrix() - wanted.matrix()).cwiseAbs().maxCoeff(), 1e-9);
@@ -51,17 +51,17 @@ TEST(ContinuedAngles, BringsTheFlangeThereOnTheSameBranch) {
 
 TEST(ContinuedAngles, EndsAtTheLimitsAndWhereTheArmDoesNotReach) {
   SlicedArm day;
-  const Vector6d start = day.postures[0].q;
+  const JointVector start = day.postures[0].q;
   Eigen::Isometry3d far = day.lab.actual.flangeAt(start);
   far.pretranslate(Eigen::Vector3d(3.0, 0.0, 0.0));
-  EXPECT_FALSE(workspace::continuedAngles(day.geometry.arm, far, start, 0.01));
-  Vector6d moved = start;
+  EXPECT_FALSE(workspace::continuedAngles(day.geometry.arm, far, Eigen::Vector3d::Zero(), start, 0.01, 0.0));
+  JointVector moved = start;
   moved[1] += 0.1;
   const Eigen::Isometry3d wanted = day.lab.actual.flangeAt(moved);
-  EXPECT_TRUE(workspace::continuedAngles(day.geometry.arm, wanted, start, 0.01));
-  EXPECT_FALSE(workspace::continuedAngles(day.geometry.arm, wanted, start, 0.9));  // no posture is so far from singular
+  EXPECT_TRUE(workspace::continuedAngles(day.geometry.arm, wanted, Eigen::Vector3d::Zero(), start, 0.01, 0.0));
+  EXPECT_FALSE(workspace::continuedAngles(day.geometry.arm, wanted, Eigen::Vector3d::Zero(), start, 0.9, 0.0));  // no posture is so far from singular
   day.geometry.arm.limits[1].upper = start[1] + 0.05;
-  EXPECT_FALSE(workspace::continuedAngles(day.geometry.arm, wanted, start, 0.01));
+  EXPECT_FALSE(workspace::continuedAngles(day.geometry.arm, wanted, Eigen::Vector3d::Zero(), start, 0.01, 0.0));
 }
 
 TEST(StiffnessSlice, HoldsPlaneAndOrientation) {
@@ -118,12 +118,12 @@ TEST(Placement, TheNearestPlaceDeflectsLeastUnderAPullDown) {
     ASSERT_TRUE(one.judged());
     EXPECT_EQ(one.worst, "c");
     // Statics by hand: c_j times the square of the force's lever about each axis is the deflection along the force.
-    const Vector6d& q = one.prediction.posture.q;
+    const JointVector& q = one.prediction.posture.q;
     const Eigen::Vector3d tcp = day.lab.actual.flangeAt(q) * Eigen::Vector3d(0.0, 0.0, 0.1);
     EXPECT_LT(
         (tcp - (day.lab.actual.flangeAt(day.postures[2].q) * Eigen::Vector3d(0.0, 0.0, 0.1) + one.offset.by)).norm(),
         1e-9);
-    const Vector6d torque = day.lab.actual.torqueOf(q, 6, tcp, {0.0, 0.0, -1000.0}, Eigen::Vector3d::Zero());
+    const JointVector torque = day.lab.actual.torqueOf(q, 6, tcp, {0.0, 0.0, -1000.0}, Eigen::Vector3d::Zero());
     const double down = torque.cwiseAbs2().dot(day.estimate.compliance) / 1000.0;
     // Finite rotations and K_c of weight and load are within a hundredth.
     EXPECT_NEAR(-one.prediction.tcp.deflection.z(), down, 0.01 * down);
