@@ -6,6 +6,7 @@
 #include <exception>
 #include <iostream>
 #include <mutex>
+#include <stdexcept>
 #include <variant>
 
 #include "core/io/units.h"
@@ -61,10 +62,21 @@ void addBaseAndFriction(numerics::RandomStream& random, simulation::SimulationSp
   }
 }
 
+std::string familyOf(const std::string& family_at_kind) { return family_at_kind.substr(0, family_at_kind.find('@')); }
+
+validation::MachineKind kindOf(const std::string& family_at_kind) {
+  const std::size_t at = family_at_kind.find('@');
+  if (at == std::string::npos) return validation::MachineKind::six_axis;
+  const auto kind = validation::machineKindOf(family_at_kind.substr(at + 1));
+  if (!kind) throw std::invalid_argument("no kind of machine is called " + family_at_kind.substr(at + 1));
+  return *kind;
+}
+
 }  // namespace
 
-validation::BlindCase drawMachine(const std::string& family, int i, std::uint64_t seed,
+validation::BlindCase drawMachine(const std::string& family_at_kind, int i, std::uint64_t seed,
                                   const std::filesystem::path& urdf) {
+  const std::string family = familyOf(family_at_kind);
   using validation::CaseKind;
   validation::CasePlan plan;
   const auto effect = [](int k) {
@@ -79,7 +91,8 @@ validation::BlindCase drawMachine(const std::string& family, int i, std::uint64_
     const auto kinds = validation::outsideKinds();
     plan = {CaseKind::outside, {}, std::string(kinds[static_cast<std::size_t>(i) % kinds.size()])};
   }
-  validation::BlindCase one = validation::drawCase(plan, seed, fmt::format("{} {}", family, i), urdf);
+  validation::BlindCase one = validation::drawCase(plan, seed, fmt::format("{} {}", family, i), urdf,
+                                                   validation::loadedDays(kindOf(family_at_kind)));
   numerics::RandomStream random(seed, "as they are");
   if (family == "clean" || isDeclared(family)) {
     for (simulation::JointStiffness& joint : one.spec.machine.joints) joint.bearing.reset();

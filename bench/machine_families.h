@@ -17,7 +17,7 @@ namespace stiffscope::bench {
 /// (bearings, links, base and friction at half their usual sizes), outside (something that no effect of the vocabulary
 /// is); and of springs alone with a fault that is declared as uncertain as it is: gain (of the load cell, 1 %),
 /// cell_angles (0.5 deg about each axis), cell_point (3 mm along each), masses (all by 5 %), scale (of the tracker, 50
-/// ppm).
+/// ppm). "FAMILY@KIND": of machines of that kind (validation/machine_kinds.h), as clean@seven_axis.
 inline constexpr const char* kFamilies =
     "clean none single double bearings_links as_they_are outside gain cell_angles cell_point masses scale";
 

@@ -87,6 +87,16 @@ def live(program):
             if ran.returncode not in (0, 1):
                 raise AssertionError("{}: {}".format(" ".join(words), ran.stderr.decode()))
             yield words, definition, json.loads(ran.stdout)
+        machines = [("seven_axis", "frames", "identify", "compensate", "diagnose"), ("palletiser", "frames", "identify")]
+        for kind, *commands in machines:
+            subprocess.run([program, "blind", "--machine", kind, "--cases", "1", "--seed", "1", "--out", str(out / kind)],
+                           capture_output=True, check=True)
+            campaign = next((out / kind / "cases").rglob("campaign.xml")).parent
+            for definition in commands:
+                ran = subprocess.run([program, definition, str(campaign), "--json", "-"], capture_output=True, check=False)
+                if ran.returncode not in (0, 1):
+                    raise AssertionError("{} of {}: {}".format(definition, kind, ran.stderr.decode()))
+                yield [definition, kind], definition, json.loads(ran.stdout)
         for spec in ("active", "unloaded"):
             folder = out / spec
             subprocess.run([program, "simulate", str(SAMPLES / (spec + ".xml")), "--out", str(folder)],

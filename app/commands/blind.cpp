@@ -1,7 +1,9 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -59,6 +61,8 @@ std::vector<std::string> blindWordsOf(const validation::BlindOptions& options) {
     words.emplace_back("--unloaded");
   else
     words.insert(words.end(), {"--as-is", fmt::format("{}", options.as_is_share)});
+  if (options.machine != validation::MachineKind::six_axis)
+    words.insert(words.end(), {"--machine", std::string(validation::nameOf(options.machine))});
   if (options.discard) words.emplace_back("--discard");
   return words;
 }
@@ -93,6 +97,15 @@ void addBlind(CLI::App& app, Run& run) {
       ->required();
   CLI::Option* unloaded = command->add_flag("--unloaded", arguments->options.unloaded,
                                             "days without a load: postures alone, by own weight");
+  std::map<std::string, validation::MachineKind> kinds;
+  for (std::size_t k = 0; k < validation::kMachineKindNames.size(); ++k)
+    kinds.emplace(validation::kMachineKindNames[k], static_cast<validation::MachineKind>(k));
+  command
+      ->add_option("--machine", arguments->options.machine,
+                   fmt::format("kind of machine: {}", fmt::join(validation::kMachineKindNames, ", ")))
+      ->transform(CLI::CheckedTransformer(kinds).description(""))
+      ->type_name("KIND")
+      ->excludes(unloaded);
   command->add_flag("--discard", arguments->options.discard, "remove the campaigns when done");
   command
       ->add_option("--as-is", arguments->options.as_is_share,

@@ -72,8 +72,8 @@ struct State {
   JointVector q;
   Vector6d wrench_in_cell = Vector6d::Zero();  ///< force (N) then moment (Nm), as the load cell's row says
   // Not a number where the table does not say.
-  JointVector commanded;          ///< joint angles that were commanded, rad
-  JointVector motor_side;         ///< motor angles over the gear ratio, rad
+  JointVector commanded;             ///< joint angles that were commanded, rad
+  JointVector motor_side;            ///< motor angles over the gear ratio, rad
   double temperature_c = kNotGiven;  ///< degrees Celsius
   StatedPose tool_pose = {};         ///< by the controller's own kinematics
   /// Of no column: what q was as reported, where it has been referred to the motor's side

@@ -323,8 +323,8 @@ void readSections(const io::XmlNode& root, CampaignXml& xml, std::vector<std::st
     for (const io::XmlNode& node : root.children(element)) {
       for (const char* attribute : {"joint", "plus"}) {
         if (!node.has(attribute)) continue;
-        xml.joint_numbers.push_back({jointNumbered(node, attribute), node.file(), node.line(), attribute,
-                                     node.requiredAttribute(attribute)});
+        xml.joint_numbers.push_back(
+            {jointNumbered(node, attribute), node.file(), node.line(), attribute, node.requiredAttribute(attribute)});
       }
     }
   }

@@ -46,7 +46,8 @@ int readIndexCell(CellKind kind, std::string_view cell, const CellPlace& place, 
   if (kind == CellKind::nest) return names.nests.add(cell);
   const std::optional<int> number = io::parseInteger(cell);
   if (kind == CellKind::axis) {
-    if (!number || *number < 1 || *number > names.axes) refuse(place, cell, fmt::format("expected an axis, 1 to {}", names.axes));
+    if (!number || *number < 1 || *number > names.axes)
+      refuse(place, cell, fmt::format("expected an axis, 1 to {}", names.axes));
     return *number - 1;
   }
   if (!number || *number < 0) refuse(place, cell, "expected a whole number, 0 or more");

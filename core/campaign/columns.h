@@ -154,7 +154,8 @@ template <class Row, auto Member>
 std::vector<Column<Row>> angleColumns(char letter, int joints, bool required) {
   std::vector<Column<Row>> columns = [=]<int... I>(std::integer_sequence<int, I...>) {
     return std::vector<Column<Row>>{{std::string{letter, static_cast<char>('1' + I)} + "_deg", CellKind::degree,
-                                     [](Row& row) -> double& { return (row.*Member).data()[I]; }, required, !required}...};
+                                     [](Row& row) -> double& { return (row.*Member).data()[I]; }, required,
+                                     !required}...};
   }
   (std::make_integer_sequence<int, kMostJoints>());
   columns.resize(static_cast<std::size_t>(joints));

@@ -34,7 +34,9 @@ double decimalAngle(double angle) {
 
 JointVector JointConvention::angles(const JointVector& figures) const { return anglesBeside(figures, figures); }
 
-JointVector JointConvention::figures(const JointVector& angles) const { return matrix_.fullPivLu().solve(angles - offset_); }
+JointVector JointConvention::figures(const JointVector& angles) const {
+  return matrix_.fullPivLu().solve(angles - offset_);
+}
 
 JointVector JointConvention::anglesBeside(const JointVector& figures, const JointVector& beside) const {
   JointVector angles(figures.size());

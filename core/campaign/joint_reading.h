@@ -6,8 +6,8 @@
 
 namespace stiffscope::campaign {
 
-/// A controller's figures of a machine's joints and the URDF's angles: q = M r + o, where row i of M has the sign of joint i on
-/// the diagonal and a 1 at the joint whose figure is added (rad). Joints without a reading report q itself.
+/// A controller's figures of a machine's joints and the URDF's angles: q = M r + o, where row i of M has the sign of
+/// joint i on the diagonal and a 1 at the joint whose figure is added (rad). Joints without a reading report q itself.
 class JointConvention {
  public:
   JointConvention(const std::vector<JointReading>& readings, int joints);

@@ -10,16 +10,15 @@ namespace stiffscope::campaign {
 /// One reading of one target while one axis turns and the others stand still.
 inline TableLayout<CircleReading> circleSweepsLayout(int joints) {
   using Row = CircleReading;
-  return {
-      "circle_sweeps",
-      joined<Row>({{{"axis", CellKind::axis, [](Row& row) -> int& { return row.axis; }},
-                    {"index", CellKind::text, [](Row& row) -> std::string& { return row.index; }},
-                    targetColumn<Row>()},
-                   jointColumns<Row>(joints),
-                   pointColumns<Row>(),
-                   {timeColumn<Row>(false)}}),
-      {"axis", "index", "target"},
-      blankRow<Row>(joints)};
+  return {"circle_sweeps",
+          joined<Row>({{{"axis", CellKind::axis, [](Row& row) -> int& { return row.axis; }},
+                        {"index", CellKind::text, [](Row& row) -> std::string& { return row.index; }},
+                        targetColumn<Row>()},
+                       jointColumns<Row>(joints),
+                       pointColumns<Row>(),
+                       {timeColumn<Row>(false)}}),
+          {"axis", "index", "target"},
+          blankRow<Row>(joints)};
 }
 
 /// A displacement of a target from step 0, for data without absolute points.
@@ -83,19 +82,18 @@ inline std::vector<Column<State>> toolPoseColumns() {
 /// Joint angles and load-cell reading of one load state.
 inline TableLayout<State> statesLayout(int joints) {
   using Row = State;
-  return {
-      "states",
-      joined<Row>(
-          {poseAndStepColumns<Row>(),
-           {timeColumn<Row>(false)},
-           jointColumns<Row>(joints),
-           wrenchColumns<Row>(false),
-           angleColumns<Row, &Row::commanded>('c', joints, false),
-           angleColumns<Row, &Row::motor_side>('m', joints, false),
-           {{"temperature_c", CellKind::celsius, [](Row& row) -> double& { return row.temperature_c; }, false, true}},
-           toolPoseColumns()}),
-      {"pose", "step"},
-      State(joints)};
+  return {"states",
+          joined<Row>({poseAndStepColumns<Row>(),
+                       {timeColumn<Row>(false)},
+                       jointColumns<Row>(joints),
+                       wrenchColumns<Row>(false),
+                       angleColumns<Row, &Row::commanded>('c', joints, false),
+                       angleColumns<Row, &Row::motor_side>('m', joints, false),
+                       {{"temperature_c", CellKind::celsius, [](Row& row) -> double& { return row.temperature_c; },
+                         false, true}},
+                       toolPoseColumns()}),
+          {"pose", "step"},
+          State(joints)};
 }
 
 /// One reading with the arm's axes standing still and the wrist's anywhere.

@@ -234,7 +234,7 @@ void addGeometryAndWeights(const SystemInput& input, LinearSystem& data) {
 
 void addCompliances(const SystemInput& input, LinearSystem& data) {
   const Eigen::Index end = data.layout.end;
-  for (Eigen::Index j = 0; j < data.layout.joints(); ++j) {
+  for (Eigen::Index j = 0; j < input.expected.sd.size(); ++j) {
     const double value = input.expected.value[j], sd = input.expected.sd[j];
     if (sd <= 0.0) continue;
     const double weight = 1.0 / (sd * sd);

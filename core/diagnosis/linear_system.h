@@ -31,7 +31,7 @@ struct GapLayout {
 /// its weaker neighbour's, give or take as much. Without it a joint that no load turns takes any stiffness,
 /// and what is computed with it anything.
 struct ComplianceExpected {
-  JointVector value, sd;  ///< sd 0: nothing is known
+  JointVector value, sd;  ///< sd 0, or empty: nothing is known
 };
 
 ComplianceExpected complianceExpected(const JointVector& identified);

@@ -86,7 +86,8 @@ JointMatrix anglesByTorque(const frames::LoadingGeometry& geometry, const effect
                            const effects::ArmState& state) {
   const TurnSlopes slopes = turnSlopes(at, state);
   const Eigen::Index joints = state.joints();
-  const JointMatrix yielding = JointMatrix(geometry.compliance.asDiagonal()) + slopes.by_torque;
+  const JointMatrix yielding =
+      JointMatrix(geometry.springTurns(JointVector::Ones(joints)).asDiagonal()) + slopes.by_torque;
   const JointMatrix stiffening = robot::geometricStiffness(state.axes, state.posture, geometry.weight);
   return solveLu(JointMatrix(JointMatrix::Identity(joints, joints) - yielding * stiffening - slopes.by_angle),
                  yielding);

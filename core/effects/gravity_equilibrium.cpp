@@ -67,7 +67,7 @@ ArmState gravityEquilibrium(const frames::LoadingGeometry& geometry, const Linea
       moveTo(geometry, sagged + turn, noBodyMotions(geometry.arm.joints()), state);
       continue;
     }
-    const JointVector sag = geometry.compliance.cwiseProduct(state.weight_torque);
+    const JointVector sag = geometry.springTurns(state.weight_torque);
     const Eigen::Matrix4d before = state.flange.matrix();
     moveTo(geometry, q + sag + turn, motionsOf(at, rest), state);
     constexpr double kSettled = 1e-10;  // m and rad
@@ -79,7 +79,7 @@ ArmState gravityEquilibrium(const frames::LoadingGeometry& geometry, const Linea
 Eigen::Isometry3d lastBodyNear(const frames::LoadingGeometry& geometry, const LinearizationPoint& at,
                                const ArmState& near) {
   const PostureStates rest{stateMoved(geometry, near.q, near.turned, near.moved)};
-  JointVector turned = near.q + geometry.compliance.cwiseProduct(rest.front().weight_torque);
+  JointVector turned = near.q + geometry.springTurns(rest.front().weight_torque);
   if (at.jointsTurn()) turned += turnOf(at, rest);
   return movedPosture(geometry.arm, turned, motionsOf(at, rest)).motion.back();
 }

@@ -19,6 +19,11 @@ struct LoadingGeometry {
   robot::GravityLoad weight;
   JointVector compliance;  ///< for the gravity sag, rad/Nm; zero or empty: rigid
 
+  /// Turns of the joint springs under torques, rad.
+  JointVector springTurns(const JointVector& torque) const {
+    return compliance.size() > 0 ? JointVector(compliance.cwiseProduct(torque)) : JointVector::Zero(torque.size());
+  }
+
   /// Joint angles with the sag in.
   JointVector sagged(const JointVector& q) const { return robot::saggedAngles(arm, q, weight, compliance); }
 };

@@ -20,7 +20,8 @@ struct CartesianStiffness {
   /// C_x = J (K_theta - K_c)^-1 J^T: displacement (m) and rotation (rad) by force (N) and moment (Nm) at the
   /// point.
   Matrix6d compliance = Matrix6d::Zero();
-  bool invertible = false;                ///< false in a singularity, of fewer than six joints, and where a rigid joint locks a direction
+  bool invertible =
+      false;  ///< false in a singularity, of fewer than six joints, and where a rigid joint locks a direction
   Matrix6d stiffness = Matrix6d::Zero();  ///< K_x = C_x^-1, paper (4); (6) without K_c. Zero if not invertible
   /// By the translational block of C_x: a force alone acts, the flange is free to turn. Softest direction
   /// first.

@@ -40,6 +40,7 @@ void scaleMasses(double factor, Robot& robot) {
 
 JointVector weightTorque(const Robot& robot, const ArmPosture& posture, const GravityLoad& weight) {
   // Sum from the tip inwards: force and moment about the base origin of all that hangs beyond each joint.
+  if (weight.bodies.empty()) return JointVector::Zero(robot.joints());  // nothing weighs
   JointVector torque(robot.joints());
   Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();
   for (int joint = robot.joints() - 1; joint >= 0; --joint) {
@@ -53,7 +54,8 @@ JointVector weightTorque(const Robot& robot, const ArmPosture& posture, const Gr
   return torque;
 }
 
-JointVector saggedAngles(const Robot& robot, const JointVector& q, const GravityLoad& weight, const JointVector& compliance) {
+JointVector saggedAngles(const Robot& robot, const JointVector& q, const GravityLoad& weight,
+                         const JointVector& compliance) {
   if (!weight.any() || compliance.isZero()) return q;
   constexpr int kSteps = 3;
   return springEquilibrium(

@@ -36,6 +36,7 @@ JointVector weightTorque(const Robot& robot, const ArmPosture& posture, const Gr
 
 /// Joint angles of the arm with its springs loaded by its own weight: q + c * weightTorque(q + ...), rad.
 /// `compliance` c in rad/Nm. Fixed-point iteration: the sag is small against the posture, three steps reach 1e-9 rad.
-JointVector saggedAngles(const Robot& robot, const JointVector& q, const GravityLoad& weight, const JointVector& compliance);
+JointVector saggedAngles(const Robot& robot, const JointVector& q, const GravityLoad& weight,
+                         const JointVector& compliance);
 
 }  // namespace stiffscope::robot

@@ -79,9 +79,9 @@ JointVector withinTurns(const Robot& robot, const JointVector& q) {
 }
 
 std::vector<JointVector> inverseKinematicsBranches(const Robot& robot, const Eigen::Isometry3d& base_from_tool,
-                                                const Eigen::Isometry3d& flange_from_tool,
-                                                const std::vector<JointVector>& starts,
-                                                const InverseKinematicsOptions& options) {
+                                                   const Eigen::Isometry3d& flange_from_tool,
+                                                   const std::vector<JointVector>& starts,
+                                                   const InverseKinematicsOptions& options) {
   constexpr double kSame = 1e-3;
   std::vector<JointVector> branches;
   for (const JointVector& start : starts) {

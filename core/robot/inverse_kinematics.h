@@ -37,9 +37,9 @@ InverseKinematics inverseKinematics(const Robot& robot, const Eigen::Isometry3d&
 /// whole turns bring it: those that some of `starts` lead to, in their order. Solutions that hang together (a singular
 /// posture) count as one where they are nearer than 1e-3 rad.
 std::vector<JointVector> inverseKinematicsBranches(const Robot& robot, const Eigen::Isometry3d& base_from_tool,
-                                                const Eigen::Isometry3d& flange_from_tool,
-                                                const std::vector<JointVector>& starts,
-                                                const InverseKinematicsOptions& options = {});
+                                                   const Eigen::Isometry3d& flange_from_tool,
+                                                   const std::vector<JointVector>& starts,
+                                                   const InverseKinematicsOptions& options = {});
 
 /// Joint angles moved by whole turns to where they are nearest to the middle of their limits.
 JointVector withinTurns(const Robot& robot, const JointVector& q);

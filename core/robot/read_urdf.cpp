@@ -209,8 +209,7 @@ Chain chainBetween(const UrdfModel& model, const std::string& base, const std::s
 
 bool turns(const UrdfJoint& joint) { return joint.type == "revolute" || joint.type == "continuous"; }
 
-void requireRevolute(const UrdfModel& model, const Chain& chain, const std::string& base,
-                        const std::string& flange) {
+void requireRevolute(const UrdfModel& model, const Chain& chain, const std::string& base, const std::string& flange) {
   std::vector<std::string> turning;
   for (const UrdfJoint* joint : chain) {
     if (joint->fixed()) continue;

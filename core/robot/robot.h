@@ -58,19 +58,19 @@ struct JointLimits {
   double upper = 0.0;  ///< rad
 };
 
-/// A serial arm of four to eight revolute joints in zero-reference (product of exponentials) form: where each axis, each
-/// link frame and each mass stands in base_link when all reported joint angles are zero. A joint i at angle
-/// q_i turns everything beyond it about `axes_in_base_at_zero[i]` by q_i (right-hand rule), innermost joint
-/// last: base_from_link(q) = exp(xi_1 q_1) ... exp(xi_b q_b) base_from_link_at_zero, b the link's body.
-/// Joint-zero errors are inside the axes, so this form has no offsets. SI and radians.
+/// A serial arm of four to eight revolute joints in zero-reference (product of exponentials) form: where each axis,
+/// each link frame and each mass stands in base_link when all reported joint angles are zero. A joint i at angle q_i
+/// turns everything beyond it about `axes_in_base_at_zero[i]` by q_i (right-hand rule), innermost joint last:
+/// base_from_link(q) = exp(xi_1 q_1) ... exp(xi_b q_b) base_from_link_at_zero, b the link's body. Joint-zero errors are
+/// inside the axes, so this form has no offsets. SI and radians.
 struct Robot {
   std::string name;
   PerJoint<std::string> joint_names;
   PerJoint<metrology::Line> axes_in_base_at_zero;
   PerJoint<JointLimits> limits;
   Eigen::Isometry3d base_from_flange_at_zero = Eigen::Isometry3d::Identity();
-  PerBody<BodyMass> bodies;  ///< [0] the base (its mass plays no part), [i] the body beyond joint i
-  std::vector<LinkFrame> links;    ///< every link on the chain, and every link rigidly fixed to one of those
+  PerBody<BodyMass> bodies;      ///< [0] the base (its mass plays no part), [i] the body beyond joint i
+  std::vector<LinkFrame> links;  ///< every link on the chain, and every link rigidly fixed to one of those
 
   int joints() const { return static_cast<int>(axes_in_base_at_zero.size()); }
 };

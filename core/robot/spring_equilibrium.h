@@ -5,7 +5,7 @@
 namespace stiffscope::robot {
 
 struct SpringEquilibrium {
-  JointVector angles;       ///< rad
+  JointVector angles;    ///< rad
   bool settled = false;  ///< within the change asked for
 };
 
@@ -13,8 +13,8 @@ struct SpringEquilibrium {
 /// is small against the posture, so each step leaves about a hundredth of the last change. Ends where a step
 /// changes no angle by `least_change`, rad, or more.
 template <class TorqueAt>
-SpringEquilibrium springEquilibrium(const JointVector& q, const JointVector& compliance, int most_steps, double least_change,
-                                    const TorqueAt& torqueAt) {
+SpringEquilibrium springEquilibrium(const JointVector& q, const JointVector& compliance, int most_steps,
+                                    double least_change, const TorqueAt& torqueAt) {
   SpringEquilibrium found{q};
   for (int step = 0; step < most_steps && !found.settled; ++step) {
     const JointVector next = q + compliance.cwiseProduct(torqueAt(found.angles));

@@ -11,6 +11,7 @@
 #include "core/simulation/spec.h"
 #include "core/validation/effect_draw.h"
 #include "core/validation/effect_size.h"
+#include "core/validation/machine_kinds.h"
 
 namespace stiffscope::validation {
 
@@ -44,8 +45,9 @@ struct DayKind {
   std::function<Sizing(const simulation::SimulationSpec& clean)> sizing;
 };
 
-const DayKind& loadedDays();    ///< sweeps, a wrist sweep, postures with a load
-const DayKind& unloadedDays();  ///< postures alone, by own weight
+/// Sweeps, a wrist sweep, postures with a load, of machines of that kind.
+const DayKind& loadedDays(MachineKind kind = MachineKind::six_axis);
+const DayKind& unloadedDays();  ///< postures alone, by own weight; of six-axis machines
 
 enum class CaseKind {
   none,

@@ -1,5 +1,6 @@
 #include "core/validation/case.h"
 
+#include <array>
 #include <memory>
 #include <stdexcept>
 
@@ -22,29 +23,37 @@ Sizing sizingBy(const simulation::SimulationSpec& clean) {
   return {[sizer](const simulation::SimulationSpec& with) { return sizer->measure(with); }, sizer->background()};
 }
 
+DayKind loadedDaysOf(MachineKind machine) {
+  DayKind kind;
+  kind.vocabulary.effects.assign(effects::kEffectIds.begin(), effects::kEffectIds.end());
+  kind.vocabulary.outside = outsideKinds();
+  kind.vocabulary.placed = {"joint_coupling", "target_motion"};
+  kind.vocabulary.shrinks = "deflection";
+  kind.as_is = {{"bearing_tilt", "link_compliance", "base_compliance", "hysteresis"},
+                {"bearing_tilt", "link_compliance"}};
+  kind.machine = [machine](std::uint64_t seed, const std::string& name, const std::filesystem::path& urdf_file) {
+    return drawMachineOfKind(machine, seed, name, urdf_file);
+  };
+  kind.effect = [](const std::string& id, const auto& machine, auto& random) {
+    return drawEffect(knownEffect(id), machine, random);
+  };
+  kind.outside = drawOutside;
+  kind.as_is_effect = [](const std::string& id, const auto& machine, auto& random) {
+    return drawAsIs(knownEffect(id), machine, random);
+  };
+  kind.sizing = sizingBy<EffectSizer>;
+  return kind;
+}
+
 }  // namespace
 
-const DayKind& loadedDays() {
-  static const DayKind days = [] {
-    DayKind kind;
-    kind.vocabulary.effects.assign(effects::kEffectIds.begin(), effects::kEffectIds.end());
-    kind.vocabulary.outside = outsideKinds();
-    kind.vocabulary.placed = {"joint_coupling", "target_motion"};
-    kind.vocabulary.shrinks = "deflection";
-    kind.as_is = {{"bearing_tilt", "link_compliance", "base_compliance", "hysteresis"},
-                  {"bearing_tilt", "link_compliance"}};
-    kind.machine = drawMachine;
-    kind.effect = [](const std::string& id, const auto& machine, auto& random) {
-      return drawEffect(knownEffect(id), machine, random);
-    };
-    kind.outside = drawOutside;
-    kind.as_is_effect = [](const std::string& id, const auto& machine, auto& random) {
-      return drawAsIs(knownEffect(id), machine, random);
-    };
-    kind.sizing = sizingBy<EffectSizer>;
-    return kind;
+const DayKind& loadedDays(MachineKind kind) {
+  static const auto days = [] {
+    std::array<DayKind, kMachineKindNames.size()> all;
+    for (std::size_t k = 0; k < all.size(); ++k) all[k] = loadedDaysOf(static_cast<MachineKind>(k));
+    return all;
   }();
-  return days;
+  return days[static_cast<std::size_t>(kind)];
 }
 
 const DayKind& unloadedDays() {

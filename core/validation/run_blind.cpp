@@ -77,7 +77,9 @@ std::map<std::string, double> distancesOf(const std::vector<Label>& labels, cons
   return distances;
 }
 
-const DayKind& daysOf(const BlindOptions& options) { return options.unloaded ? unloadedDays() : loadedDays(); }
+const DayKind& daysOf(const BlindOptions& options) {
+  return options.unloaded ? unloadedDays() : loadedDays(options.machine);
+}
 
 /// Makes the machine of one case and measures its day into `folder`.
 Label makeCase(const BlindOptions& options, const CasePlan& plan, int index, const fs::path& folder) {
@@ -165,8 +167,9 @@ namespace {
 class BlindParts {
  public:
   BlindParts(const BlindOptions& options, const std::string& program) : options_(options) {
-    const std::string of = fmt::format("{}\n{} {} {:.17g} {}\n", program, options.cases, options.seed,
-                                       options.as_is_share, options.unloaded);
+    std::string of = fmt::format("{}\n{} {} {:.17g} {}\n", program, options.cases, options.seed, options.as_is_share,
+                                 options.unloaded);
+    if (options.machine != MachineKind::six_axis) of += nameOf(options.machine);
     constexpr std::size_t kKeyDigits = 16;
     folder_ = options.out / "parts" / io::sha256Hex(of).substr(0, kKeyDigits);
   }

@@ -19,6 +19,7 @@ struct BlindOptions {
   int threads = 2;                  ///< the result does not depend on it
   double as_is_share = kAsIsShare;  ///< see planCases
   bool unloaded = false;            ///< days without a load
+  MachineKind machine = MachineKind::six_axis;
 };
 
 /// Told of what goes on; any may be empty. Called from one thread at a time.

@@ -54,7 +54,8 @@ std::string wristAxesApart(const RemarkValues& values) {
                          1e3 * misses[k]);
   }
   return fmt::format(
-      "the wrist's axes do not meet ({}): turning in joints {}-{} moves P_wrist by {:.1f} % of its displacement, more "
+      "the wrist's axes do not meet in one point ({}): turning in joints {}-{} moves P_wrist by {:.1f} % of its "
+      "displacement, more "
       "than the {:.0f} % that decoupling bears",
       apart, first, first + static_cast<std::int64_t>(misses.size()), 100.0 * values.number(1),
       100.0 * values.number(2));

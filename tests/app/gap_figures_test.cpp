@@ -17,7 +17,7 @@ namespace gap_figures_test {
 
 /// bearing_tilt of joints 2 and 3 is present and can look like link_compliance; hysteresis is not testable.
 diagnosis::Diagnosis byHand() {
-  diagnosis::Diagnosis diagnosis;
+  diagnosis::Diagnosis diagnosis(6);
   diagnosis.usable = true;
   diagnosis.verdict.entries = {{{effects::Effect::bearing_tilt}, "joint 2, joint 3"}};
   diagnosis.aliases = {{effects::Effect::link_compliance, effects::Effect::bearing_tilt}};

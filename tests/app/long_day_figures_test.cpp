@@ -103,7 +103,7 @@ TEST(LongDay, EachReflectorOfAWristSweepIsDrawnWhereTheyTakeTurns) {
     const double azimuth = 0.001 * i;
     sweep.rows.push_back({std::to_string(i / 3),
                           i % 3,
-                          Vector6d::Zero(),
+                          JointVector::Zero(6),
                           {std::cos(azimuth), std::sin(azimuth), 0.0},
                           campaign::kNoTime,
                           0});

@@ -18,7 +18,7 @@ struct Hand {
   Hand() {
     for (int pose = 0; pose < 3; ++pose) {
       for (const int step : {0, 1}) {
-        campaign::State state;
+        campaign::State state(6);
         state.pose = pose;
         state.step = step;
         states.rows.push_back(state);

@@ -4,6 +4,10 @@
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace stiffscope;
-  fuzz::expectInputError([&] { interchange::parseRobotLog("robot.txt", fuzz::textOf(data, size)); });
+  for (const int joints : {6, 7}) {
+    interchange::LogOptions options;
+    options.joints = joints;
+    fuzz::expectInputError([&] { interchange::parseRobotLog("robot.txt", fuzz::textOf(data, size), options); });
+  }
   return 0;
 }

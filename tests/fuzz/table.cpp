@@ -9,11 +9,12 @@ namespace {
 using namespace stiffscope;
 
 template <class Row>
-void readAs(const campaign::TableLayout<Row>& layout, std::string_view bytes) {
+void readAs(const campaign::TableLayout<Row>& layout, std::string_view bytes, int joints = 6) {
   std::vector<std::string> warnings;
   campaign::CampaignNames names;
   names.targets.add("P10");
   names.targets.add("P11");
+  names.axes = joints;
   campaign::readTable<Row>({layout.element + ".csv", bytes}, layout, names, warnings);
 }
 
@@ -22,7 +23,7 @@ void readAsTable(char kind, std::string_view bytes) {
   const int joints = std::isupper(static_cast<unsigned char>(kind)) != 0 ? 7 : 6;
   switch (std::tolower(static_cast<unsigned char>(kind))) {
     case 'c':
-      return readAs(campaign::circleSweepsLayout(joints), bytes);
+      return readAs(campaign::circleSweepsLayout(joints), bytes, joints);
     case 'w':
       return readAs(campaign::wristSweepLayout(joints), bytes);
     case 'l':

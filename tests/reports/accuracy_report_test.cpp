@@ -19,7 +19,9 @@ struct DiagnosedDay {
     UnloadedSpec spec;
     spec.built = spec.nominal.disturbed(noise, 0.2e-3, 0.1e-3);
     spec.postures = 80;
-    spec.joint_errors = [wave](const JointVector& q) { return JointVector(wave * std::sin(2.0 * q[4]) * JointVector::Unit(6, 4)); };
+    spec.joint_errors = [wave](const JointVector& q) {
+      return JointVector(wave * std::sin(2.0 * q[4]) * JointVector::Unit(6, 4));
+    };
     campaign = unloadedCampaign(spec, noise);
     accuracy = accuracy::diagnoseAccuracy(campaign);
   }

@@ -251,7 +251,7 @@ TEST(Page, TheAuditWithItsLimitsAndRejectedReadings) {
 
 TEST(Page, TheDiagnosisSaysWhatToDo) {
   const SmallResult small;
-  diagnosis::Diagnosis diagnosis;
+  diagnosis::Diagnosis diagnosis(6);
   diagnosis.usable = true;
   diagnosis.verdict.entries = {{{effects::Effect::load_cell_bias}, ""}};
   diagnosis.verdict.reasons = {Remark(diagnosis::RemarkId::left_by_stiffnesses, 30e-6, 5e-6, 36.0)};
@@ -273,6 +273,8 @@ TEST(Page, TheDiagnosisSaysWhatToDo) {
   EXPECT_FALSE(has(page, "id=\"figures\""));
   // As identify states them.
   diagnosis.stated.emplace().method = identification::Method::partial_pose;
+  diagnosis.stated->expanded = JointVector::Zero(6);
+  diagnosis.stated->interval.resize(6);
   diagnosis.stated->expanded[1] = 0.3e6;
   diagnosis.identifiable[1] = true;
   diagnosis.stiffness_before[1] = 4.0e6, diagnosis.stiffness_after[1] = 5.0e6;

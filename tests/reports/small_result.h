@@ -15,7 +15,7 @@ namespace stiffscope {
 /// fifth of that; joint 1 is not identifiable, joint 4 is negative by PP; CP is not available.
 struct SmallResult {
   campaign::Campaign campaign;
-  identification::Identification identification;
+  identification::Identification identification{6};
 
   explicit SmallResult(campaign::DoubleEncoder state = campaign::DoubleEncoder::active, double scale = 1.0) {
     campaign.name = "small";
@@ -28,8 +28,12 @@ struct SmallResult {
     identification.step = 1;
     identification.frames.arm.arm = campaign.robot;
     identification.frames.wrist.reason = Remark(frames::RemarkId::no_wrist_sweep);
+    identification.frames.wrist.q = JointVector::Zero(6);
+    identification.frames.wrist.misses = {{3}, {4}};
+    identification.frames.axes.assign(6, frames::MeasuredAxis(6));
     for (frames::MeasuredAxis& axis : identification.frames.axes)
       axis.reason = Remark(frames::RemarkId::no_circle_sweeps);
+    identification.frames.links.resize(5);
     for (int pose = 0; pose < 3; ++pose) addCase(pose, scale * 1e-3 * (pose == 0 ? 1 : pose == 1 ? 3 : 2));
     for (std::size_t j = 1; j < 6; ++j) identification.identifiability.joints[j].identifiable = true;
     identification.identifiability.joints[0].reason = Remark(identification::RemarkId::load_hangs, 1, 20.0, 1.0);
@@ -48,6 +52,7 @@ struct SmallResult {
   void addCase(int pose, double displacement) {
     identification::LoadCase load_case;
     load_case.pose = pose;
+    load_case.q = load_case.servo = load_case.q_sagged = JointVector::Zero(6);
     load_case.axes = robot::axesAt(campaign.robot, robot::postureAt(campaign.robot, JointVector::Zero(6)));
     load_case.wrench.force = {0, 0, -1000};
     const Eigen::Vector3d move(0, 0, -displacement), flange(1.995, 0, 2.31);

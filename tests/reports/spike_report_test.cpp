@@ -23,7 +23,7 @@ diagnosis::SpikeStudy smallStudy() {
 }
 
 diagnosis::Diagnosis baseline() {
-  diagnosis::Diagnosis diagnosis;
+  diagnosis::Diagnosis diagnosis(6);
   diagnosis.usable = true;
   diagnosis.verdict.entries = {{{effects::Effect::hysteresis}, "joint 2"}};
   return diagnosis;

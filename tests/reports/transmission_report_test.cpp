@@ -18,6 +18,8 @@ using identification::Method;
 struct GearedResult : SmallResult {
   GearedResult() {
     identification::Transmission gears;
+    gears.joints.resize(6);
+    gears.estimate = identification::StiffnessEstimate(6);
     for (const int joint : {1, 2}) {
       const auto at = static_cast<std::size_t>(joint);
       gears.estimate.identifiable[at] = gears.joints[at].measured = true;

@@ -79,7 +79,7 @@ TEST(TruthJson, NamesEffectsOfADayWithoutALoadByItsVocabulary) {
   spec.machine.joints[0].lost_motion = simulation::LostMotion{2e-4, {}};
   spec.machine.joints[2].zero_jump = simulation::ZeroJump{1e-4, 60.0};
   spec.machine.joints[3].zero_warming = simulation::ZeroWarming{1e-5, 300.0};
-  spec.early_log = simulation::EarlyLog{0.3};
+  spec.early_log = simulation::EarlyLog{0.3, JointVector::Constant(6, 0.05)};
   spec.machine.loose_plate = simulation::LoosePlate{};
   spec.machine.growths = {{1, 0.0, 1.0, 1e-5}};
   spec.station.scale_step = 1e-5;

@@ -204,7 +204,7 @@ TEST(DiagnoseAccuracy, WeightsThatNobodyStatesAreSeenAsProducts) {
   spec.joint_errors = [arm = spec.nominal](const JointVector& q) {
     return JointVector(exampleCompliance().cwiseProduct(arm.weightTorque(q)));
   };
-  spec.nominal.mass = {};
+  spec.nominal.mass.assign(spec.nominal.mass.size(), 0.0);
   const AccuracyDiagnosis result = diagnosed(spec, noise);
   ASSERT_FALSE(result.calibration.day.masses_known);
   ASSERT_FALSE(result.verdict.empty());

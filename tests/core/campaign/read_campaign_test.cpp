@@ -103,6 +103,60 @@ TEST(ReadCampaign, ReadsEveryTableInSi) {
   EXPECT_EQ(c.nests->rows[1].time_s, 2.0);
 }
 
+TEST(ReadCampaign, HasAsManyJointAnglesAsTheRobot) {
+  const SmallCampaign files(7);
+  const campaign::CampaignReading reading = campaign::readCampaign(files.folder());
+  EXPECT_TRUE(reading.warnings.empty()) << shown(reading.warnings);
+  const campaign::Campaign& c = reading.campaign;
+  EXPECT_EQ(c.robot.joints(), 7);
+  ASSERT_EQ(c.circle_sweeps->rows.size(), 3u);
+  EXPECT_EQ(c.circle_sweeps->rows[2].axis, 6);
+  ASSERT_EQ(c.circle_sweeps->rows[2].q.size(), 7);
+  EXPECT_NEAR(c.circle_sweeps->rows[2].q[5], 90 * kDegree, kRounding);
+  EXPECT_NEAR(c.circle_sweeps->rows[2].q[6], 2.25 * kDegree, kRounding);
+  EXPECT_NEAR(c.circle_sweeps->rows[2].point.x(), 1.3844022, kRounding);
+  EXPECT_NEAR(c.wrist_sweep->rows[0].q[6], 1.25 * kDegree, kRounding);
+  ASSERT_EQ(c.states->rows.size(), 3u);
+  EXPECT_NEAR(c.states->rows[1].q[6], 1.75 * kDegree, kRounding);
+  EXPECT_EQ(c.states->rows[1].wrench_in_cell[0], -538.428);
+  EXPECT_EQ(c.states->rows[0].commanded.size(), 7);
+  EXPECT_EQ(c.states->rows[0].motor_side.size(), 7);
+  EXPECT_TRUE(std::isnan(c.states->rows[0].motor_side[6]));
+}
+
+TEST(ReadCampaign, RefusesWhatIsNotOfTheRobotsJoints) {
+  struct Case {
+    const char *file, *find, *replace, *message;
+  };
+  const Case cases[] = {
+      {"states.csv", ",q7_deg", ",j7_deg", "states.csv:1: q7_deg: expected this column"},
+      {"wrist_sweep.csv", ",q7_deg", ",j7_deg", "wrist_sweep.csv:1: q7_deg: expected this column"},
+      {"circle_sweeps.csv", ",q7_deg", ",j7_deg", "circle_sweeps.csv:1: q7_deg: expected this column"},
+      {"circle_sweeps.csv", "\n7,1,P10", "\n8,1,P10", "circle_sweeps.csv:4: axis: '8': expected an axis, 1 to 7"},
+      {"states.csv", ",1.75,", ",one,", "states.csv:3: q7_deg: 'one': expected a number"},
+      {"campaign.xml", "<tool ",
+       "<known_stiffness joint=\"8\" nm_per_rad=\"5e6\" sd_nm_per_rad=\"2e5\" source=\"m\"/><tool ",
+       "campaign.xml:15: joint: '8': expected a joint's number, 1 to 7"},
+      {"campaign.xml", "<tool ", "<joint_reading joint=\"7\" plus=\"8\"/><tool ",
+       "campaign.xml:15: plus: '8': expected a joint's number, 1 to 7"},
+      {"campaign.xml", "<tool ", "<joint_reading joint=\"9\" sign=\"-1\"/><tool ",
+       "campaign.xml:15: joint: '9': expected a joint's number, 1 to 8"}};
+  for (const Case& one : cases) {
+    const SmallCampaign files(7);
+    files.alter(one.file, one.find, one.replace);
+    try {
+      campaign::readCampaign(files.folder());
+      ADD_FAILURE() << "read on instead of: " << one.message;
+    } catch (const io::InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(one.message), std::string::npos) << error.what();
+    }
+  }
+  // Of six joints the seventh's angle is a column that nobody wants.
+  const SmallCampaign files;
+  files.alter("wrist_sweep.csv", ",time_s\n", ",q7_deg\n");
+  EXPECT_TRUE(anyContains(campaign::readCampaign(files.folder()).warnings, "q7_deg"));
+}
+
 TEST(ReadCampaign, StatesMayHaveSecondEncodersOfSomeJointsCommandsAndTemperatures) {
   const SmallCampaign files;
   const std::string before = files.read("states.csv");

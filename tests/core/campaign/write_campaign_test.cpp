@@ -128,6 +128,33 @@ TEST(WriteCampaign, ReadsBackAsItWas) {
   expectRoundTrip(campaign::readCampaign(files.folder()).campaign, files.folder() / "robot.urdf");
 }
 
+TEST(WriteCampaign, ReadsBackSevenJointsAsTheyWere) {
+  const SmallCampaign files(7);
+  campaign::Campaign campaign = campaign::readCampaign(files.folder()).campaign;
+  ASSERT_EQ(campaign.robot.joints(), 7);
+  expectRoundTrip(campaign, files.folder() / "robot.urdf");
+  campaign.known_stiffness = {{6, 1e4, 2e2, "maker"}};
+  campaign.joint_readings = {{6, -1.0, 0.5, 5}};
+  campaign.states->rows[0].commanded = campaign.states->rows[0].q;
+  campaign.states->rows[1].motor_side[6] = campaign.states->rows[1].q[6] + 0.001;
+  expectRoundTrip(campaign, files.folder() / "robot.urdf");
+
+  const TemporaryFolder folder;
+  campaign::writeCampaign(campaign, files.folder() / "robot.urdf", folder.path());
+  const campaign::Campaign read = campaign::readCampaign(folder.path()).campaign;
+  ASSERT_EQ(read.joint_readings.size(), 1u);
+  EXPECT_EQ(read.joint_readings[0].joint, 6);
+  EXPECT_NEAR(read.states->rows[0].commanded[6], campaign.states->rows[0].q[6], 2 * kAngle);  // two figures are rounded
+  EXPECT_NEAR(read.states->rows[1].motor_side[6], campaign.states->rows[1].motor_side[6], 2 * kAngle);
+  EXPECT_TRUE(std::isnan(read.states->rows[1].motor_side[5]) && std::isnan(read.states->rows[0].motor_side[6]));
+  std::ifstream states(folder.path() / "states.csv");
+  std::string header;
+  std::getline(states, header);
+  EXPECT_TRUE(header.starts_with("pose,step,time_s,q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg,q7_deg,fx_n,")) << header;
+  EXPECT_NE(header.find(",c7_deg"), std::string::npos) << header;
+  EXPECT_NE(header.find("m7_deg"), std::string::npos) << header;
+}
+
 TEST(WriteCampaign, KeepsTheDigitsThatWereRead) {
   const SmallCampaign files;
   campaign::Campaign campaign = campaign::readCampaign(files.folder()).campaign;

@@ -220,7 +220,8 @@ extended_model::ExtendedModel supported(const simulation::SimulationSpec& spec) 
 // Where no posture is in both nothing cancels. The two days' models give a difference that is nearer to the truth than
 // by springs alone, whose misfit is in it; U, of the intervals of both, is not wider, and holds it.
 TEST(ComparisonCoverage, OtherPosturesByTheDaysModels) {
-  const int pairs = std::max(4, pairsAsked() / 3);
+  // Four pairs are too few: a few of the drawn models decide, and rounding decides those.
+  const int pairs = std::max(12, pairsAsked() / 3);
   Coverage by_models, by_springs;
   for (int pair = 0; pair < pairs; ++pair) {
     simulation::SimulationSpec first = simulated_pairs::firstDay(firstSeed(), pair, Hidden::bearings_and_links);

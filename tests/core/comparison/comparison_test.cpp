@@ -20,8 +20,8 @@ identification::IdentifyOptions quick() {
 
 /// One day in the tests' own laboratory, `misfit` m of something unmodelled at each reflector that is the
 /// same whenever `misfit_seed` is, and `noise` m of the tracker's.
-campaign::Campaign day(const JointVector& compliance, std::uint64_t misfit_seed, double misfit, std::uint64_t noise_seed,
-                       double noise, int postures = 12) {
+campaign::Campaign day(const JointVector& compliance, std::uint64_t misfit_seed, double misfit,
+                       std::uint64_t noise_seed, double noise, int postures = 12) {
   SimulatedLab lab;
   lab.compliance = compliance;
   lab.withoutMasses();

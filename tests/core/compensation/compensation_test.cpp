@@ -18,7 +18,8 @@ namespace compensation_test {
 struct AskedArm : KnownArm {
   Eigen::Vector3d tcp{0.0, 0.0, 0.0};
 
-  compensation::PostureToCompensate asked(const JointVector& q, const Eigen::Vector3d& force = {500, -400, -1500}) const {
+  compensation::PostureToCompensate asked(const JointVector& q,
+                                          const Eigen::Vector3d& force = {500, -400, -1500}) const {
     return {"a", q, lab.cellReading(lab.settled(q), force)};
   }
   compensation::CompensatedPosture run(const compensation::PostureToCompensate& one) const {

@@ -20,8 +20,8 @@ inline CampaignResult dayOf(const std::vector<double>& influences, double compli
   springs.dof.setConstant(static_cast<double>(influences.size()));
   for (std::size_t p = 0; p < influences.size(); ++p) {
     springs.influences.push_back(JointVector::Unit(6, 1) * influences[p]);
-    day.loaded_postures.push_back(
-        {std::to_string(p), JointVector::Constant(6, 0.1 * static_cast<double>(p)), Eigen::Vector3d(0.0, 0.0, -1500.0)});
+    day.loaded_postures.push_back({std::to_string(p), JointVector::Constant(6, 0.1 * static_cast<double>(p)),
+                                   Eigen::Vector3d(0.0, 0.0, -1500.0)});
   }
   day.postures = static_cast<int>(influences.size());
   return day;

@@ -145,6 +145,54 @@ TEST(MeasuredFrames, WristCentreAndTableOne) {
   EXPECT_LT((base_from_r0 * frames.wrist.reflector_barycentre_in_r0 - barycentre).norm(), kExact);
 }
 
+TEST(MeasuredFrames, ArmsOfFiveAndSevenJointsComeBack) {
+  for (const ChainArm& chain : {fiveAxisChain(), sevenAxisChain()}) {
+    SCOPED_TRACE(chain.joints());
+    SimulatedLab lab(chain);
+    lab.withoutMasses();
+    Noise noise(33);
+    const ChainArm disturbed = lab.nominal.disturbed(noise, 1e-3, 1e-3);
+    // The wrist's axes still meet: its later frames stay where they are, each on the axis before it.
+    const auto joints = static_cast<std::size_t>(chain.joints());
+    const auto wrist = static_cast<std::size_t>(robot::wristJointsOf(chain.joints()));
+    for (std::size_t j = 0; j <= joints - wrist; ++j) lab.actual.to_joint[j] = disturbed.to_joint[j];
+    campaign::Campaign campaign = lab.empty();
+    lab.addCircleSweeps(campaign);
+    lab.addWristSweep(campaign);
+    const frames::Frames frames = frames::measureFrames(campaign);
+    constexpr double kExact = 1e-9;  // as above
+    ASSERT_TRUE(frames.arm.points_placed);
+    const Frame base_from_r0 = baseFromR0(lab.actual);
+    const Frame r0_from_tracker = (lab.tracker_from_base * base_from_r0).inverse();
+    EXPECT_LT((frames.arm.r0_from_points.matrix() - r0_from_tracker.matrix()).norm(), kExact);
+    ASSERT_EQ(frames.axes.size(), joints);
+    for (std::size_t j = 0; j < joints; ++j) {
+      ASSERT_TRUE(frames.axes[j].measured) << j << reports::words(frames.axes[j].reason);
+      const JointLine truth = jointLine(lab.actual, j);
+      const metrology::Line& found = frames.arm.arm.axes_in_base_at_zero[j];
+      EXPECT_LT((found.direction - base_from_r0.linear().transpose() * truth.direction).norm(), kExact) << j;
+      EXPECT_LT(distanceToLine(truth, base_from_r0 * found.point), kExact) << j;
+    }
+    ASSERT_EQ(frames.links.size(), joints - 1);
+    for (std::size_t j = 0; j + 1 < joints; ++j) {
+      if (frames.links[j].near_parallel) continue;
+      const auto [on_a, on_b] = feet(jointLine(lab.actual, j), jointLine(lab.actual, j + 1));
+      EXPECT_NEAR(frames.links[j].distance, (on_a - on_b).norm(), kExact) << j;
+    }
+    const Frame flange = lab.actual.flangeAt(lab.actual.noAngles());
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_LT((base_from_r0 * *frames.targets_in_r0_at_zero[k] - flange * lab.targets_in_flange[k]).norm(), kExact);
+
+    ASSERT_TRUE(frames.wrist.measured) << reports::words(frames.wrist.reason);
+    const JointVector q = campaign.wrist_sweep->rows.front().q;
+    const Eigen::Vector3d centre = lab.actual.framesAt(q)[joints - 2].translation();  // of the last joint but one
+    EXPECT_LT((base_from_r0 * frames.wrist.centre_in_r0 - centre).norm(), kExact);
+    ASSERT_EQ(frames.wrist.misses.size(), wrist - 1);
+    EXPECT_EQ(frames.wrist.misses.front().first, static_cast<int>(joints - wrist));
+    for (const frames::WristAxesMiss& miss : frames.wrist.misses) EXPECT_LT(miss.distance, kExact);
+  }
+}
+
 TEST(MeasuredFrames, OwnWeightIsTakenOffByTheRightCompliance) {
   SimulatedLab lab = labWithErrors();
   lab.compliance = exampleCompliance();

@@ -63,6 +63,54 @@ TEST(DecoupledPartialPose, GivesTheSpringsBack) {
   EXPECT_LT(worstError(found.compliance, machine.compliance), kLinear);
 }
 
+/// Machines of five, seven and eight joints.
+std::vector<LinearMachine> machinesOfOtherSizes() {
+  std::vector<LinearMachine> machines;
+  for (const ChainArm& chain : {fiveAxisChain(), sevenAxisChain(), eightAxisChain()})
+    machines.emplace_back(kPostures, 1e-4, 3, chain);
+  return machines;
+}
+
+TEST(OtherNumbersOfJoints, TorquesAreTheTestsOwn) {
+  for (const LinearMachine& machine : machinesOfOtherSizes()) {
+    const auto torques = machine.torques();
+    for (std::size_t i = 0; i < machine.cases.size(); ++i) {
+      const robot::Wrench& wrench = machine.cases[i].wrench;
+      const JointVector own =
+          machine.chain.torqueOf(machine.cases[i].q, machine.chain.joints(), wrench.point, wrench.force, wrench.moment);
+      ASSERT_EQ(torques[i].size(), machine.chain.joints());
+      EXPECT_LT((torques[i] - own).norm(), 1e-10 * own.norm());  // rounding
+    }
+  }
+}
+
+TEST(OtherNumbersOfJoints, EveryMethodGivesTheSpringsBack) {
+  for (const LinearMachine& machine : machinesOfOtherSizes()) {
+    SCOPED_TRACE(machine.chain.joints());
+    const robot::JointMask all = machine.allJoints();
+    const auto expectTheSprings = [&](const identification::StiffnessEstimate& found) {
+      ASSERT_EQ(found.joints(), machine.chain.joints());
+      EXPECT_LT(worstError(found.compliance, machine.compliance, all), kLinear);
+      EXPECT_TRUE(found.mark(machine.chain.joints() - 1).empty());
+    };
+    expectTheSprings(identification::partialPose(machine.reflectorEquations(), all));
+    expectTheSprings(
+        identification::decoupledPartialPose(machine.wristEquationsOfAll(), machine.reflectorEquations(), all));
+    expectTheSprings(identification::completePose(machine.poseEquations(), 0.5, all));
+  }
+}
+
+TEST(OtherNumbersOfJoints, TheWristsOwnJointsDoNotMoveItsCentre) {
+  for (const LinearMachine& machine : machinesOfOtherSizes()) {
+    for (const identification::CaseEquations& one : machine.wristEquationsOfAll()) {
+      const int wrist = robot::wristJointsOf(machine.chain.joints());
+      // The centre is found from the reflectors to 1e-10 m.
+      EXPECT_LT(one.matrix.rightCols(wrist).norm(), 1e-9 * one.matrix.norm()) << machine.chain.joints();
+      EXPECT_GT(one.matrix.leftCols(robot::armJointsOf(machine.chain.joints())).colwise().norm().minCoeff(), 0.0);
+    }
+  }
+}
+
 TEST(FullLoad, WithoutTheMiddleOfTheDisplacementTheSecondOrderShows) {
   // 1.5 kN: turns of 1e-3 rad. Jacobians unloaded leave their half; at the middle of the displacement its
   // square.

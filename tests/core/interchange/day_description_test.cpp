@@ -95,7 +95,7 @@ TEST(DayDescription, RefusesWithLineAttributeAndValue) {
   expectSays(refusal(kJoin + "<points role=\"loading\" file=\"\"/>"), {"file"});
   expectSays(refusal(kJoin + "<points role=\"loading\" file=\"a\" format=\"SA\"/>"), {"format", "'SA'"});
   expectSays(refusal(kJoin + "<points role=\"loading\" file=\"a\" axis=\"2\"/>"), {"axis", "circle_sweeps"});
-  expectSays(refusal(kJoin + "<points role=\"circle_sweeps\" file=\"a\" axis=\"7\"/>"), {"axis", "'7'", "1 to 6"});
+  expectSays(refusal(kJoin + "<points role=\"circle_sweeps\" file=\"a\" axis=\"0\"/>"), {"axis", "'0'", "from 1 on"});
   expectSays(refusal(kJoin + "<points role=\"loading\" file=\"a\" step=\"two\"/>"), {"step", "'two'"});
   expectSays(refusal(kJoin + "<points role=\"loading\" file=\"a\" skip=\"-1\"/>"), {"skip", "'-1'"});
   expectSays(refusal(kJoin + "<points role=\"loading\" file=\"a\" unit=\"ell\"/>"), {"unit", "'ell'"});

@@ -180,6 +180,13 @@ TEST_F(ImportDay, StandstillsWithoutReadingsAreListed) {
   EXPECT_EQ(made.campaign.states->rows.size(), static_cast<std::size_t>(kPoses - 1));
 }
 
+TEST_F(ImportDay, AJointThatTheRobotHasNotIsRefused) {
+  writeFiles();
+  expectSays(refusal("<points role=\"circle_sweeps\" file=\"tracker.txt\" axis=\"7\"/>" + kByClock),
+             {"DAY.xml:5", "axis", "'7'", "1 to 6"});
+  expectSays(refusal("<joint_reading joint=\"7\" sign=\"-1\"/>" + kByClock), {"DAY.xml:5", "joint", "'7'", "1 to 6"});
+}
+
 TEST_F(ImportDay, AWrongSignCouplingOrUnitIsRefusedAndNamed) {
   writeFiles();
   const std::string rest = kTracker + "<log file=\"karel.csv\"/><join by=\"clock\"/>";

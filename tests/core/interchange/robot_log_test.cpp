@@ -211,6 +211,43 @@ TEST(Rapid, JointtargetsOfModulesAndRokae) {
   expectSays(refusal("jointtarget j1:=[1,2,3,4,5,6];\n"), {":1", "expected '['"});
 }
 
+LogOptions ofSevenJoints() {
+  LogOptions options;
+  options.joints = 7;
+  return options;
+}
+
+TEST(RobotLog, HasAsManyJointsAsTheMachine) {
+  const std::string table =
+      "Time [ms];X;Y;Z;W;P;R;J1;J2;J3;J4;J5;J6;J7;\n1000;1;2;3;4;5;6;10.5;-20.25;30;40;50;-.5;7.5;\n";
+  const RobotLog seven = read(table, ofSevenJoints());
+  ASSERT_EQ(seven.samples.size(), 1u);
+  ASSERT_EQ(seven.samples[0].figures.size(), 7);
+  EXPECT_NEAR(seven.samples[0].figures[6], 7.5 * kDeg, 1e-15);
+  EXPECT_TRUE(seven.warnings.empty());
+  const RobotLog six = read(table);  // of a machine that has not the seventh
+  ASSERT_EQ(six.samples[0].figures.size(), 6);
+  expectDegrees(six.samples[0].figures, {10.5, -20.25, 30, 40, 50, -0.5});
+  ASSERT_EQ(six.warnings.size(), 1u);
+  expectSays(six.warnings[0], {":1", "j7", "six joints"});
+  expectSays(refusal(kKarel, ofSevenJoints()), {":1", "J7"});
+
+  LogOptions columns = ofSevenJoints();
+  columns.table.columns = "q1_deg q2_deg q3_deg q4_deg q5_deg q6_deg q7_deg";
+  EXPECT_NEAR(read("1 2 3 4 5 6 7\n", columns).samples[0].figures[6], 7 * kDeg, 1e-15);
+  columns.table.columns = "q1_deg q2_deg q3_deg q4_deg q5_deg q6_deg";
+  expectSays(refusal("1 2 3 4 5 6\n", columns), {"q1 to q7"});
+}
+
+TEST(RobotLog, ProgramsOfSixAxesAreNotThoseOfOthers) {
+  expectSays(refusal(kProgram, ofSevenJoints()), {":7", "P[1]", "all seven joints"});
+  std::string more = kProgram;
+  more.replace(more.find("J6=   60.000 deg"), 16, "J6=   60.000 deg,\tJ7= 70 deg");
+  expectSays(refusal(more), {":7", "P[1]", "all six joints", "more joints than the machine"});
+  expectSays(refusal(kKrl, ofSevenJoints()), {":4", "columns", "machine of six"});
+  expectSays(refusal("jointtarget j1:=[[1,2,3,4,5,6],[0,0,0,0,0,0]];\n", ofSevenJoints()), {":1", "machine of six"});
+}
+
 TEST(RobotLog, RefusesWhatIsNone) {
   expectSays(refusal("hello\n"), {":1", "'hello'", "fanuc_karel", "columns"});
   expectSays(refusal("\x81"), {"0x81"});

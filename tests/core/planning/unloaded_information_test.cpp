@@ -54,7 +54,8 @@ TEST(UnloadedInformation, ColumnsAreThoseOfTheArm) {
     for (Eigen::Index t = 0; t < 3; ++t) {
       const Eigen::Matrix3d shift = planned.spec.noise * rows[p].block<3, 3>(3 * t, layout.baseAt() + 3);
       EXPECT_LT((shift.cwiseAbs() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff(), 1e-9) << p;
-      const Eigen::Matrix3d own = planned.spec.noise * rows[p].block<3, 3>(3 * t, layout.targetAt(static_cast<std::size_t>(t)));
+      const Eigen::Matrix3d own =
+          planned.spec.noise * rows[p].block<3, 3>(3 * t, layout.targetAt(static_cast<std::size_t>(t)));
       EXPECT_LT((own.transpose() * own - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff(), 1e-9) << p;
       // The first of the effects is joint 2's compliance: joint 1 stands upright and has no torque.
       const Eigen::Vector3d at = frames[6] * planned.spec.on_flange[static_cast<std::size_t>(t)];

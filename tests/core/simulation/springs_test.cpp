@@ -101,8 +101,9 @@ TEST(SimulationSprings, parallelogramRodByHand) {
   spec.machine.joints[1].torsion = 3e6;
   spec.machine.joints[2].torsion = 2e6;
   spec.machine.shared_springs = {{{1, 2}, {0.3, 0.2}, 2e7}};
-  const simulation::MachineState state = simulation::equilibrium(
-      simulation::buildMachine(spec), JointVector::Zero(6), simulation::DeadForce{Vector3d::Zero(), Vector3d(0, 0, -1)});
+  const simulation::MachineState state =
+      simulation::equilibrium(simulation::buildMachine(spec), JointVector::Zero(6),
+                              simulation::DeadForce{Vector3d::Zero(), Vector3d(0, 0, -1)});
   // Both axes stand 1.6 m behind the flange; joint 3's points the other way.
   Eigen::Matrix2d stiffness;
   stiffness << 3e6 + 2e7 * 0.09, 2e7 * 0.06, 2e7 * 0.06, 2e6 + 2e7 * 0.04;
@@ -151,8 +152,9 @@ TEST(SimulationSprings, toolPlateByHand) {
   const Eigen::Matrix3d flange = spec.nominal.base_from_flange_at_zero.linear();
   const simulation::MachineState state = simulation::equilibrium(
       machine, JointVector::Zero(6), simulation::DeadForce{{0, 0, 0.2}, flange * Vector3d(100, 0, 0)});
-  const Vector3d moved = flange.transpose() * (state.targets_in_base[0] -
-                                               simulation::equilibrium(machine, JointVector::Zero(6)).targets_in_base[0]);
+  const Vector3d moved =
+      flange.transpose() *
+      (state.targets_in_base[0] - simulation::equilibrium(machine, JointVector::Zero(6)).targets_in_base[0]);
   const double expected = 100.0 / 2e7 + 0.3 * 20.0 / 2e6;
   EXPECT_NEAR(moved.x(), expected, 1e-4 * expected);
   EXPECT_LT(std::abs(moved.y()), 1e-12);

@@ -59,7 +59,8 @@ TEST(ContinuedAngles, EndsAtTheLimitsAndWhereTheArmDoesNotReach) {
   moved[1] += 0.1;
   const Eigen::Isometry3d wanted = day.lab.actual.flangeAt(moved);
   EXPECT_TRUE(workspace::continuedAngles(day.geometry.arm, wanted, Eigen::Vector3d::Zero(), start, 0.01, 0.0));
-  EXPECT_FALSE(workspace::continuedAngles(day.geometry.arm, wanted, Eigen::Vector3d::Zero(), start, 0.9, 0.0));  // no posture is so far from singular
+  EXPECT_FALSE(workspace::continuedAngles(day.geometry.arm, wanted, Eigen::Vector3d::Zero(), start, 0.9,
+                                          0.0));  // no posture is so far from singular
   day.geometry.arm.limits[1].upper = start[1] + 0.05;
   EXPECT_FALSE(workspace::continuedAngles(day.geometry.arm, wanted, Eigen::Vector3d::Zero(), start, 0.01, 0.0));
 }
