@@ -38,7 +38,8 @@ Held heldOn(MachineKind kind, int joints, bool wrist_meets) {
     const extended_model::ExtendedModel model = extended_model::supportedModel(prepared, prepared.campaign, {});
     // Where the wrist's axes do not meet the day's loads decide.
     if (wrist_meets) EXPECT_TRUE(model.without.of(identification::Method::decoupled_partial_pose).available) << seed;
-    for (const identification::Method which : {identification::Method::complete_pose, identification::Method::partial_pose}) {
+    for (const identification::Method which :
+         {identification::Method::complete_pose, identification::Method::partial_pose}) {
       EXPECT_TRUE(model.with.of(which).available) << seed;
       const identification::StiffnessEstimate& found = model.with.of(which).estimate;
       EXPECT_EQ(found.joints(), joints);
