@@ -124,6 +124,11 @@ int exportElastic(const ElasticArguments& arguments) {
   requireOwnFiles({{"--out", arguments.out}, {"--json", arguments.json}});
   const preparation::PreparedCampaign prepared =
       openPrepared(arguments.campaign, arguments.raw, hashesFor(arguments.json));
+  if (prepared.campaign.robot.coupled()) {
+    throw io::InputError({urdfOf(prepared.campaign).string(), 0, "mimic"}, "",
+                         "expected joints that turn an axis each: an elastic joint that others follow is not written; "
+                         "`export urdf` is");
+  }
   Identified found = identifiedBy(prepared, arguments.campaign, arguments.model, choice);
   const campaign::Campaign& campaign = found.campaign(prepared);
   const identification::MethodResult& method = found.of_method();

@@ -49,10 +49,10 @@ render::ArmPose bareArm(const frames::Frames& frames, const robot::ArmPosture& p
   const Eigen::Vector3d up(0.0, 0.0, heightOfR0(frames));  // from R0's origin to the scene's
   render::ArmPose pose;
   const PerJoint<Eigen::Vector3d> points = jointPointsAtZero(arm, -up);
-  for (int joint = 0; joint < arm.joints(); ++joint) {
-    const auto j = static_cast<std::size_t>(joint);
+  for (int axis = 0; axis < arm.axes(); ++axis) {
+    const auto j = static_cast<std::size_t>(axis);
     pose.joint_points.push_back(posture.motion[j] * points[j] + up);
-    pose.axis_directions.push_back(robot::axisAt(arm, posture, joint).direction);
+    pose.axis_directions.push_back(robot::axisAt(arm, posture, axis).direction);
   }
   pose.joint_points.push_back(robot::flangeAt(arm, posture).translation() + up);
   return pose;

@@ -109,7 +109,8 @@ std::optional<render::PointChart> sweepCircles(const reports::ReportCampaign& on
   chart.columns = 3;
   std::size_t most = 0;
   for (int axis = 0; axis < static_cast<int>(one.identification.frames.axes.size()); ++axis) {
-    if (one.identification.frames.axes[static_cast<std::size_t>(axis)].measured)
+    const frames::MeasuredAxis& measured = one.identification.frames.axes[static_cast<std::size_t>(axis)];
+    if (measured.measured && !measured.fit.circles.empty())  // of coupled joints there are no circles
       chart.shapes.push_back(circlePanel(one, points, axis, most));
   }
   chart.note += drawnWords(most, kMostOnRing, "readings of the longest ring");

@@ -185,7 +185,7 @@ Eigen::Matrix3d toolFromCell(const campaign::Campaign& campaign, const JointVect
   const Eigen::Matrix3d turned =
       cell.axes_link ? Eigen::Matrix3d::Identity() : Eigen::Matrix3d(cell.parent_from_cell.linear());
   for (const robot::LinkFrame& frame : campaign.robot.links) {
-    if (frame.name != link || frame.body == campaign.robot.joints()) continue;
+    if (frame.name != link || frame.body == campaign.robot.axes()) continue;
     const robot::ArmPosture posture = robot::postureAt(campaign.robot, q);
     const Eigen::Matrix3d base_from_link =
         posture.motion[static_cast<std::size_t>(frame.body)].linear() * frame.base_from_link_at_zero.linear();

@@ -45,7 +45,7 @@ std::vector<Row> rowsOf(const AuditInput& input) {
   const robot::Robot& arm = frames.arm.arm;
   const frames::WristCentre& wrist = frames.wrist;
   const frames::PlacedArm placed(frames::sweptAxes(frames, arm.axes_in_base_at_zero));
-  const int carrying = robot::armJointsOf(arm.joints()), of_wrist = 4 * robot::wristJointsOf(arm.joints());
+  const int carrying = arm.armAxes(), of_wrist = 4 * robot::wristJointsOf(arm.joints());
   std::vector<Row> rows;
   rows.reserve(sweep.rows.size());
   for (std::size_t i = 0; i < sweep.rows.size(); ++i) {
@@ -73,10 +73,10 @@ std::vector<Row> rowsOf(const AuditInput& input) {
 
 /// Normal matrix of the prior on the axes.
 Eigen::MatrixXd priorOf(const frames::Frames& frames, Eigen::Index targets) {
-  const int joints = frames.arm.arm.joints(), carrying = robot::armJointsOf(joints);
-  const Eigen::Index at = kCentre + targets, size = at + 4 * robot::wristJointsOf(joints);
+  const int axes = frames.arm.arm.axes(), carrying = frames.arm.arm.armAxes();
+  const Eigen::Index at = kCentre + targets, size = at + 4 * (axes - carrying);
   Eigen::MatrixXd prior = Eigen::MatrixXd::Zero(size, size);
-  for (int j = carrying; j < joints; ++j) {
+  for (int j = carrying; j < axes; ++j) {
     const Eigen::Index place = at + 4 * (j - carrying);
     prior.block<4, 4>(place, place) = frames.axes[static_cast<std::size_t>(j)].at_zero.covariance.inverse();
   }

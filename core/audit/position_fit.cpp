@@ -84,7 +84,7 @@ Normal sumUp(const frames::AbsoluteRows& rows, const Weights& weights) {
   return normal;
 }
 
-Eigen::Index shiftAt(const frames::AbsoluteRows& rows) { return frames::ArmParameters(rows.joints).baseAt(); }
+Eigen::Index shiftAt(const frames::AbsoluteRows& rows) { return frames::ArmParameters(rows.axes).baseAt(); }
 
 /// The sum of squares that is left; `held`: with the six parameters of the shift from there on at zero.
 double leastSquares(Normal normal, std::optional<Eigen::Index> held = {}) {

@@ -123,7 +123,7 @@ class Fitting {
     std::vector<int> order;
     for (int k = static_cast<int>(fit_.places().baseAt()); k < static_cast<int>(fit_.steps.size()); ++k)
       order.push_back(k);
-    for (int axis = day_.arm.joints() - 1; options_.axes && axis >= 0; --axis) {
+    for (int axis = day_.arm.axes() - 1; options_.axes && axis >= 0; --axis) {
       for (int k = 0; k < 4; ++k) order.push_back(4 * axis + k);
     }
     const auto size = static_cast<Eigen::Index>(order.size());

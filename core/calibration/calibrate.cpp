@@ -175,7 +175,7 @@ Calibration calibrateBy(const campaign::Campaign& campaign, const CalibrationOpt
     return result;
   }
   const Eigen::Index parameters =
-      frames::ArmParameters(day.arm.joints()).count(day.targets.size()) - frames::ArmParameters::kBase;
+      frames::ArmParameters(day.arm.axes()).count(day.targets.size()) - frames::ArmParameters::kBase;
   if (3 * static_cast<Eigen::Index>(readings) <= parameters) {
     result.reason = Remark(RemarkId::too_few_readings, readings, parameters);
     return result;

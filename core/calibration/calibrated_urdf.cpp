@@ -62,6 +62,17 @@ Eigen::Isometry3d originOf(const XMLElement& joint) {
   return motion;
 }
 
+/// How a joint stands turned from its origin with all joints at zero: by the offset of one that follows another.
+Eigen::Isometry3d atZero(const XMLElement& joint) {
+  const XMLElement* mimic = joint.FirstChildElement("mimic");
+  const double offset = mimic != nullptr ? mimic->DoubleAttribute("offset", 0.0) : 0.0;
+  if (offset == 0.0) return Eigen::Isometry3d::Identity();
+  const XMLElement* axis = joint.FirstChildElement("axis");
+  const Eigen::Vector3d direction =
+      axis != nullptr && axis->Attribute("xyz") ? vectorOf(axis, "xyz") : Eigen::Vector3d(Eigen::Vector3d::UnitX());
+  return Eigen::Isometry3d(Eigen::AngleAxisd(offset, direction.normalized()));
+}
+
 /// The least rotation that brings direction `from` to `to`: about their common normal. Half a turn about any where they
 /// are opposite.
 Eigen::Matrix3d rotationBetween(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
@@ -117,8 +128,9 @@ std::string calibratedUrdf(std::string_view bytes, const std::string& file, cons
       setOrigin(*joint, parent.inverse() * placed);
       placed = parent * originOf(*joint);  // as it will be read
     }
-    parent = placed;
-    parent_as_built = as_built;
+    const Eigen::Isometry3d turned = atZero(*joint);
+    parent = placed * turned;
+    parent_as_built = as_built * turned;
   }
   tinyxml2::XMLPrinter printer;
   document.Print(&printer);

@@ -77,14 +77,16 @@ Eigen::Isometry3d LinkParameters::at(double q) const {
 
 Eigen::Isometry3d DenavitHartenberg::flangeAt(const JointVector& q) const {
   Eigen::Isometry3d frame = base_from_first;
-  for (std::size_t i = 0; i < links.size(); ++i) frame = frame * links[i].at(q[static_cast<Eigen::Index>(i)]);
-  return frame * AngleAxisd(q[q.size() - 1], Vector3d::UnitZ()) * last_from_flange;
+  const JointVector angles = couplings ? couplings->angles(q) : q;
+  for (std::size_t i = 0; i < links.size(); ++i) frame = frame * links[i].at(angles[static_cast<Eigen::Index>(i)]);
+  return frame * AngleAxisd(angles[angles.size() - 1], Vector3d::UnitZ()) * last_from_flange;
 }
 
 DenavitHartenberg denavitHartenberg(const robot::Robot& arm, const robot::Robot& nominal) {
   const auto& axes = arm.axes_in_base_at_zero;
   const auto& as_built = nominal.axes_in_base_at_zero;
   DenavitHartenberg result;
+  result.couplings = axes.couplings;
   result.links.resize(axes.size() - 1);
   const auto firstFrame = [](const metrology::Line& axis) {
     Vector3d x = Vector3d::UnitX() - axis.direction * axis.direction.x();

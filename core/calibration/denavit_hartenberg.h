@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <memory>
 
 #include "core/robot/robot.h"
 
@@ -18,11 +19,13 @@ struct LinkParameters {
 };
 
 /// An arm by Denavit and Hartenberg's parameters:
-///   base_from_flange(q) = base_from_first * A_1(q_1) ... A_n-1(q_n-1) * Rz(q_n) * last_from_flange.
+///   base_from_flange(q) = base_from_first * A_1(q_1) ... A_n-1(q_n-1) * Rz(q_n) * last_from_flange,
+/// q_i the angles of the axes (those of the joints, but for coupled joints).
 struct DenavitHartenberg {
   Eigen::Isometry3d base_from_first = Eigen::Isometry3d::Identity();
-  PerJoint<LinkParameters> links;  ///< from axis to axis: one fewer than joints
+  PerJoint<LinkParameters> links;  ///< from axis to axis: one fewer than axes
   Eigen::Isometry3d last_from_flange = Eigen::Isometry3d::Identity();
+  std::shared_ptr<const robot::Couplings> couplings;  ///< of the arm's joints, where they have any
 
   Eigen::Isometry3d flangeAt(const JointVector& q) const;
 };

@@ -99,7 +99,7 @@ void ReadingDerivatives::enter(const frames::PlacedPosture& placed, const Eigen:
   }
   if (angles_.empty()) return;
   Jacobian by_joints(6, by_terms.rows());
-  for (std::size_t j = 0; j < fitted_.arm().axes.size(); ++j) {
+  for (std::size_t j = 0; j < static_cast<std::size_t>(by_joints.cols()); ++j) {
     const frames::SmallMotion motion = placed.byJoint(j);
     by_joints.col(static_cast<Eigen::Index>(j)) << motion.rotation, motion.shift;
   }

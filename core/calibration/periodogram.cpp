@@ -32,7 +32,7 @@ void wavesAt(double angle, Eigen::MatrixXd& waves, Eigen::Index row) {
 
 Periodogram::Periodogram(const std::vector<PostureEquations>& equations, const std::vector<std::size_t>& postures,
                          const UnloadedDay& day, const Eigen::MatrixXd& basis, const Eigen::VectorXd& residual)
-    : equations_(&equations), joints_(day.arm.axes_in_base_at_zero.size()) {
+    : equations_(&equations), joints_(static_cast<std::size_t>(day.arm.joints())) {
   const auto count = static_cast<Eigen::Index>(postures.size());
   numerics::onAllCores(joints_.size(), [&](std::size_t j) {
     OfJoint& joint = joints_[j];

@@ -173,7 +173,7 @@ std::size_t UnloadedDay::readings() const {
 }
 
 PerJoint<bool> commandedJoints(const campaign::Campaign& campaign) {
-  PerJoint<bool> given(campaign.robot.axes_in_base_at_zero.size(), campaign.states.has_value());
+  PerJoint<bool> given(static_cast<std::size_t>(campaign.robot.joints()), campaign.states.has_value());
   if (!campaign.states) return given;
   for (const campaign::State& state : campaign.states->rows) {
     for (std::size_t j = 0; j < given.size(); ++j) {
@@ -206,7 +206,8 @@ UnloadedDay unloadedDay(const campaign::Campaign& campaign, JointAngles angles) 
   const Bending bending(day);
   if (day.masses_known) {
     day.bending = bending.terms();
-  } else {
+  } else if (!day.arm.coupled()) {
+    // Of a coupled arm each body's weight pulls on several drives: masses have to be known.
     day.free_moments = freeMoments(day.arm.joints());
   }
   std::vector<double> times, temperatures;

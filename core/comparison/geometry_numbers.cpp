@@ -49,7 +49,7 @@ Eigen::Isometry3d firstAlongAxis(const LinkParameters& first) {
 
 GeometryNumbers::GeometryNumbers(const robot::Robot& nominal) : nominal_(nominal) {
   const DenavitHartenberg links = denavitHartenberg(nominal, nominal);
-  for (int axis = 1; axis < nominal.joints(); ++axis) {
+  for (int axis = 1; axis < nominal.axes(); ++axis) {
     const bool hayati = links.links[static_cast<std::size_t>(axis) - 1].hayati;
     if (axis > 1) numbers_.push_back({NumberKind::joint_zero, axis});
     if (axis > 1 && !hayati) numbers_.push_back({NumberKind::along, axis});

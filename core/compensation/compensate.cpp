@@ -362,6 +362,15 @@ class Compensator {
       if (angles[joint] < limits.lower || angles[joint] > limits.upper)
         return Remark(what, joint + 1, angles[joint], limits.lower, limits.upper);
     }
+    const robot::Robot& arm = geometry_.arm;
+    if (!arm.coupled() || robot::withinAxisLimits(arm, angles)) return {};
+    const JointVector turned = arm.axes_in_base_at_zero.angles(angles);
+    for (int axis = 0; axis < arm.axes(); ++axis) {
+      const robot::JointLimits& limits = arm.axis_limits[static_cast<std::size_t>(axis)];
+      if (turned[axis] < limits.lower || turned[axis] > limits.upper)
+        return Remark(RemarkId::follower_outside_limits, arm.axis_names[static_cast<std::size_t>(axis)], turned[axis],
+                      limits.lower, limits.upper);
+    }
     return {};
   }
 

@@ -38,7 +38,7 @@ JointVector jointStep(const Jacobian& jacobian, const Vector6d& motion, const Jo
 
 double stepConditioning(const robot::ArmAxes& axes, const Eigen::Vector3d& point_in_base) {
   const double whole = robot::conditioningAt(axes, point_in_base);
-  if (axes.size() >= 6) return whole;
+  if (axes.joints() >= 6) return whole;
   const Eigen::VectorXd singular = singularValues(robot::pointJacobianAt(axes, point_in_base));
   return std::min(whole, singular[2] / singular[0]);
 }

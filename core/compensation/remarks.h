@@ -8,6 +8,7 @@ enum class RemarkId {
   loaded_arm_does_not_rest,
   posture_outside_limits,     ///< joint number, its angle rad, lower limit rad, upper limit rad
   command_outside_limits,     ///< joint number, the angle to command rad, lower limit rad, upper limit rad
+  follower_outside_limits,    ///< name of an axis that follows others, its angle, lower and upper limit, rad
   near_singularity,           ///< conditioning, least conditioning
   turns_joint_of_negative_k,  ///< joint number, torque Nm
   turns_joint_of_unknown_k,   ///< joint number, torque Nm

@@ -49,7 +49,7 @@ GeometryError geometryError(const SystemInput& input, const SystemState& state) 
   const auto rows = 3 * count * static_cast<Eigen::Index>(postures.size());
   Vector6d base = Vector6d::Zero();
   double zero = 0.0;
-  const frames::ArmParameters steps(input.campaign.robot.joints());
+  const frames::ArmParameters steps(input.campaign.robot.axes());
   constexpr int kRounds = 5;
   for (int round = 0; round < kRounds; ++round) {
     const bool spring = state.at.compensator.size() > 0;  // its constant torque is a zero of joint 2

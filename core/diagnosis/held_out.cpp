@@ -170,7 +170,7 @@ Narrowed narrowed(const SystemInput& input, const GapFit& fit, const std::vector
   const Eigen::Index end = fit.data.layout.end;
   own.fit.rules = fit.rules;
   own.fit.rules.given.clear();
-  own.fit.data.layout = gapLayout(own.input.models, input.campaign.robot.joints(), input.campaign.targets.size());
+  own.fit.data.layout = gapLayout(own.input.models, input.campaign.robot, input.campaign.targets.size());
   for (const GapPosture& posture : fit.data.postures) own.fit.data.postures.push_back(narrowed(posture, columns, end));
   columns.push_back(end);
   own.fit.data.sweeps = fit.data.sweeps(columns, columns);

@@ -35,7 +35,7 @@ ContainedEffects correct(const SystemInput& input, const GapLayout& layout, cons
     const frames::LoadingGeometry there = frames::moved(state.geometry, steps, state.at.epoch_centre);
     state.r0_from_sweeps =
         metrology::motionAbout(state.at.epoch_centre,
-                               steps.segment<6>(frames::ArmParameters(state.geometry.arm.joints()).baseAt())) *
+                               steps.segment<6>(frames::ArmParameters(state.geometry.arm.axes()).baseAt())) *
         state.r0_from_sweeps;
     state.geometry = there;
   }

@@ -171,11 +171,11 @@ ComplianceExpected complianceExpected(const JointVector& identified) {
   return expected;
 }
 
-GapLayout gapLayout(const std::vector<effects::EffectModel>& models, int joints, std::size_t targets) {
+GapLayout gapLayout(const std::vector<effects::EffectModel>& models, const robot::Robot& arm, std::size_t targets) {
   GapLayout layout;
-  layout.geometry = joints;
-  layout.weights = layout.geometry + frames::ArmParameters(joints).count(targets);
-  layout.effects = layout.weights + joints;
+  layout.geometry = arm.joints();
+  layout.weights = layout.geometry + frames::ArmParameters(arm.axes()).count(targets);
+  layout.effects = layout.weights + arm.axes();
   layout.end = layout.effects;
   for (const effects::EffectModel& model : models) {
     layout.model_at.push_back(layout.end);
@@ -187,7 +187,7 @@ GapLayout gapLayout(const std::vector<effects::EffectModel>& models, int joints,
 LinearSystem linearSystem(const SystemInput& input, const SystemState& state, const ContainedEffects& effects_now,
                           Weighed weighed) {
   LinearSystem data;
-  data.layout = gapLayout(input.models, input.campaign.robot.joints(), input.campaign.targets.size());
+  data.layout = gapLayout(input.models, input.campaign.robot, input.campaign.targets.size());
   addPostureEquations(input, state, effects_now, data);
   whitenPostures(input, state, data);
   data.beforehand.setZero(data.layout.end + 1, data.layout.end + 1);

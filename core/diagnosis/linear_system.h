@@ -124,6 +124,6 @@ LinearSystem linearSystem(const SystemInput& input, const SystemState& state, co
 /// those of absolute positions, and the error of the model. Lets the sweeps' equations go.
 void weighAgain(const SystemInput& input, const SystemState& state, LinearSystem& data);
 
-GapLayout gapLayout(const std::vector<effects::EffectModel>& models, int joints, std::size_t targets);
+GapLayout gapLayout(const std::vector<effects::EffectModel>& models, const robot::Robot& arm, std::size_t targets);
 
 }  // namespace stiffscope::diagnosis

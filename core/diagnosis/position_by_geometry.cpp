@@ -13,33 +13,33 @@ namespace {
 
 using frames::ArmParameters;
 
-/// What each joint carries: mass, and its first moment about the origin.
+/// What each axis carries: mass, and its first moment about the origin.
 struct Carried {
   PerJoint<double> mass;
   PerJoint<Eigen::Vector3d> moment;
 };
 
 Carried carriedBy(const robot::GravityLoad& weight, const robot::ArmPosture& posture) {
-  const std::size_t joints = weight.bodies.size() - 1;
-  Carried carried{PerJoint<double>(joints), PerJoint<Eigen::Vector3d>(joints)};
+  const std::size_t axes = weight.bodies.size() - 1;
+  Carried carried{PerJoint<double>(axes), PerJoint<Eigen::Vector3d>(axes)};
   double mass = 0.0;
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
-  for (std::size_t joint = joints; joint-- > 0;) {
-    const robot::BodyMass& body = weight.bodies[joint + 1];
+  for (std::size_t axis = axes; axis-- > 0;) {
+    const robot::BodyMass& body = weight.bodies[axis + 1];
     mass += body.mass_kg;
-    moment += body.mass_kg * (posture.motion[joint + 1] * body.com_in_base_at_zero);
-    carried.mass[joint] = mass;
-    carried.moment[joint] = moment;
+    moment += body.mass_kg * (posture.motion[axis + 1] * body.com_in_base_at_zero);
+    carried.mass[axis] = mass;
+    carried.moment[axis] = moment;
   }
   return carried;
 }
 
-/// How tau_j = z_j . ((S_j - m_j p_j) x g) changes with parameter k of the axes.
+/// How the joints' torques change with parameter k of the axes; about axis j it is z_j . ((S_j - m_j p_j) x g).
 JointVector torqueChange(const effects::ArmState& state, const Carried& carried, const Eigen::Vector3d& gravity,
                          const frames::PlacedPosture& posture, std::size_t k) {
   const std::size_t moved = k / 4;
   const frames::SmallMotion& beyond = posture.beyondAxis(k);
-  JointVector change(state.joints());
+  JointVector change(state.bodies());
   for (std::size_t j = 0; j < state.axes.size(); ++j) {
     const metrology::Line& axis = state.axes[j];
     const std::size_t first = std::max(j, moved);
@@ -50,7 +50,7 @@ JointVector torqueChange(const effects::ArmState& state, const Carried& carried,
     change[static_cast<Eigen::Index>(j)] =
         of_axis.rotation.cross(axis.direction).dot(arm.cross(gravity)) + axis.direction.dot(arm_change.cross(gravity));
   }
-  return change;
+  return state.axes.torques(change);
 }
 
 /// What the effects in the model turn the joints by: by the own weight's torques and by the angles.
@@ -109,7 +109,7 @@ PositionByGeometry::PositionByGeometry(const frames::LoadingGeometry& geometry, 
                                        const Eigen::Vector3d& centre)
     : geometry_(geometry),
       at_(at),
-      layout_(geometry.arm.joints()),
+      layout_(geometry.arm.axes()),
       arm_(frames::axesAtStart(geometry.arm.axes_in_base_at_zero), centre) {
   if (!at.bodiesMove()) return;
   const Eigen::Index steps = layout_.count(geometry.targets_at_zero.size());

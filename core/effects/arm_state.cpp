@@ -6,8 +6,8 @@
 
 namespace stiffscope::effects {
 
-BodyMotions noBodyMotions(int joints) {
-  return BodyMotions(static_cast<std::size_t>(joints) + 1, Eigen::Isometry3d::Identity());
+BodyMotions noBodyMotions(int bodies) {
+  return BodyMotions(static_cast<std::size_t>(bodies) + 1, Eigen::Isometry3d::Identity());
 }
 
 robot::ArmPosture movedPosture(const robot::Robot& arm, const JointVector& turned, const BodyMotions& moved) {
@@ -32,7 +32,7 @@ CompactPosture::CompactPosture(const PostureStates& posture) {
 }
 
 PostureStates CompactPosture::states(const frames::LoadingGeometry& geometry) const {
-  BodyMotions moved = noBodyMotions(geometry.arm.joints());
+  BodyMotions moved = noBodyMotions(geometry.arm.axes());
   std::copy(moved_.begin(), moved_.end(), moved.begin());
   ArmState rest = stateMoved(geometry, q_, turned_, moved);
   rest.pose = pose_;
@@ -53,7 +53,7 @@ PostureStates CompactPosture::states(const frames::LoadingGeometry& geometry) co
 }
 
 ArmState stateAt(const frames::LoadingGeometry& geometry, const JointVector& q, const JointVector& joint_offset) {
-  return stateMoved(geometry, q, geometry.sagged(q) + joint_offset, noBodyMotions(geometry.arm.joints()));
+  return stateMoved(geometry, q, geometry.sagged(q) + joint_offset, noBodyMotions(geometry.arm.axes()));
 }
 
 ArmState stateMoved(const frames::LoadingGeometry& geometry, const JointVector& q, const JointVector& turned,
@@ -80,6 +80,7 @@ void placeByPosture(const frames::LoadingGeometry& geometry, ArmState& state) {
   state.flange = robot::flangeAt(geometry.arm, state.posture);
   if (!geometry.weight.links_known) return;
   robot::Wrench sum;
+  JointVector about_axes(state.bodies());
   for (std::size_t b = state.axes.size(); b >= 1; --b) {
     const robot::BodyMass& body = geometry.weight.bodies[b];
     const Eigen::Vector3d pull = body.mass_kg * geometry.weight.gravity_in_base;
@@ -87,9 +88,9 @@ void placeByPosture(const frames::LoadingGeometry& geometry, ArmState& state) {
     sum.moment += (state.posture.motion[b] * body.com_in_base_at_zero).cross(pull);
     state.weight_from_body[b] = sum;
     const metrology::Line& axis = state.axes[b - 1];
-    state.weight_torque[static_cast<Eigen::Index>(b) - 1] =
-        axis.direction.dot(sum.moment - axis.point.cross(sum.force));
+    about_axes[static_cast<Eigen::Index>(b) - 1] = axis.direction.dot(sum.moment - axis.point.cross(sum.force));
   }
+  state.weight_torque = state.axes.torques(about_axes);
   state.weight_from_body[0] = sum;
 }
 

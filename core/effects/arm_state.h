@@ -10,7 +10,7 @@ namespace stiffscope::effects {
 /// Rigid motions of the arm's bodies beyond what its joints do, in R0: where effects in the model have moved
 /// them.
 using BodyMotions = PerBody<Eigen::Isometry3d>;
-BodyMotions noBodyMotions(int joints);
+BodyMotions noBodyMotions(int bodies);
 
 /// The arm at rest in one state, in R0: everything that drives an effect. Own weight and load are kept apart,
 /// because a deflection is the state less the unloaded one, and an absolute position has the own weight
@@ -35,7 +35,8 @@ struct ArmState {
   std::vector<int> targets;
   std::vector<Eigen::Vector3d> points;  ///< where the reflectors stand, one a target
 
-  int joints() const { return static_cast<int>(axes.size()); }
+  int joints() const { return axes.joints(); }
+  int bodies() const { return static_cast<int>(axes.size()); }  ///< that move, one an axis
   Eigen::Index rows() const { return 3 * static_cast<Eigen::Index>(points.size()); }
 };
 

@@ -4,18 +4,20 @@ namespace stiffscope::effects {
 
 // A joint also gives about the two directions across its axis (moment compliance of its main bearing, alike
 // in both): rotation s (M - z (z.M)) about the joint origin, M what the joint carries there (own weight and
-// load), z the axis. s in rad/Nm, never negative; at most 1e-5, a bearing a hundred times softer than a
-// light arm's. Source: bearing catalogues (moment rigidity of crossed-roller and angular bearings).
+// load), z the axis; of joints' own axes, not of those that only follow. s in rad/Nm, never negative; at most 1e-5, a
+// bearing a hundred times softer than a light arm's. Source: bearing catalogues (moment rigidity of crossed-roller and
+// angular bearings).
 
 namespace {
 
 std::vector<BodyTwist> bearingTiltTwists(const LinearizationPoint&, const PostureStates& posture, std::size_t i) {
   std::vector<BodyTwist> twists;
   for (int j = 0; j < posture[i].joints(); ++j) {
-    const metrology::Line& axis = posture[i].axes[static_cast<std::size_t>(j)];
-    const Eigen::Vector3d moment = carried(posture[i], j + 1, axis.point).moment;
+    const int own = posture[i].axes.axisOf(j);
+    const metrology::Line& axis = posture[i].axes[static_cast<std::size_t>(own)];
+    const Eigen::Vector3d moment = carried(posture[i], own + 1, axis.point).moment;
     const Eigen::Vector3d across = moment - axis.direction * axis.direction.dot(moment);
-    twists.push_back({.first_body = j + 1, .pivot = axis.point, .rotation = across});
+    twists.push_back({.first_body = own + 1, .pivot = axis.point, .rotation = across});
   }
   return twists;
 }

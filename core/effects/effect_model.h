@@ -76,8 +76,8 @@ struct EffectPart {
   std::vector<std::string> units = {};  ///< of each parameter; empty: `unit` is that of all
 };
 
-/// Beyond the arm's bodies, one a joint: what the plate between flange and reflectors carries.
-constexpr int toolBody(int joints) { return joints + 1; }
+/// Beyond the arm's bodies, one an axis: what the plate between flange and reflectors carries.
+constexpr int toolBody(int bodies) { return bodies + 1; }
 
 /// A small rigid motion of the arm from one body outwards, in R0, per unit of a parameter.
 struct BodyTwist {

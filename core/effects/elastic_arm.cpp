@@ -25,9 +25,9 @@ struct ElasticArm::Deflection {
   JointVector angles;
   boost::container::static_vector<Eigen::Isometry3d, toolBody(kMostJoints) + 1> motions;
 
-  explicit Deflection(int joints)
-      : angles(JointVector::Zero(joints)),
-        motions(static_cast<std::size_t>(toolBody(joints)) + 1, Eigen::Isometry3d::Identity()) {}
+  explicit Deflection(const robot::Robot& arm)
+      : angles(JointVector::Zero(arm.joints())),
+        motions(static_cast<std::size_t>(toolBody(arm.axes())) + 1, Eigen::Isometry3d::Identity()) {}
 };
 
 ElasticArm::ElasticArm(const frames::LoadingGeometry& geometry, const JointVector& compliance,
@@ -35,7 +35,7 @@ ElasticArm::ElasticArm(const frames::LoadingGeometry& geometry, const JointVecto
     : geometry_(geometry), compliance_(compliance), at_(at), effects_(std::move(effects)) {}
 
 ElasticArm::Deflection ElasticArm::deflectionBy(const PostureStates& posture, std::size_t s) const {
-  Deflection deflection(geometry_.arm.joints());
+  Deflection deflection(geometry_.arm);
   for (const auto& [model, own] : effects_) {
     if (model->angles) {
       deflection.angles += model->angles(at_, posture, s) * own;
@@ -79,9 +79,8 @@ std::optional<Eigen::Isometry3d> ElasticArm::settledTool(PostureStates& states, 
   constexpr int kMostSteps = 60;
   constexpr double kSettled = 1e-10;  // rad
   ArmState& state = states[s];
-  const int joints = geometry_.arm.joints();
   JointVector angles = state.q;
-  Deflection deflection(joints);
+  Deflection deflection(geometry_.arm);
   Eigen::Isometry3d last = Eigen::Isometry3d::Identity();
   for (int step = 0; step < kMostSteps; ++step) {
     robot::ArmPosture place;
@@ -91,15 +90,16 @@ std::optional<Eigen::Isometry3d> ElasticArm::settledTool(PostureStates& states, 
       const Eigen::Isometry3d own = turned.motion[b - 1].inverse() * turned.motion[b];
       place.motion.push_back(deflection.motions[b] * place.motion[b - 1] * own);
     }
-    const Eigen::Isometry3d tool = deflection.motions[static_cast<std::size_t>(toolBody(joints))] * place.motion.back();
+    const Eigen::Isometry3d tool =
+        deflection.motions[static_cast<std::size_t>(toolBody(geometry_.arm.axes()))] * place.motion.back();
     if (step > 0 && (tool.matrix() - last.matrix()).cwiseAbs().maxCoeff() < kSettled) return tool;
     last = tool;
     state.posture = place;
     placeByPosture(geometry_, state);
     if (s == 0) state.turned = angles;
     state.load = load ? robot::Wrench{tool * load->point_at_zero, load->force, load->moment} : robot::Wrench{};
-    state.load_torque =
-        load ? robot::jointTorque(geometry_.arm, place, state.load) : JointVector(JointVector::Zero(joints));
+    state.load_torque = load ? robot::jointTorque(geometry_.arm, place, state.load)
+                             : JointVector(JointVector::Zero(geometry_.arm.joints()));
     deflection = deflectionBy(states, s);
     angles = state.q + compliance_.cwiseProduct(totalTorque(state)) + deflection.angles;
   }

@@ -11,9 +11,9 @@ namespace {
 
 /// Inner bodies first, so that an outer motion turns about where the inner ones have brought its pivot.
 BodyMotions motionsOf(const LinearizationPoint& at, const PostureStates& rest) {
-  const int joints = rest.front().joints();
+  const int bodies = rest.front().bodies();
   // Rotation vector, and displacement of the R0 origin.
-  PerBody<Vector6d> by_body(static_cast<std::size_t>(joints) + 1, Vector6d(Vector6d::Zero()));
+  PerBody<Vector6d> by_body(static_cast<std::size_t>(bodies) + 1, Vector6d(Vector6d::Zero()));
   for (const PresentEffect& one : at.present) {
     if (!one.model->twists) continue;
     const std::vector<BodyTwist> twists = one.model->twists(at, rest, 0);
@@ -24,7 +24,7 @@ BodyMotions motionsOf(const LinearizationPoint& at, const PostureStates& rest) {
       by_body[static_cast<std::size_t>(twist.first_body)] += at_origin * one.parameters[static_cast<Eigen::Index>(k)];
     }
   }
-  BodyMotions all = noBodyMotions(joints);
+  BodyMotions all = noBodyMotions(bodies);
   for (std::size_t first = 1; first < by_body.size(); ++first) {
     const Vector6d& twist = by_body[first];
     if (twist.isZero(0.0)) continue;
@@ -56,7 +56,7 @@ JointVector presentTurn(const LinearizationPoint& at, const ArmState& state) { r
 ArmState gravityEquilibrium(const frames::LoadingGeometry& geometry, const LinearizationPoint& at,
                             const JointVector& q) {
   const JointVector sagged = geometry.sagged(q);
-  PostureStates rest{stateMoved(geometry, q, sagged, noBodyMotions(geometry.arm.joints()))};
+  PostureStates rest{stateMoved(geometry, q, sagged, noBodyMotions(geometry.arm.axes()))};
   ArmState& state = rest.front();
   if (at.present.empty()) return std::move(state);
   const bool turns = at.jointsTurn(), bodies = at.bodiesMove();
@@ -64,7 +64,7 @@ ArmState gravityEquilibrium(const frames::LoadingGeometry& geometry, const Linea
   for (int round = 0; round < kRounds; ++round) {
     const JointVector turn = turns ? turnOf(at, rest) : JointVector(JointVector::Zero(q.size()));
     if (!bodies) {
-      moveTo(geometry, sagged + turn, noBodyMotions(geometry.arm.joints()), state);
+      moveTo(geometry, sagged + turn, noBodyMotions(geometry.arm.axes()), state);
       continue;
     }
     const JointVector sag = geometry.springTurns(state.weight_torque);
@@ -88,19 +88,21 @@ namespace {
 
 /// Joint angles in place of displacements.
 JointAngles anglesByBody(const LinearizationPoint& at, const ArmState& state) {
-  const int joints = state.joints();
-  JointAngles angles = JointAngles::Zero(joints, joints);
-  for (int body = 1; body <= joints; ++body) {
+  const int bodies = state.bodies();
+  JointAngles angles = JointAngles::Zero(state.joints(), bodies);
+  for (int body = 1; body <= bodies; ++body) {
     const auto b = static_cast<std::size_t>(body);
     robot::Wrench own = state.weight_from_body[b];
-    if (body < joints) {
+    if (body < bodies) {
       own.force -= state.weight_from_body[b + 1].force;
       own.moment -= state.weight_from_body[b + 1].moment;
     }
+    JointVector about_axes = JointVector::Zero(bodies);
     for (int j = 0; j < body; ++j) {
       const metrology::Line& axis = state.axes[static_cast<std::size_t>(j)];
-      angles(j, body - 1) = at.compliance[j] * axis.direction.dot(own.about(axis.point).moment);
+      about_axes[j] = axis.direction.dot(own.about(axis.point).moment);
     }
+    angles.col(body - 1) = at.compliance.cwiseProduct(state.axes.torques(about_axes));
   }
   return angles;
 }

@@ -12,20 +12,21 @@ namespace stiffscope::effects {
 
 namespace {
 
-/// Bodies 1 to 4 of six: joint origin to the next; the wrist's own bodies are compact.
+/// Links 1 to 4 of six joints: from the joint's own axis to the next axis; the wrist's own bodies are compact.
 constexpr int linksOf(int joints) { return robot::armJointsOf(joints) + 1; }
 
 std::vector<BodyTwist> linkComplianceTwists(const LinearizationPoint&, const PostureStates& posture, std::size_t i) {
   std::vector<BodyTwist> twists;
   for (int link = 0; link < linksOf(posture[i].joints()); ++link) {
-    const Eigen::Vector3d from = posture[i].axes[static_cast<std::size_t>(link)].point;
-    const Eigen::Vector3d tip = posture[i].axes[static_cast<std::size_t>(link) + 1].point;
+    const int axis = posture[i].axes.axisOf(link);
+    const Eigen::Vector3d from = posture[i].axes[static_cast<std::size_t>(axis)].point;
+    const Eigen::Vector3d tip = posture[i].axes[static_cast<std::size_t>(axis) + 1].point;
     const double length = (tip - from).norm();
-    BodyTwist bending{.first_body = link + 2, .with_axis = true, .pivot = tip}, torsion = bending;
+    BodyTwist bending{.first_body = axis + 2, .with_axis = true, .pivot = tip}, torsion = bending;
     constexpr double kNoBeam = 0.05;  // m: shorter is a housing
     if (length >= kNoBeam) {
       const Eigen::Vector3d along = (tip - from) / length;
-      const robot::Wrench load = carried(posture[i], link + 2, tip);
+      const robot::Wrench load = carried(posture[i], axis + 2, tip);
       const Eigen::Vector3d force = load.force - along * along.dot(load.force);
       const Eigen::Vector3d moment = load.moment - along * along.dot(load.moment);
       const double square = length * length;

@@ -10,7 +10,7 @@ namespace stiffscope::effects {
 namespace {
 
 std::vector<BodyTwist> byWrench(const ArmState& state, const robot::Wrench& load) {
-  std::vector<BodyTwist> twists(6, {.first_body = toolBody(state.joints()), .pivot = state.flange.translation()});
+  std::vector<BodyTwist> twists(6, {.first_body = toolBody(state.bodies()), .pivot = state.flange.translation()});
   for (int k = 0; k < 3; ++k) {
     const Eigen::Vector3d axis = state.flange.linear().col(k);
     twists[static_cast<std::size_t>(k)].rotation = axis * axis.dot(load.moment);
@@ -20,7 +20,7 @@ std::vector<BodyTwist> byWrench(const ArmState& state, const robot::Wrench& load
 }
 
 std::vector<BodyTwist> withWeight(const LinearizationPoint&, const PostureStates& posture, std::size_t i) {
-  return byWrench(posture[i], carried(posture[i], posture[i].joints(), posture[i].flange.translation()));
+  return byWrench(posture[i], carried(posture[i], posture[i].bodies(), posture[i].flange.translation()));
 }
 
 std::vector<BodyTwist> byLoad(const LinearizationPoint&, const PostureStates& posture, std::size_t i) {

@@ -33,7 +33,7 @@ const robot::LinkFrame* linkNamed(const robot::Robot& robot, const std::string& 
 void moveLoadPoint(const Eigen::Vector3d& by, campaign::Campaign& campaign) {
   campaign::LoadCell& cell = *campaign.load_cell;
   const robot::LinkFrame* parent = linkNamed(campaign.robot, cell.parent);
-  if (parent == nullptr || parent->body != campaign.robot.joints()) {
+  if (parent == nullptr || parent->body != campaign.robot.axes()) {
     throw io::InputError({"--with"}, std::string(effects::idOf(effects::Effect::load_point_error)),
                          fmt::format("the load cell's parent {} does not move with the flange: its point cannot be "
                                      "corrected by one number",

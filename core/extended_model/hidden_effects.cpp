@@ -350,7 +350,7 @@ std::vector<SeenCombination> combinationsOf(const HiddenDraws& hidden, const Joi
 
 /// The radius of a reflector that took no part moves as that which moves most.
 Eigen::MatrixXd ofAllReflectors(const Eigen::MatrixXd& moved, const frames::Frames& frames) {
-  const frames::FramesLayout layout(frames.arm.arm.joints());
+  const frames::FramesLayout layout(frames.arm.arm.axes());
   const Eigen::Index seen = moved.rows(), all = layout.count(frames.targets_in_r0_at_zero.size());
   if (seen >= all || seen <= layout.radii) return moved;
   Eigen::Index most = 0;

@@ -38,7 +38,7 @@ void carryFlange(const robot::ArmAxes& from, robot::Robot& arm) {
       metrology::baseFrame(to.back(), to[across]) * metrology::baseFrame(from.back(), from[across]).inverse();
   arm.base_from_flange_at_zero = carry * arm.base_from_flange_at_zero;
   for (robot::LinkFrame& link : arm.links) {
-    if (link.body == arm.joints()) link.base_from_link_at_zero = carry * link.base_from_link_at_zero;
+    if (link.body == arm.axes()) link.base_from_link_at_zero = carry * link.base_from_link_at_zero;
   }
 }
 

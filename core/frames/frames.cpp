@@ -207,7 +207,7 @@ Frames measureOnce(const campaign::Campaign& campaign, const SagModel& sag) {
 }  // namespace
 
 Eigen::VectorXd framesDifference(const Frames& from, const Frames& to) {
-  const FramesLayout at(from.arm.arm.joints());
+  const FramesLayout at(from.arm.arm.axes());
   Eigen::VectorXd numbers = Eigen::VectorXd::Zero(at.count(from.targets_in_r0_at_zero.size()));
   numbers.segment<6>(FramesLayout::kR0) =
       metrology::frameError(from.arm.r0_from_points.inverse(), to.arm.r0_from_points.inverse());
@@ -235,7 +235,7 @@ std::optional<Eigen::MatrixXd> sagPart(const Frames& frames, const JointVector& 
   constexpr double kStep = 1e-8;  // rad/Nm: a hundredth of a stiff joint's; the sag is linear far beyond it
   const int joints = frames.arm.arm.joints();
   Eigen::MatrixXd by_compliance =
-      Eigen::MatrixXd::Zero(FramesLayout(joints).count(frames.targets_in_r0_at_zero.size()), joints);
+      Eigen::MatrixXd::Zero(FramesLayout(frames.arm.arm.axes()).count(frames.targets_in_r0_at_zero.size()), joints);
   for (int joint = 0; joint < joints; ++joint) {
     if (covariance(joint, joint) == 0.0) continue;
     const Frames moved = measuredWith(compliance + kStep * JointVector::Unit(joints, joint));

@@ -79,7 +79,7 @@ struct LinkGeometry {
   double nominal_angle = 0.0;
 };
 
-/// [i] the one between axes i+1 and i+2: one fewer than joints.
+/// [i] the one between axes i+1 and i+2: one fewer than axes.
 using Links = boost::container::static_vector<LinkGeometry, kMostJoints - 1>;
 
 /// Link i between axes i+1 and i+2 of the arm (paper, II.D: link lengths by circle-point). For axes within a degree of
@@ -91,9 +91,9 @@ Links linkGeometry(const robot::Robot& nominal, const ArmInR0& arm);
 /// Where on axis `first` the distance to a nearly parallel next one is taken, see linkGeometry.
 Eigen::Vector3d hayatiPoint(const robot::ArmAxes& axes, std::size_t first);
 
-/// What the sweeps give as one vector, of so many joints, in the order
+/// What the sweeps give as one vector, of so many axes, in the order
 ///   error of R0: rotation vector, origin (FrameError: R0 as measured against the true one, in R0's axes),
-///   distances, then angles between consecutive axes, one fewer than joints of each,
+///   distances, then angles between consecutive axes, one fewer than axes of each,
 ///   the wrist centre at the wrist sweep's posture, in R0 as measured,
 ///   the radius of each target of the campaign;
 /// rad and m.
@@ -101,8 +101,8 @@ struct FramesLayout {
   static constexpr Eigen::Index kR0 = 0, kDistances = 6;
   Eigen::Index links, angles, wrist_centre, radii;  ///< links: how many; the others: where they start
 
-  constexpr explicit FramesLayout(int joints)
-      : links(joints - 1), angles(kDistances + links), wrist_centre(angles + links), radii(wrist_centre + 3) {}
+  constexpr explicit FramesLayout(int axes)
+      : links(axes - 1), angles(kDistances + links), wrist_centre(angles + links), radii(wrist_centre + 3) {}
   constexpr Eigen::Index count(std::size_t targets) const { return radii + static_cast<Eigen::Index>(targets); }
 };
 

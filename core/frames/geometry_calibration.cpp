@@ -150,7 +150,7 @@ class PositionsCost : public ceres::CostFunction {
 class Calibration {
  public:
   Calibration(const campaign::Campaign& campaign, const LoadingGeometry& start)
-      : campaign_(campaign), start_(start), places_(start.arm.joints()) {}
+      : campaign_(campaign), start_(start), places_(start.arm.axes()) {}
 
   GeometryCalibration run() {
     GeometryCalibration result;
@@ -203,7 +203,9 @@ class Calibration {
                           return start_.targets_at_zero[static_cast<std::size_t>(p.target)].has_value();
                         });
     if (placed) return true;
-    const auto found = baseFromPostures(start_, positions_, campaign_.targets.size());
+    std::vector<UnloadedPosition> standing = positions_;
+    for (UnloadedPosition& position : standing) position.q = start_.sagged(position.q);
+    const auto found = baseFromPostures(start_.arm, standing, campaign_.targets.size());
     if (!found) return false;
     start_.r0_from_loading = found->points_from_base.inverse();
     for (std::size_t t = 0; t < found->targets_at_zero.size(); ++t) {
@@ -267,7 +269,7 @@ class Calibration {
   std::vector<int> unseenOfAxes() const {
     std::vector<int> order = freeParameters({});
     auto axes = order.end() - places_.axes();
-    for (int axis = start_.arm.joints() - 1; axis >= 0; --axis) {
+    for (int axis = start_.arm.axes() - 1; axis >= 0; --axis) {
       for (int k = 0; k < 4; ++k) *axes++ = 4 * axis + k;
     }
     std::vector<int> unseen;

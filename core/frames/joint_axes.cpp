@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/frames/coupled_axes.h"
 #include "core/frames/remarks.h"
 #include "metrology/lines.h"
 
@@ -118,6 +119,19 @@ bool turnBackToZero(const MeasuredAxes& axes, int axis, MeasuredAxis& measured) 
   return true;
 }
 
+/// Of a coupled arm no axis has circles of its own: they have what all sweeps together say.
+void measureCoupled(const campaign::Campaign& campaign, const RigidPoints& points, MeasuredAxes& axes) {
+  const CoupledAxes found = fitCoupledAxes(campaign, points);
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    axes[i].measured = found.reason.empty();
+    axes[i].reason = axes[i].measured ? Remark(RemarkId::coupled_joints) : found.reason;
+    if (!axes[i].measured) continue;
+    axes[i].as_swept = axes[i].at_zero = found.at_zero[i];
+    axes[i].fit.rms = found.rms;
+    axes[i].fit.chi2_per_dof = found.chi2_per_dof;
+  }
+}
+
 }  // namespace
 
 metrology::Line turnedBack(const std::vector<metrology::Line>& axes_at_zero, const JointVector& q,
@@ -135,7 +149,11 @@ metrology::TrackerNoise trackerNoise(const campaign::Tracker& tracker) {
 
 MeasuredAxes measureAxes(const campaign::Campaign& campaign, const RigidPoints& points) {
   const int joints = campaign.robot.joints();
-  MeasuredAxes axes(static_cast<std::size_t>(joints), MeasuredAxis(joints));
+  MeasuredAxes axes(static_cast<std::size_t>(campaign.robot.axes()), MeasuredAxis(joints));
+  if (campaign.robot.coupled()) {
+    measureCoupled(campaign, points, axes);
+    return axes;
+  }
   for (int axis = 0; axis < joints; ++axis) {
     MeasuredAxis& measured = axes[static_cast<std::size_t>(axis)];
     if (!campaign.circle_sweeps) {

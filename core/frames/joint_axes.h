@@ -21,7 +21,7 @@ inline constexpr double kNearParallel = std::numbers::pi / 180.0;
 /// One joint axis from its circle sweeps.
 struct MeasuredAxis {
   bool measured = false;
-  Remark reason;           ///< why not measured
+  Remark reason;           ///< why not measured; of coupled joints why there are no circles
   metrology::AxisFit fit;  ///< circles in the order of `targets`
   std::vector<int> targets;
   JointVector swept_at;  ///< joint angles of the first reading, rad; zero where not measured
@@ -39,7 +39,8 @@ using MeasuredAxes = PerJoint<MeasuredAxis>;
 
 /// Circle-point (paper, II.D): fits the common axis of each joint's circles, on the readings referred to
 /// the rigid arm, gives it the sense of the joint's turning, and turns it back to zero through the axes before it.
-/// An axis without sweeps, or whose sweep moves other joints too, is not measured and says why.
+/// An axis without sweeps, or whose sweep moves other joints too, is not measured and says why; of an arm with coupled
+/// joints all are found together (fitCoupledAxes), without circles of their own.
 MeasuredAxes measureAxes(const campaign::Campaign& campaign, const RigidPoints& points);
 
 /// A line of the arm at joint angles q, where the joints before it, whose axes at zero are given, stand at zero.

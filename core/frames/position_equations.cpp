@@ -17,7 +17,7 @@ class RowMaker {
       : geometry_(geometry),
         axes_(sweptAxes(frames, geometry.arm.axes_in_base_at_zero)),
         arm_(axes_),
-        places_(geometry.arm.joints()),
+        places_(geometry.arm.axes()),
         joints_(geometry.arm.joints()),
         steps_(places_.count(targets)) {}
 
@@ -26,7 +26,7 @@ class RowMaker {
 
   Eigen::MatrixXd prior() const {
     Eigen::MatrixXd prior = Eigen::MatrixXd::Zero(parameters(), parameters());
-    for (Eigen::Index j = 0; j < joints_; ++j) {
+    for (Eigen::Index j = 0; j < geometry_.arm.axes(); ++j) {
       prior.block<4, 4>(4 * j, 4 * j) = axes_[static_cast<std::size_t>(j)].covariance.inverse();
     }
     prior.bottomRightCorner(joints_, joints_) = JointMatrix::Identity(joints_, joints_) / (kSagShare * kSagShare);
@@ -100,6 +100,7 @@ AbsoluteRows absoluteRows(const campaign::Campaign& campaign, const Frames& fram
     maker.add(state, reported->q, *noise, result);
     result.poses.push_back(state.pose);
   }
+  result.axes = geometry.arm.axes();
   result.joints = geometry.arm.joints();
   result.parameters = static_cast<int>(maker.parameters());
   result.prior = maker.prior();

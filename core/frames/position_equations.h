@@ -34,7 +34,7 @@ struct AbsoluteRows {
   std::vector<int> poses;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< mean of the measured points
   int targets = 0;
-  int joints = 0;
+  int axes = 0, joints = 0;
   int parameters = 0;
   Eigen::MatrixXd prior;  ///< inverse covariance of what is known beforehand: axes by their sweeps, compliances
 };

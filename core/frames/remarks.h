@@ -5,9 +5,12 @@ namespace stiffscope::frames {
 /// Why axes, wrist centre and geometry are not measured, and what is known of the arm's own sag.
 enum class RemarkId {
   // an axis
-  no_circle_sweeps,        ///< of the whole campaign
-  not_swept,               ///< the axis
-  other_joints_moved,      ///< during its sweep
+  no_circle_sweeps,    ///< of the whole campaign
+  not_swept,           ///< the axis
+  other_joints_moved,  ///< during its sweep
+  coupled_joints,      ///< of the whole arm: a joint turns several axes, its sweep shows none of them by itself
+  coupled_axes_not_placed,
+  coupled_axes_not_settling,
   earlier_axis_not_known,  ///< number of an axis that stood away from zero and is not measured
   // the wrist centre
   no_wrist_sweep,

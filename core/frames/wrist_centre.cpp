@@ -68,8 +68,8 @@ void fillTable(const SweepOfTargets& sweep, WristCentre& wrist) {
 }
 
 void compareWithAxes(const ArmInR0& arm, const robot::ArmPosture& posture, WristCentre& wrist) {
-  const int last = arm.arm.joints() - 1;
-  for (int first = robot::armJointsOf(arm.arm.joints()); first < last; ++first) {
+  const int last = arm.arm.axes() - 1;
+  for (int first = arm.arm.armAxes(); first < last; ++first) {
     const metrology::CommonPerpendicular between = metrology::commonPerpendicular(
         robot::axisAt(arm.arm, posture, first), robot::axisAt(arm.arm, posture, first + 1));
     wrist.misses.push_back({first, between.distance});
@@ -122,7 +122,8 @@ WristCentre measureWristCentre(const campaign::Campaign& campaign, const ArmInR0
   }
   wrist.centre_in_r0 = wrist.spheres.centre;
   wrist.targets = sweep.targets;
-  wrist.centre_at_zero_in_r0 = posture.motion[static_cast<std::size_t>(carrying)].inverse() * wrist.centre_in_r0;
+  wrist.centre_at_zero_in_r0 =
+      posture.motion[static_cast<std::size_t>(arm.arm.armAxes())].inverse() * wrist.centre_in_r0;
   wrist.radii.assign(campaign.targets.size(), std::numeric_limits<double>::quiet_NaN());
   for (std::size_t k = 0; k < sweep.targets.size(); ++k) {
     wrist.radii[static_cast<std::size_t>(sweep.targets[k])] = wrist.spheres.radii[k];

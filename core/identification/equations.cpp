@@ -178,7 +178,7 @@ std::optional<Three> largestTriangle(const LoadCase& load_case, const std::vecto
 
 Eigen::Vector3d modelledWrist(const robot::Robot& arm, const LoadCase& load_case,
                               const Eigen::Vector3d& centre_at_zero) {
-  const auto carrying = static_cast<std::size_t>(robot::armJointsOf(arm.joints()));
+  const auto carrying = static_cast<std::size_t>(arm.armAxes());
   return unloadedPosture(arm, load_case).motion[carrying] * centre_at_zero;
 }
 

@@ -26,12 +26,12 @@ robot::Wrench hangingPart(const robot::Wrench& wrench, const Eigen::Vector3d& do
 /// Variance of each joint's torque by the uncertainties of wrench, direction and place.
 JointVector torqueVariance(const robot::ArmAxes& axes, const robot::Wrench& wrench, const campaign::LoadCell& cell,
                            const TrustLimits& limits) {
-  const PointJacobian levers = robot::pointJacobianAt(axes, wrench.point);
-  JointVector variance(levers.cols());
-  for (Eigen::Index j = 0; j < levers.cols(); ++j) {
-    const Eigen::Vector3d lever = levers.col(j), &axis = axes[static_cast<std::size_t>(j)].direction;
+  const Jacobian by_joints = robot::jacobianAt(axes, wrench.point);
+  JointVector variance(by_joints.cols());
+  for (Eigen::Index j = 0; j < by_joints.cols(); ++j) {
+    const Eigen::Vector3d lever = by_joints.col(j).head<3>(), axis = by_joints.col(j).tail<3>();
     const Eigen::Vector3d by_turn = wrench.force.cross(lever) + wrench.moment.cross(axis);
-    variance[j] = square(cell.force_sigma) * lever.squaredNorm() + square(cell.moment_sigma) +
+    variance[j] = square(cell.force_sigma) * lever.squaredNorm() + square(cell.moment_sigma) * axis.squaredNorm() +
                   square(limits.direction) * by_turn.squaredNorm() +
                   square(limits.position) * axis.cross(wrench.force).squaredNorm();
   }

@@ -27,7 +27,7 @@ const robot::LinkFrame& linkNamed(const robot::Robot& arm, const std::string& na
 /// A link's place: with the flange as given for what is fixed to it, by the posture for the rest.
 Eigen::Isometry3d placeOf(const robot::LinkFrame& link, const frames::LoadingGeometry& geometry,
                           const robot::ArmPosture& posture, const std::optional<Eigen::Isometry3d>& flange) {
-  if (link.body == geometry.arm.joints() && flange) {
+  if (link.body == geometry.arm.axes() && flange) {
     return *flange * geometry.arm.base_from_flange_at_zero.inverse() * link.base_from_link_at_zero;
   }
   return posture.motion[static_cast<std::size_t>(link.body)] * link.base_from_link_at_zero;
@@ -328,7 +328,7 @@ Remark LoadCaseMaker::fill(std::size_t pose, int step, UnloadedArm& arm, LoadCas
   load_case.wrench = cellWrench(*campaign_.load_cell, geometry_, arm.posture, load_case.flange_unloaded,
                                 load_case.flange_loaded, loaded->wrench_in_cell);
   load_case.wrench_unturned = load_case.wrench;
-  load_case.wrench_turns_with = turns_with_ == geometry_.arm.joints() && load_case.flange_loaded ? 0 : turns_with_;
+  load_case.wrench_turns_with = turns_with_ == geometry_.arm.axes() && load_case.flange_loaded ? 0 : turns_with_;
   load_case.unturned = arm.posture.motion[static_cast<std::size_t>(load_case.wrench_turns_with)].linear();
   return {};
 }

@@ -72,7 +72,7 @@ JointVector LoadsOfDay::torqueOf(const State& state, const Applied& load) {
     torque[static_cast<Eigen::Index>(j)] =
         axis.direction.dot(load.moment + (load.point - axis.point).cross(load.force));
   }
-  return torque;
+  return state.axes.torques(torque);
 }
 
 Eigen::Matrix3d LoadsOfDay::axesOf(const State& state, const CellReading& cell) const {
@@ -137,6 +137,15 @@ void LoadsOfDay::fitCell(CellReading& cell, const ByParameters& by_parameters, c
   }
 }
 
+namespace {
+
+/// Rows a joint, by rows an axis.
+ByThree ofJoints(const robot::ArmAxes& axes, const ByThree& by_axes) {
+  return axes.couplings ? ByThree(axes.couplings->turns.transpose() * by_axes) : by_axes;
+}
+
+}  // namespace
+
 Eigen::Vector3d LoadsOfDay::bestPoint(const CellReading& cell) const {
   CellReading moved = cell;
   const auto columns = [&](const State& state, const Applied& load) {
@@ -146,7 +155,7 @@ Eigen::Vector3d LoadsOfDay::bestPoint(const CellReading& cell) const {
       // z . (d x F) = d . (F x z)
       by_point.row(static_cast<Eigen::Index>(j)) = load.force.cross(state.axes[j].direction).transpose() * parent;
     }
-    return by_point;
+    return ofJoints(state.axes, by_point);
   };
   fitCell(moved, columns, [&](const Eigen::Vector3d& step) { moved.parent_from_cell.translation() += step; });
   return moved.parent_from_cell.translation();
@@ -164,7 +173,7 @@ Eigen::Matrix3d LoadsOfDay::bestTurn(const CellReading& cell) const {
       by_turn.row(static_cast<Eigen::Index>(j)) =
           (load.moment.cross(z) + load.force.cross(z.cross(r))).transpose() * axes;
     }
-    return by_turn;
+    return ofJoints(state.axes, by_turn);
   };
   fitCell(turned, columns, [&](const Eigen::Vector3d& step) {
     constexpr double kMostStep = 0.5;  // rad

@@ -204,12 +204,12 @@ struct Skeleton {
 
 Skeleton skeletonOf(const PlanningArm& arm, const robot::ArmPosture& posture) {
   std::vector<Eigen::Vector3d> corners{arm.geometry.r0_from_base_link.translation()};
-  const int joints = arm.geometry.arm.joints();
-  for (int joint = 0; joint < joints; ++joint) corners.push_back(robot::axisAt(arm.geometry.arm, posture, joint).point);
+  for (int axis = 0; axis < arm.geometry.arm.axes(); ++axis)
+    corners.push_back(robot::axisAt(arm.geometry.arm, posture, axis).point);
   corners.push_back(robot::flangeAt(arm.geometry.arm, posture).translation());
   Skeleton skeleton;
   constexpr int kSamples = 20;
-  const auto elbow = static_cast<std::size_t>(robot::armJointsOf(joints));
+  const auto elbow = static_cast<std::size_t>(arm.geometry.arm.armAxes());
   for (std::size_t k = 0; k + 1 < corners.size(); ++k) {
     if (k == elbow) skeleton.forearm = skeleton.points.size();  // corners: base, axes 1, 2, 3, ...
     for (int s = 0; s <= kSamples; ++s) {
@@ -263,6 +263,8 @@ const char* wordsFor(PostureRule rule) {
   switch (rule) {
     case PostureRule::none:
       break;
+    case PostureRule::follower:
+      return "an axis that follows others outside its limits";
     case PostureRule::singularity:
       return "too near a singularity";
     case PostureRule::low:
@@ -416,7 +418,9 @@ CandidateDraw drawCandidates(const PlanningArm& arm, const PostureRules& rules, 
     const Eigen::Vector3d& direction = directions[random() % directions.size()];
     ++draw.drawn;
     const PostureRule broken =
-        brokenRule(arm, rules, robot::postureAt(arm.geometry.arm, arm.geometry.sagged(q)), direction);
+        robot::withinAxisLimits(arm.geometry.arm, q)
+            ? brokenRule(arm, rules, robot::postureAt(arm.geometry.arm, arm.geometry.sagged(q)), direction)
+            : PostureRule::follower;
     ++draw.broken[static_cast<std::size_t>(broken)];
     if (broken == PostureRule::none) draw.kept.push_back(candidateAt(arm, q, direction));
   }

@@ -90,15 +90,15 @@ struct PostureRules {
 };
 
 /// The rules in the order in which they are looked at.
-enum class PostureRule { none, singularity, low, hanging, load_line, body, distance, sight };
-inline constexpr std::size_t kPostureRules = 8;
+enum class PostureRule { none, follower, singularity, low, hanging, load_line, body, distance, sight };
+inline constexpr std::size_t kPostureRules = 9;
 
 /// In words, as in `n of m postures: WORDS`.
 const char* wordsFor(PostureRule rule);
 
 /// The first rule that a posture breaks under a load along `direction` (unit, R0); none where it keeps all.
 /// The arm is taken as straight lines from base_link's origin over the points of its axes to the flange; it is
-/// rigid here. Its forearm begins at the last axis before the wrist (robot::armJointsOf; axis 3 of six).
+/// rigid here. Its forearm begins at the last axis before the wrist (axis 3 of six).
 PostureRule brokenRule(const PlanningArm& arm, const PostureRules& rules, const robot::ArmPosture& posture,
                        const Eigen::Vector3d& direction);
 

@@ -261,6 +261,7 @@ void refineDesign(const PlanningArm& arm, const PostureRules& rules, const Joint
     constexpr double kWorthwhile = 1e-6;  // of the logarithm
     if (!(found > value + kWorthwhile) || !apart(moved, place)) return false;
     const robot::ArmPosture posture = identification::unloadedPosture(arm.geometry.arm, moved.load_case);
+    if (!robot::withinAxisLimits(arm.geometry.arm, q)) return false;
     if (brokenRule(arm, rules, posture, moved.direction) != PostureRule::none) return false;
     chosen[place] = moved, sum = with, value = found;
     return true;

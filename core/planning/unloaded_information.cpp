@@ -89,7 +89,7 @@ UnloadedInformation::UnloadedInformation(const campaign::Campaign& campaign, con
   fit_.start = frames::axesAtStart(day_.robot.axes_in_base_at_zero);
   fit_.centre = flange.translation();
   fit_.parts = steadyParts(empty);
-  geometry_ = ArmParameters(day_.robot.joints()).count(arm.targets_in_flange.size());
+  geometry_ = ArmParameters(day_.robot.axes()).count(arm.targets_in_flange.size());
   steady_ = geometry_ + termsOf(fit_.parts);
   for (EffectPart& part : orderedParts(empty)) fit_.parts.push_back(std::move(part));
   all_ = geometry_ + termsOf(fit_.parts);
@@ -160,7 +160,7 @@ void UnloadedInformation::setPrior(const std::vector<JointVector>& workspace) {
   workspace_ = sum.topLeftCorner(steady_, steady_);
   prior_ = Eigen::VectorXd::Ones(all_);
   usual_ = Eigen::VectorXd::Ones(all_);
-  for (Eigen::Index k = 0; k < ArmParameters(day_.robot.joints()).axes(); ++k) {
+  for (Eigen::Index k = 0; k < ArmParameters(day_.robot.axes()).axes(); ++k) {
     const double sd = k % ArmParameters::kOfAxis < 2 ? calibration::kAxisShiftPrior : calibration::kAxisTiltPrior;
     prior_[k] = 1.0 / (sd * sd);
   }

@@ -21,7 +21,7 @@ GravityLoad gravityLoad(const Robot& nominal, const std::optional<Tool>& tool,
   for (std::size_t body = 1; body < weight.bodies.size(); ++body) {
     weight.bodies[body].mass_kg = nominal.bodies[body].mass_kg;
     weight.bodies[body].com_in_base_at_zero = base_from_base_link * nominal.bodies[body].com_in_base_at_zero;
-    const bool carries = body >= 2 && static_cast<int>(body) <= armJointsOf(nominal.joints()) + 1;
+    const bool carries = body >= 2 && static_cast<int>(body) <= nominal.armAxes() + 1;
     if (carries && weight.bodies[body].mass_kg <= 0.0) weight.links_known = false;
   }
   if (tool && tool->mass_kg > 0.0) {
@@ -39,19 +39,19 @@ void scaleMasses(double factor, Robot& robot) {
 }
 
 JointVector weightTorque(const Robot& robot, const ArmPosture& posture, const GravityLoad& weight) {
-  // Sum from the tip inwards: force and moment about the base origin of all that hangs beyond each joint.
+  // Sum from the tip inwards: force and moment about the base origin of all that hangs beyond each axis.
   if (weight.bodies.empty()) return JointVector::Zero(robot.joints());  // nothing weighs
-  JointVector torque(robot.joints());
+  JointVector torque(robot.axes());
   Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();
-  for (int joint = robot.joints() - 1; joint >= 0; --joint) {
-    const auto body = static_cast<std::size_t>(joint) + 1;
+  for (int i = robot.axes() - 1; i >= 0; --i) {
+    const auto body = static_cast<std::size_t>(i) + 1;
     const Eigen::Vector3d pull = weight.bodies[body].mass_kg * weight.gravity_in_base;
     force += pull;
     moment += (posture.motion[body] * weight.bodies[body].com_in_base_at_zero).cross(pull);
-    const metrology::Line axis = axisAt(robot, posture, joint);
-    torque[joint] = axis.direction.dot(moment - axis.point.cross(force));
+    const metrology::Line axis = axisAt(robot, posture, i);
+    torque[i] = axis.direction.dot(moment - axis.point.cross(force));
   }
-  return torque;
+  return robot.axes_in_base_at_zero.torques(torque);
 }
 
 JointVector saggedAngles(const Robot& robot, const JointVector& q, const GravityLoad& weight,

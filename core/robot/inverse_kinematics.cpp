@@ -70,6 +70,8 @@ InverseKinematics inverseKinematics(const Robot& robot, const Eigen::Isometry3d&
 JointVector withinTurns(const Robot& robot, const JointVector& q) {
   JointVector moved = q;
   for (int j = 0; j < robot.joints(); ++j) {
+    // A whole turn of a joint that drives others by a part of its angle leaves these elsewhere.
+    if (!robot.axes_in_base_at_zero.turnsAlone(j)) continue;
     const JointLimits& limits = robot.limits[static_cast<std::size_t>(j)];
     const double middle =
         std::isfinite(limits.lower) && std::isfinite(limits.upper) ? 0.5 * (limits.lower + limits.upper) : 0.0;

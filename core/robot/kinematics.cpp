@@ -27,11 +27,12 @@ ArmPosture postureAt(const Robot& robot, const JointVector& q) {
 ArmPosture postureAt(const ArmAxes& axes_at_zero, const JointVector& q, const Eigen::Isometry3d& base) {
   ArmPosture posture;
   posture.motion.push_back(base);
-  for (std::size_t joint = 0; joint < axes_at_zero.size(); ++joint) {
-    const metrology::Line& axis = axes_at_zero[joint];
+  const JointVector angles = axes_at_zero.angles(q);
+  for (std::size_t i = 0; i < axes_at_zero.size(); ++i) {
+    const metrology::Line& axis = axes_at_zero[i];
     const Eigen::Matrix3d turn =
-        Eigen::AngleAxisd(q[static_cast<Eigen::Index>(joint)], axis.direction).toRotationMatrix();
-    const Eigen::Isometry3d& before = posture.motion[joint];
+        Eigen::AngleAxisd(angles[static_cast<Eigen::Index>(i)], axis.direction).toRotationMatrix();
+    const Eigen::Isometry3d& before = posture.motion[i];
     Eigen::Isometry3d& after = posture.motion.emplace_back();
     after.linear() = before.linear() * turn;
     after.translation() = before.linear() * (axis.point - turn * axis.point) + before.translation();
@@ -40,15 +41,16 @@ ArmPosture postureAt(const ArmAxes& axes_at_zero, const JointVector& q, const Ei
   return posture;
 }
 
-metrology::Line axisAt(const Robot& robot, const ArmPosture& posture, int joint) {
-  const metrology::Line& axis = robot.axes_in_base_at_zero[static_cast<std::size_t>(joint)];
-  const Eigen::Isometry3d& motion = posture.motion[static_cast<std::size_t>(joint)];
-  return {motion * axis.point, motion.linear() * axis.direction};
+metrology::Line axisAt(const Robot& robot, const ArmPosture& posture, int axis) {
+  const metrology::Line& at_zero = robot.axes_in_base_at_zero[static_cast<std::size_t>(axis)];
+  const Eigen::Isometry3d& motion = posture.motion[static_cast<std::size_t>(axis)];
+  return {motion * at_zero.point, motion.linear() * at_zero.direction};
 }
 
 ArmAxes axesAt(const Robot& robot, const ArmPosture& posture) {
   ArmAxes axes;
-  for (int joint = 0; joint < robot.joints(); ++joint) axes.push_back(axisAt(robot, posture, joint));
+  axes.couplings = robot.axes_in_base_at_zero.couplings;
+  for (int axis = 0; axis < robot.axes(); ++axis) axes.push_back(axisAt(robot, posture, axis));
   return axes;
 }
 
@@ -62,20 +64,39 @@ Jacobian jacobianAt(const Robot& robot, const ArmPosture& posture, const Eigen::
 
 Jacobian jacobianAt(const ArmAxes& axes, const Eigen::Vector3d& point_in_base) {
   Jacobian jacobian(6, static_cast<Eigen::Index>(axes.size()));
-  jacobian.topRows<3>() = pointJacobianAt(axes, point_in_base);
-  for (std::size_t joint = 0; joint < axes.size(); ++joint) {
-    jacobian.col(static_cast<Eigen::Index>(joint)).tail<3>() = axes[joint].direction;
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    const metrology::Line& axis = axes[i];
+    jacobian.col(static_cast<Eigen::Index>(i)) << axis.direction.cross(point_in_base - axis.point), axis.direction;
   }
-  return jacobian;
+  return axes.couplings ? Jacobian(jacobian * axes.couplings->turns) : jacobian;
 }
 
 PointJacobian pointJacobianAt(const ArmAxes& axes, const Eigen::Vector3d& point_in_base) {
   PointJacobian jacobian(3, static_cast<Eigen::Index>(axes.size()));
-  for (std::size_t joint = 0; joint < axes.size(); ++joint) {
-    const metrology::Line& axis = axes[joint];
-    jacobian.col(static_cast<Eigen::Index>(joint)) = axis.direction.cross(point_in_base - axis.point);
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    const metrology::Line& axis = axes[i];
+    jacobian.col(static_cast<Eigen::Index>(i)) = axis.direction.cross(point_in_base - axis.point);
   }
-  return jacobian;
+  return axes.couplings ? PointJacobian(jacobian * axes.couplings->turns) : jacobian;
+}
+
+bool ArmAxes::turnsAlone(int joint) const {
+  return !couplings || (couplings->turns.col(joint).array() != 0.0).count() == 1;
+}
+
+bool Robot::wristStandsApart() const {
+  if (!coupled()) return true;
+  const int arm = armJointsOf(joints());
+  return axes_in_base_at_zero.couplings->turns.topRightCorner(armAxes(), joints() - arm).isZero(0.0);
+}
+
+bool withinAxisLimits(const Robot& robot, const JointVector& q) {
+  const JointVector angles = robot.axes_in_base_at_zero.angles(q);
+  for (int axis = 0; axis < robot.axes(); ++axis) {
+    const JointLimits& limits = robot.axis_limits[static_cast<std::size_t>(axis)];
+    if (angles[axis] < limits.lower || angles[axis] > limits.upper) return false;
+  }
+  return true;
 }
 
 }  // namespace stiffscope::robot

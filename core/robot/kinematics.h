@@ -20,17 +20,15 @@ struct ArmPosture {
   PerBody<Eigen::Isometry3d> motion;
 };
 
-/// Joint axes of an arm in its base frame, all at zero or all at one posture.
-using ArmAxes = PerJoint<metrology::Line>;
-
-/// Rigid forward kinematics: motion[b] = exp(xi_1 q_1) ... exp(xi_b q_b). q in rad.
+/// Rigid forward kinematics: motion[b] = exp(xi_1 theta_1) ... exp(xi_b theta_b), theta the axes' angles at joint
+/// angles q, rad.
 ArmPosture postureAt(const Robot& robot, const JointVector& q);
 
 /// Forward kinematics of axes at zero, with all bodies carried along by a motion of the base, which is motion[0].
 ArmPosture postureAt(const ArmAxes& axes_at_zero, const JointVector& q, const Eigen::Isometry3d& base);
 
-/// Joint axis `joint` (from 0) in the base frame at this posture.
-metrology::Line axisAt(const Robot& robot, const ArmPosture& posture, int joint);
+/// Axis `axis` (from 0) in the base frame at this posture.
+metrology::Line axisAt(const Robot& robot, const ArmPosture& posture, int axis);
 
 /// All of them: what Jacobians of several points at one posture have in common.
 ArmAxes axesAt(const Robot& robot, const ArmPosture& posture);
@@ -39,7 +37,8 @@ ArmAxes axesAt(const Robot& robot, const ArmPosture& posture);
 Eigen::Isometry3d flangeAt(const Robot& robot, const ArmPosture& posture);
 
 /// Jacobian of a point of the flange body, paper (1): rows 0-2 the velocity of the point at `point_in_base`,
-/// rows 3-5 the angular velocity, both in base axes; column j is [z_j x (p - p_j); z_j].
+/// rows 3-5 the angular velocity, both in base axes; column j is [z_j x (p - p_j); z_j], of coupled joints the sum over
+/// the axes that joint j turns, each times its turn.
 Jacobian jacobianAt(const ArmAxes& axes, const Eigen::Vector3d& point_in_base);
 Jacobian jacobianAt(const Robot& robot, const ArmPosture& posture, const Eigen::Vector3d& point_in_base);
 

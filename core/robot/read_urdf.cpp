@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
+#include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -209,8 +212,32 @@ Chain chainBetween(const UrdfModel& model, const std::string& base, const std::s
 
 bool turns(const UrdfJoint& joint) { return joint.type == "revolute" || joint.type == "continuous"; }
 
+/// Of a joint that follows another: angle = multiplier * that one's + offset (URDF, `mimic`).
+struct Mimic {
+  std::string followed;
+  double multiplier = 1.0, offset = 0.0;  // offset in rad
+};
+
+std::optional<Mimic> mimicOf(const UrdfJoint& joint) {
+  const auto node = joint.node.child("mimic");
+  if (!node) return std::nullopt;
+  refuseMisspelt(*node, {}, {"joint", "multiplier", "offset"});
+  Mimic mimic{node->requiredName("joint")};
+  if (node->has("multiplier")) mimic.multiplier = node->number("multiplier");
+  if (node->has("offset")) mimic.offset = node->number("offset");
+  constexpr double kMostTurns = 1000.0;  // a gear's ratio belongs to the motor, not to the axis
+  if (mimic.multiplier == 0.0 || std::abs(mimic.multiplier) > kMostTurns) {
+    node->refuse("multiplier", node->attribute("multiplier").value_or(""),
+                 "expected a multiplier within +-1000 that is not 0: a joint that stands still is 'fixed'");
+  }
+  return mimic;
+}
+
+bool follows(const UrdfJoint& joint) { return joint.node.child("mimic").has_value(); }
+
 void requireRevolute(const UrdfModel& model, const Chain& chain, const std::string& base, const std::string& flange) {
   std::vector<std::string> turning;
+  std::size_t axes = 0;
   for (const UrdfJoint* joint : chain) {
     if (joint->fixed()) continue;
     if (!turns(*joint)) {
@@ -218,11 +245,14 @@ void requireRevolute(const UrdfModel& model, const Chain& chain, const std::stri
           "type", joint->type,
           fmt::format("expected revolute joints between '{}' and '{}'; joint '{}' is not", base, flange, joint->name));
     }
-    if (!joint->node.children("mimic").empty()) {
-      joint->node.refuse("mimic", joint->name,
-                         "expected joints with angles of their own; this one follows another joint");
-    }
-    turning.push_back(joint->name);
+    ++axes;
+    if (!follows(*joint)) turning.push_back(joint->name);
+  }
+  if (axes > kMostJoints) {
+    model.robot().refuse("joint", "",
+                         fmt::format("expected at most {} axes between '{}' and '{}', those that follow others "
+                                     "('mimic') among them; there are {}",
+                                     kMostJoints, base, flange, axes));
   }
   if (turning.size() < kFewestJoints || turning.size() > kMostJoints) {
     model.robot().refuse(
@@ -232,9 +262,44 @@ void requireRevolute(const UrdfModel& model, const Chain& chain, const std::stri
   }
 }
 
+/// The joints of the chain that turn, with those that follow others tied to them. Null where none does.
+std::shared_ptr<const Couplings> couplingsOf(const std::vector<const UrdfJoint*>& turning) {
+  if (std::none_of(turning.begin(), turning.end(), [](const UrdfJoint* joint) { return follows(*joint); })) {
+    return nullptr;
+  }
+  std::vector<std::string> names;
+  auto couplings = std::make_shared<Couplings>();
+  for (std::size_t axis = 0; axis < turning.size(); ++axis) {
+    const bool own = !follows(*turning[axis]);
+    couplings->own_joint.push_back(own ? static_cast<int>(names.size()) : -1);
+    if (!own) continue;
+    couplings->own_axis.push_back(static_cast<int>(axis));
+    names.push_back(turning[axis]->name);
+  }
+  couplings->turns.setZero(static_cast<Eigen::Index>(turning.size()), static_cast<Eigen::Index>(names.size()));
+  for (std::size_t axis = 0; axis < turning.size(); ++axis) {
+    const auto row = static_cast<Eigen::Index>(axis);
+    const std::optional<Mimic> mimic = mimicOf(*turning[axis]);
+    if (!mimic) {
+      couplings->turns(row, couplings->own_joint[axis]) = 1.0;
+      continue;
+    }
+    const auto followed = std::find(names.begin(), names.end(), mimic->followed);
+    if (followed == names.end()) {
+      turning[axis]->node.child("mimic")->refuse(
+          "joint", mimic->followed,
+          fmt::format("expected a joint between base and flange that has an angle of its own: {}{}",
+                      fmt::join(names, ", "), io::nearestNameHint(mimic->followed, names)));
+    }
+    couplings->turns(row, followed - names.begin()) = mimic->multiplier;
+  }
+  return couplings;
+}
+
+constexpr JointLimits kUnlimited{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+
 JointLimits limitsOf(const UrdfJoint& joint) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  if (joint.type == "continuous") return {-kInfinity, kInfinity};
+  if (joint.type == "continuous") return kUnlimited;
   const io::XmlNode limit = joint.node.requiredChild("limit");
   // URDF gives both a default of 0.
   JointLimits limits;
@@ -250,16 +315,30 @@ JointLimits limitsOf(const UrdfJoint& joint) {
 void placeChain(const Chain& chain, const std::string& base, Robot& robot) {
   Eigen::Isometry3d base_from_link = Eigen::Isometry3d::Identity();
   robot.links.push_back({base, 0, base_from_link});
+  std::vector<const UrdfJoint*> turning;
   for (const UrdfJoint* joint : chain) {
     base_from_link = base_from_link * urdfOrigin(joint->node);
     if (turns(*joint)) {
+      turning.push_back(joint);
+      const Eigen::Vector3d axis = urdfAxis(joint->node);
       robot.axes_in_base_at_zero.push_back(
-          {base_from_link.translation(), (base_from_link.linear() * urdfAxis(joint->node)).normalized()});
-      robot.limits.push_back(limitsOf(*joint));
-      robot.joint_names.push_back(joint->name);
+          {base_from_link.translation(), (base_from_link.linear() * axis).normalized()});
+      robot.axis_names.push_back(joint->name);
+      robot.axis_limits.push_back(limitsOf(*joint));
+      if (const auto mimic = mimicOf(*joint)) {
+        // With all joints at zero it stands turned by the offset.
+        base_from_link.linear() = base_from_link.linear() * Eigen::AngleAxisd(mimic->offset, axis).toRotationMatrix();
+        JointLimits& limits = robot.axis_limits.back();
+        const bool none_stated = limits.lower == limits.upper;
+        limits = none_stated ? kUnlimited : JointLimits{limits.lower - mimic->offset, limits.upper - mimic->offset};
+      } else {
+        robot.limits.push_back(robot.axis_limits.back());
+        robot.joint_names.push_back(joint->name);
+      }
     }
-    robot.links.push_back({joint->child, robot.joints(), base_from_link});
+    robot.links.push_back({joint->child, static_cast<int>(turning.size()), base_from_link});
   }
+  robot.axes_in_base_at_zero.couplings = couplingsOf(turning);
   robot.base_from_flange_at_zero = base_from_link;
   robot.bodies.resize(robot.axes_in_base_at_zero.size() + 1);
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <boost/container/static_vector.hpp>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,7 @@ namespace stiffscope {
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-/// Machines have from four to eight joints, a rail among them.
+/// Machines have from four to eight joints, and no more axes than that.
 inline constexpr int kFewestJoints = 4, kMostJoints = 8;
 
 /// One number a joint. As many as the machine has joints; kept in place, without allocation.
@@ -58,27 +59,76 @@ struct JointLimits {
   double upper = 0.0;  ///< rad
 };
 
-/// A serial arm of four to eight revolute joints in zero-reference (product of exponentials) form: where each axis,
-/// each link frame and each mass stands in base_link when all reported joint angles are zero. A joint i at angle q_i
-/// turns everything beyond it about `axes_in_base_at_zero[i]` by q_i (right-hand rule), innermost joint last:
-/// base_from_link(q) = exp(xi_1 q_1) ... exp(xi_b q_b) base_from_link_at_zero, b the link's body. Joint-zero errors are
-/// inside the axes, so this form has no offsets. SI and radians.
-struct Robot {
-  std::string name;
-  PerJoint<std::string> joint_names;
-  PerJoint<metrology::Line> axes_in_base_at_zero;
-  PerJoint<JointLimits> limits;
-  Eigen::Isometry3d base_from_flange_at_zero = Eigen::Isometry3d::Identity();
-  PerBody<BodyMass> bodies;      ///< [0] the base (its mass plays no part), [i] the body beyond joint i
-  std::vector<LinkFrame> links;  ///< every link on the chain, and every link rigidly fixed to one of those
-
-  int joints() const { return static_cast<int>(axes_in_base_at_zero.size()); }
-};
-
 /// Joints at the end of the arm whose axes meet in the wrist centre, where the machine has one: three, of four and five
 /// joints two. The joints before them, the arm's, carry the wrist centre.
 constexpr int wristJointsOf(int joints) { return joints >= 6 ? 3 : 2; }
 constexpr int armJointsOf(int joints) { return joints - wristJointsOf(joints); }
+
+/// How joints turn axes where a joint turns more than its own (a parallelogram's rods, `mimic` in a URDF): axis angles
+/// theta = turns * q. What a joint's drive holds is its own angle, so that springs, torques and compliances are the
+/// joints': delta x = J turns C turns^T J^T W, J by axis.
+struct Couplings {
+  JointMatrix turns;        ///< rows: axes, columns: joints; 1 where a joint turns its own axis
+  PerJoint<int> own_axis;   ///< of each joint, from 0
+  PerJoint<int> own_joint;  ///< of each axis, from 0; -1: the axis follows joints and has none of its own
+
+  JointVector angles(const JointVector& q) const { return turns * q; }
+  JointVector torques(const JointVector& by_axis) const { return turns.transpose() * by_axis; }
+};
+
+/// Axes of an arm in its base frame, all at zero or all at one posture, from the base outwards, and the joints that
+/// turn them. Most arms turn each axis by a joint of its own.
+class ArmAxes : public PerJoint<metrology::Line> {
+ public:
+  using PerJoint<metrology::Line>::PerJoint;
+
+  std::shared_ptr<const Couplings> couplings;  ///< null: joint i turns axis i alone
+
+  int joints() const { return couplings ? static_cast<int>(couplings->turns.cols()) : static_cast<int>(size()); }
+
+  /// Angles of the axes at joint angles q, rad.
+  JointVector angles(const JointVector& q) const { return couplings ? couplings->angles(q) : q; }
+  /// Torques that joints hold, by the torques about the axes, Nm.
+  JointVector torques(const JointVector& by_axis) const { return couplings ? couplings->torques(by_axis) : by_axis; }
+  /// The axis that carries the name and the drive of a joint, from 0.
+  int axisOf(int joint) const { return couplings ? couplings->own_axis[static_cast<std::size_t>(joint)] : joint; }
+  /// The joint that has this axis for its own, from 0; -1 where the axis only follows.
+  int jointOf(int axis) const { return couplings ? couplings->own_joint[static_cast<std::size_t>(axis)] : axis; }
+  /// The axes before the wrist's, which are as many as wristJointsOf: they carry the wrist centre.
+  int armAxes() const { return static_cast<int>(size()) - wristJointsOf(joints()); }
+  /// Whether a joint turns its own axis and no other: its sweep then shows that axis.
+  bool turnsAlone(int joint) const;
+};
+
+/// A serial arm of four to eight revolute joints in zero-reference (product of exponentials) form: where each axis,
+/// each link frame and each mass stands in base_link when all reported joint angles are zero. An axis i at angle
+/// theta_i, which is its joint's q_i where joints are not coupled (Couplings), turns everything beyond it about
+/// `axes_in_base_at_zero[i]` by theta_i (right-hand rule), innermost axis last:
+/// base_from_link(q) = exp(xi_1 theta_1) ... exp(xi_b theta_b) base_from_link_at_zero, b the link's body. Joint-zero
+/// errors are inside the axes, so this form has no offsets. SI and radians.
+struct Robot {
+  std::string name;
+  PerJoint<std::string> joint_names;
+  PerJoint<std::string> axis_names;  ///< of the URDF's joints, those that follow others among them
+  ArmAxes axes_in_base_at_zero;
+  PerJoint<JointLimits> limits;       ///< of the joints
+  PerJoint<JointLimits> axis_limits;  ///< of all axes
+  Eigen::Isometry3d base_from_flange_at_zero = Eigen::Isometry3d::Identity();
+  PerBody<BodyMass> bodies;      ///< [0] the base (its mass plays no part), [i] the body beyond axis i
+  std::vector<LinkFrame> links;  ///< every link on the chain, and every link rigidly fixed to one of those
+
+  int joints() const { return axes_in_base_at_zero.joints(); }                ///< that have angles and springs
+  int axes() const { return static_cast<int>(axes_in_base_at_zero.size()); }  ///< as many as moving bodies
+  bool coupled() const { return axes_in_base_at_zero.couplings != nullptr; }
+
+  int armAxes() const { return axes_in_base_at_zero.armAxes(); }
+  /// Whether the wrist's joints turn none of the arm's axes, so that P_wrist sees the arm's joints alone. Not so where
+  /// rods of a palletiser keep its flange level.
+  bool wristStandsApart() const;
+};
+
+/// Whether all axes are within their limits at joint angles q, also those that follow joints.
+bool withinAxisLimits(const Robot& robot, const JointVector& q);
 
 /// Which joints' compliances are unknowns; the others' columns are left out (their compliance taken as 0).
 using JointMask = PerJoint<bool>;

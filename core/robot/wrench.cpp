@@ -4,11 +4,11 @@ namespace stiffscope::robot {
 
 JointVector jointTorque(const ArmAxes& axes, const Wrench& wrench_in_base) {
   JointVector torque(static_cast<Eigen::Index>(axes.size()));
-  for (std::size_t joint = 0; joint < axes.size(); ++joint) {
-    const metrology::Line& axis = axes[joint];
-    torque[static_cast<Eigen::Index>(joint)] = axis.direction.dot(wrench_in_base.about(axis.point).moment);
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    const metrology::Line& axis = axes[i];
+    torque[static_cast<Eigen::Index>(i)] = axis.direction.dot(wrench_in_base.about(axis.point).moment);
   }
-  return torque;
+  return axes.torques(torque);
 }
 
 JointVector jointTorque(const Robot& robot, const ArmPosture& posture, const Wrench& wrench_in_base) {

@@ -21,7 +21,8 @@ struct Wrench {
 };
 
 /// Joint torques of a wrench on the flange, paper (2): Gamma = J_w^T W, J_w the Jacobian of the point about which the
-/// wrench's moment is taken. The same whatever that point is. Nm.
+/// wrench's moment is taken. The same whatever that point is. Of coupled joints what the drive holds, turns^T by the
+/// axes' torques. Nm.
 JointVector jointTorque(const ArmAxes& axes, const Wrench& wrench_in_base);
 JointVector jointTorque(const Robot& robot, const ArmPosture& posture, const Wrench& wrench_in_base);
 

@@ -31,6 +31,10 @@ Eigen::Vector3d toolPoint(const ElasticMachine& machine, const Placement& placem
 /// All forces on what lies beyond each element, in their order: weights, springs between bodies, tool, load.
 std::vector<ForceSum> forcesBeyond(const ElasticMachine& machine, const Placement& placement, const AppliedLoad& load);
 
+/// The same on what lies beyond each axis's turn.
+std::vector<ForceSum> forcesBeyondAxes(const ElasticMachine& machine, const Placement& placement,
+                                       const AppliedLoad& load);
+
 namespace {
 
 /// The six displacements of an element, those not free at zero; `at` moves to the next element's coordinates.
@@ -46,6 +50,21 @@ void forSharedSprings(const ElasticMachine& machine, const Use& use) {
   for (const SharedSpring& spring : machine.truth.shared_springs) {
     use(spring, machine.torsion_coordinates[static_cast<std::size_t>(spring.joints[0])],
         machine.torsion_coordinates[static_cast<std::size_t>(spring.joints[1])]);
+  }
+}
+
+/// Calls f(axis, torsion coordinate of a joint, turn of the axis by the joint's) for every axis that follows an elastic
+/// joint and is not its own.
+template <class Use>
+void forFollowers(const ElasticMachine& machine, const Use& use) {
+  const robot::ArmAxes& axes = machine.nominal.axes_in_base_at_zero;
+  if (!axes.couplings) return;
+  for (int joint = 0; joint < machine.joints(); ++joint) {
+    const Eigen::Index torsion = machine.torsion_coordinates[static_cast<std::size_t>(joint)];
+    for (int axis = 0; torsion >= 0 && axis < machine.axes(); ++axis) {
+      const double turn = axes.couplings->turns(axis, joint);
+      if (turn != 0.0 && axis != axes.axisOf(joint)) use(axis, torsion, turn);
+    }
   }
 }
 
@@ -90,6 +109,18 @@ Eigen::VectorXd chainGradient(const ElasticMachine& machine, const Placement& pl
     gradient[b] += pull * spring.arms[1];
   });
   return gradient;
+}
+
+/// What the forces beyond an axis do about it where the axis follows a joint: torque on that joint's torsion.
+void addFollowerTorques(const ElasticMachine& machine, const Placement& placement, const AppliedLoad& load,
+                        Eigen::VectorXd& gradient) {
+  if (!machine.nominal.coupled()) return;
+  const std::vector<ForceSum> beyond = forcesBeyondAxes(machine, placement, load);
+  forFollowers(machine, [&](int axis, Eigen::Index torsion, double turn) {
+    const metrology::Line& line = placement.axes[static_cast<std::size_t>(axis)];
+    const ForceSum& forces = beyond[static_cast<std::size_t>(axis)];
+    gradient[torsion] -= turn * line.direction.dot(forces.moment - line.point.cross(forces.force));
+  });
 }
 
 Eigen::MatrixXd chainHessian(const ElasticMachine& machine, const Placement& placement,
@@ -148,14 +179,31 @@ void addCurveTorques(const ElasticMachine& machine, const Eigen::VectorXd& x, An
 
 }  // namespace
 
+namespace {
+
+/// Turns of the axes by their motors, zeros apart: with coupled joints also what a drive's torsion turns besides the
+/// joint's own axis, rad.
+JointVector motorTurns(const ElasticMachine& machine, const JointVector& q, const Eigen::VectorXd& x) {
+  const robot::ArmAxes& axes = machine.nominal.axes_in_base_at_zero;
+  JointVector turns = axes.angles(q);
+  forFollowers(machine, [&](int axis, Eigen::Index torsion, double turn) { turns[axis] += turn * x[torsion]; });
+  return turns;
+}
+
+metrology::Line carried(const metrology::Line& line, const Eigen::Isometry3d& motion) {
+  return {motion * line.point, motion.linear() * line.direction};
+}
+
+}  // namespace
+
 Placement place(const ElasticMachine& machine, const JointVector& q, const Eigen::VectorXd& x) {
   Placement placement;
   placement.before_giving.reserve(machine.elements.size());
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
   Eigen::Index at = 0;
   auto next = machine.elements.begin();
-  const auto give = [&](int joint, bool is_link) {
-    if (next == machine.elements.end() || next->joint != joint || next->is_link != is_link) return;
+  const auto give = [&](int axis, bool is_link) {
+    if (next == machine.elements.end() || next->axis != axis || next->is_link != is_link) return;
     const Vector6d d = displacement(*next, x, at);
     const Eigen::Isometry3d& at_zero = next->base_from_element_at_zero;
     placement.before_giving.push_back(motion * at_zero);
@@ -168,16 +216,18 @@ Placement place(const ElasticMachine& machine, const JointVector& q, const Eigen
 
   give(-1, false);
   placement.body_motions.push_back(motion);
-  const int joints = machine.joints();
-  for (int i = 0; i < joints; ++i) {
+  const JointVector turns = motorTurns(machine, q, x);
+  const int axes = machine.axes();
+  for (int i = 0; i < axes; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    motion =
-        motion * machine.axis_errors[k] * turnAbout(machine.nominal.axes_in_base_at_zero[k], machine.zeros[k] + q[i]);
+    motion = motion * machine.axis_errors[k];
+    if (machine.nominal.coupled()) placement.axes.push_back(carried(machine.nominal.axes_in_base_at_zero[k], motion));
+    motion = motion * turnAbout(machine.nominal.axes_in_base_at_zero[k], machine.zeros[k] + turns[i]);
     give(i, false);
     placement.body_motions.push_back(motion);
     give(i, true);
   }
-  give(joints, false);
+  give(axes, false);
   placement.tool_motion = motion;
   return placement;
 }
@@ -210,7 +260,9 @@ double potentialEnergy(const ElasticMachine& machine, const JointVector& q, cons
 Eigen::VectorXd smoothGradient(const ElasticMachine& machine, const JointVector& q, const AppliedLoad& load,
                                const Eigen::VectorXd& x) {
   const Placement placement = place(machine, q, x);
-  return chainGradient(machine, placement, forcesBeyond(machine, placement, load), x);
+  Eigen::VectorXd gradient = chainGradient(machine, placement, forcesBeyond(machine, placement, load), x);
+  addFollowerTorques(machine, placement, load, gradient);
+  return gradient;
 }
 
 Eigen::VectorXd energyGradient(const ElasticMachine& machine, const JointVector& q, const AppliedLoad& load,
@@ -301,6 +353,7 @@ void fillPlaces(const ElasticMachine& machine, const AppliedLoad& load, MachineS
 /// where they do not shrink at once to nothing or the machine gives more than that Hessian is right for.
 bool settleQuickly(const ElasticMachine& machine, const AppliedLoad& load, Anchors anchors, MachineState& state,
                    Eigen::VectorXd& x) {
+  if (machine.nominal.coupled()) return false;  // the analytic Hessian does not have axes that follow
   constexpr int kMostSteps = 15;
   constexpr double kSmall = 0.05;  // m and rad
   double before = kSmall;
@@ -389,7 +442,7 @@ Eigen::VectorXd slippedAnchors(const ElasticMachine& machine, const MachineState
 }
 
 Eigen::Isometry3d baseFromLink(const ElasticMachine& machine, const MachineState& state, const robot::LinkFrame& link) {
-  if (link.body == machine.joints()) {  // beyond the last link element, as the flange is
+  if (link.body == machine.axes()) {  // beyond the last link element, as the flange is
     return state.base_from_flange * machine.nominal.base_from_flange_at_zero.inverse() * link.base_from_link_at_zero;
   }
   return state.body_motions[link.body] * link.base_from_link_at_zero;
@@ -420,29 +473,58 @@ Eigen::Vector3d toolPoint(const ElasticMachine& machine, const Placement& placem
   return placement.tool_motion * (machine.nominal.base_from_flange_at_zero * point_in_flange);
 }
 
-std::vector<ForceSum> forcesBeyond(const ElasticMachine& machine, const Placement& placement, const AppliedLoad& load) {
-  std::vector<SpringNow> springs;
-  for (const LinkSpring& spring : machine.truth.link_springs) {
-    springs.push_back(springNow(spring, placement.body_motions));
+namespace {
+
+/// Forces on the arm from the tip inwards, body by body.
+class ForcesFromTip {
+ public:
+  ForcesFromTip(const ElasticMachine& machine, const Placement& placement, const AppliedLoad& load)
+      : machine_(machine), placement_(placement), body_(machine.axes()) {
+    for (const LinkSpring& spring : machine.truth.link_springs) {
+      springs_.push_back(springNow(spring, placement.body_motions));
+    }
+    addToolForces(machine, placement, load, sum_);
   }
+
+  /// All on this body and those beyond it. Called for ever more inward bodies.
+  const ForceSum& from(int innermost) {
+    for (; body_ >= innermost; --body_) {
+      if (body_ > 0) {
+        const robot::BodyMass& mass = machine_.bodies[body_];
+        sum_.add(mass.mass_kg * machine_.gravity_in_base, placement_.body_motions[body_] * mass.com_in_base_at_zero);
+      }
+      addSpringForces(machine_.truth.link_springs, springs_, body_, sum_);
+    }
+    return sum_;
+  }
+
+ private:
+  const ElasticMachine& machine_;
+  const Placement& placement_;
+  std::vector<SpringNow> springs_;
+  ForceSum sum_;
+  int body_;  // outermost whose forces are not in the sum yet
+};
+
+}  // namespace
+
+std::vector<ForceSum> forcesBeyond(const ElasticMachine& machine, const Placement& placement, const AppliedLoad& load) {
   std::vector<ForceSum> sums(machine.elements.size());
-  ForceSum beyond;
-  addToolForces(machine, placement, load, beyond);
-  int body = machine.joints();  // outermost body whose forces are not in `beyond` yet
+  ForcesFromTip forces(machine, placement, load);
   for (std::size_t e = machine.elements.size(); e-- > 0;) {
     const ElasticElement& element = machine.elements[e];
     // A joint's element carries its own body, a link's element only those beyond it, the base's all: of
     // the base itself only what springs pull, as the ground carries its weight.
-    const int innermost = element.joint + 1 + (element.is_link ? 1 : 0);
-    for (; body >= innermost; --body) {
-      if (body > 0) {
-        const robot::BodyMass& mass = machine.bodies[body];
-        beyond.add(mass.mass_kg * machine.gravity_in_base, placement.body_motions[body] * mass.com_in_base_at_zero);
-      }
-      addSpringForces(machine.truth.link_springs, springs, body, beyond);
-    }
-    sums[e] = beyond;
+    sums[e] = forces.from(element.axis + 1 + (element.is_link ? 1 : 0));
   }
+  return sums;
+}
+
+std::vector<ForceSum> forcesBeyondAxes(const ElasticMachine& machine, const Placement& placement,
+                                       const AppliedLoad& load) {
+  std::vector<ForceSum> sums(static_cast<std::size_t>(machine.axes()));
+  ForcesFromTip forces(machine, placement, load);
+  for (std::size_t axis = sums.size(); axis-- > 0;) sums[axis] = forces.from(static_cast<int>(axis) + 1);
   return sums;
 }
 

@@ -56,6 +56,7 @@ struct Placement {
   PerBody<Eigen::Isometry3d> body_motions;       ///< nominal place at zero -> place now, base_link; [0] the base
   Eigen::Isometry3d tool_motion;                 ///< the same beyond the last link element: flange and tool
   std::vector<Eigen::Isometry3d> before_giving;  ///< base_from_element of each element, before it deflects
+  PerJoint<metrology::Line> axes;                ///< in base_link; only of an arm with coupled joints
 };
 
 Placement place(const ElasticMachine& machine, const JointVector& q, const Eigen::VectorXd& x);
@@ -73,7 +74,8 @@ double potentialEnergy(const ElasticMachine& machine, const JointVector& q, cons
 /// dPi/dx, exact (no differences): with F and M the sum of forces and of moments about the element's
 /// displaced origin of everything beyond, and R the element's axes before deflecting,
 ///   dPi/du = K_u d - R' F,   dPi/dr = K_r d - J_l(r)' R' M      (leftJacobian of rotation.h),
-/// and curves and shared springs straight in their coordinates.
+/// and curves and shared springs straight in their coordinates. The torsion of a coupled joint has besides, of each
+/// axis that follows it, minus its turn there times the moment of everything beyond about that axis.
 Eigen::VectorXd energyGradient(const ElasticMachine& machine, const JointVector& q, const AppliedLoad& load,
                                const Eigen::VectorXd& x, Anchors anchors = nullptr);
 
@@ -85,7 +87,7 @@ Eigen::VectorXd smoothGradient(const ElasticMachine& machine, const JointVector&
 /// and a_j at or beyond it, minus a_i . (T a_j - tr(T) a_j) with T = sum r F' over the forces beyond j, r
 /// from j's origin: the geometric stiffness of dead forces at an arm that has hardly given. It leaves out how
 /// the load and the link springs turn, and terms of the order of the element's own rotation: a guide for
-/// steps, whose end the exact gradient decides.
+/// steps, whose end the exact gradient decides. Not for coupled joints: axes that follow are not in it.
 struct EnergySlopes {
   Eigen::VectorXd gradient;
   Eigen::MatrixXd hessian;

@@ -38,14 +38,14 @@ std::optional<Eigen::Vector3d> wristCentre(const robot::Robot& robot) {
   // The point with the least sum of squared distances from the three lines.
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  for (int i = robot::armJointsOf(robot.joints()); i < robot.joints(); ++i) {
+  for (int i = robot.armAxes(); i < robot.axes(); ++i) {
     const metrology::Line& axis = robot.axes_in_base_at_zero[static_cast<std::size_t>(i)];
     const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - axis.direction * axis.direction.transpose();
     normal += across;
     right += across * axis.point;
   }
   const Eigen::Vector3d centre = normal.ldlt().solve(right);
-  for (int i = robot::armJointsOf(robot.joints()); i < robot.joints(); ++i) {
+  for (int i = robot.armAxes(); i < robot.axes(); ++i) {
     const metrology::Line& axis = robot.axes_in_base_at_zero[static_cast<std::size_t>(i)];
     if ((centre - axis.point).cross(axis.direction).norm() > kMeets) return std::nullopt;
   }
@@ -57,10 +57,10 @@ std::optional<Eigen::Vector3d> wristCentre(const robot::Robot& robot) {
 PerJoint<AxisError> drawAxisErrors(const SimulationSpec& spec) {
   const GeometryErrors& geometry = spec.machine.geometry;
   numerics::RandomStream random(spec.seed, "geometry");
-  const auto joints = static_cast<std::size_t>(spec.nominal.joints());
-  const auto wrist = static_cast<std::size_t>(robot::armJointsOf(spec.nominal.joints()));
-  PerJoint<AxisError> errors(joints);
-  for (std::size_t i = 0; i < joints; ++i) {
+  const auto axes = static_cast<std::size_t>(spec.nominal.axes());
+  const auto wrist = static_cast<std::size_t>(spec.nominal.armAxes());
+  PerJoint<AxisError> errors(axes);
+  for (std::size_t i = 0; i < axes; ++i) {
     const metrology::Line& axis = spec.nominal.axes_in_base_at_zero[i];
     const Eigen::Matrix3d frame = frameAlong(axis.point, axis.direction).linear();
     const double position_sigma =
@@ -73,15 +73,17 @@ PerJoint<AxisError> drawAxisErrors(const SimulationSpec& spec) {
     errors[i].offset = across(position_sigma);
     errors[i].tilt = across(geometry.direction_sigma);
     errors[i].zero = geometry.zero_sigma * random.normal();
-    if (geometry.listed[i]) errors[i] = *geometry.listed[i];
+    const int joint = spec.nominal.axes_in_base_at_zero.jointOf(static_cast<int>(i));
+    if (joint >= 0 && geometry.listed[static_cast<std::size_t>(joint)])
+      errors[i] = *geometry.listed[static_cast<std::size_t>(joint)];
   }
   return errors;
 }
 
-Eigen::Isometry3d frameError(const robot::Robot& nominal, int joint, const AxisError& error) {
-  const bool of_wrist = joint >= robot::armJointsOf(nominal.joints());
+Eigen::Isometry3d frameError(const robot::Robot& nominal, int axis, const AxisError& error) {
+  const bool of_wrist = axis >= nominal.armAxes();
   const std::optional<Eigen::Vector3d> wrist = of_wrist ? wristCentre(nominal) : std::nullopt;
-  const Eigen::Vector3d pivot = wrist.value_or(nominal.axes_in_base_at_zero[static_cast<std::size_t>(joint)].point);
+  const Eigen::Vector3d pivot = wrist.value_or(nominal.axes_in_base_at_zero[static_cast<std::size_t>(axis)].point);
   return Eigen::Translation3d(error.offset) * turnAbout(pivot, error.tilt);
 }
 
@@ -111,8 +113,8 @@ constexpr double kStandardGravity = 9.80665;  ///< m/s^2
 ElasticElement jointElement(const robot::Robot& robot, int joint, const JointStiffness& stiffness) {
   ElasticElement element;
   element.name = robot.joint_names[joint];
-  element.joint = joint;
-  const metrology::Line& axis = robot.axes_in_base_at_zero[joint];
+  element.axis = robot.axes_in_base_at_zero.axisOf(joint);
+  const metrology::Line& axis = robot.axes_in_base_at_zero[element.axis];
   element.base_from_element_at_zero = frameAlong(axis.point, axis.direction);
   if (stiffness.bearing) {
     element.free = {3, 4};
@@ -129,7 +131,7 @@ ElasticElement jointElement(const robot::Robot& robot, int joint, const JointSti
 ElasticElement plateElement(const robot::Robot& robot, const ToolPlate& plate) {
   ElasticElement element;
   element.name = "tool plate";
-  element.joint = robot.joints();
+  element.axis = robot.axes();
   element.base_from_element_at_zero = robot.base_from_flange_at_zero;
   element.free = {0, 1, 2, 3, 4, 5};
   element.stiffness.diagonal() << plate.translation, plate.rotation;
@@ -142,15 +144,16 @@ void addCurves(ElasticMachine& machine) {
   Eigen::Index at = 0;
   for (const ElasticElement& element : machine.elements) {
     const auto torsion = std::find(element.free.begin(), element.free.end(), 5);
-    if (element.joint >= 0 && element.joint < machine.joints() && !element.is_link && torsion != element.free.end()) {
-      const std::size_t joint = static_cast<std::size_t>(element.joint);
+    if (element.axis >= 0 && element.axis < machine.axes() && !element.is_link && torsion != element.free.end()) {
+      const int of_joint = machine.nominal.axes_in_base_at_zero.jointOf(element.axis);
+      const std::size_t joint = static_cast<std::size_t>(of_joint);
       machine.torsion_coordinates[joint] = at + (torsion - element.free.begin());
       TorqueCurve curve = jointCurve(machine.truth.joints[joint]);
       if (curve.acts()) {
-        machine.curves.push_back({machine.torsion_coordinates[joint], element.joint, std::move(curve)});
+        machine.curves.push_back({machine.torsion_coordinates[joint], of_joint, std::move(curve)});
       }
     }
-    if (element.joint == -1) {
+    if (element.axis == -1) {
       for (const OneSidedContact& contact : machine.truth.base_contacts) {
         const auto turn = std::find(element.free.begin(), element.free.end(), 3 + contact.axis);
         if (turn != element.free.end()) {
@@ -164,10 +167,10 @@ void addCurves(ElasticMachine& machine) {
 
 ElasticElement linkElement(const SimulationSpec& spec, const LinkBeam& beam) {
   const robot::Robot& robot = spec.nominal;
-  const Eigen::Vector3d root = robot.axes_in_base_at_zero[beam.joint].point;
-  const Eigen::Vector3d tip = beam.joint + 1 == robot.joints()
-                                  ? Eigen::Vector3d(robot.base_from_flange_at_zero.translation())
-                                  : robot.axes_in_base_at_zero[beam.joint + 1].point;
+  const int axis = robot.axes_in_base_at_zero.axisOf(beam.joint);
+  const Eigen::Vector3d root = robot.axes_in_base_at_zero[axis].point;
+  const Eigen::Vector3d tip = axis + 1 == robot.axes() ? Eigen::Vector3d(robot.base_from_flange_at_zero.translation())
+                                                       : robot.axes_in_base_at_zero[axis + 1].point;
   const double length = (tip - root).norm();
   if (length < 1e-3) {
     throw io::InputError({spec.file.string(), 0, "after_joint"}, std::to_string(beam.joint + 1),
@@ -175,7 +178,7 @@ ElasticElement linkElement(const SimulationSpec& spec, const LinkBeam& beam) {
   }
   ElasticElement element;
   element.name = "link " + std::to_string(beam.joint + 1);
-  element.joint = beam.joint;
+  element.axis = axis;
   element.is_link = true;
   element.base_from_element_at_zero = frameAlong(tip, tip - root);
   if (beam.bending) element.free = {0, 1, 3, 4};
@@ -200,7 +203,9 @@ std::vector<ElasticElement> elasticElements(const SimulationSpec& spec, const Pe
     }
     elements.push_back(base);
   }
-  for (int i = 0; i < spec.nominal.joints(); ++i) {
+  for (int axis = 0; axis < spec.nominal.axes(); ++axis) {
+    const int i = spec.nominal.axes_in_base_at_zero.jointOf(axis);
+    if (i < 0) continue;  // follows others without a spring of its own
     ElasticElement joint = jointElement(spec.nominal, i, joints[static_cast<std::size_t>(i)]);
     if (!joint.free.empty()) elements.push_back(std::move(joint));
     for (const LinkBeam& beam : spec.machine.links) {
@@ -238,8 +243,8 @@ ElasticMachine buildMachine(const SimulationSpec& spec) {
   addCurves(machine);
 
   for (const AxisError& error : drawAxisErrors(spec)) {
-    const int joint = static_cast<int>(machine.zeros.size());
-    machine.axis_errors.push_back(frameError(spec.nominal, joint, error));
+    const int axis = static_cast<int>(machine.zeros.size());
+    machine.axis_errors.push_back(frameError(spec.nominal, axis, error));
     machine.zeros.push_back(error.zero);
   }
 
@@ -255,6 +260,16 @@ ElasticMachine buildMachine(const SimulationSpec& spec) {
   machine.gravity_in_base =
       rotationExp(-spec.machine.base_tilt * tilt_axis) * Eigen::Vector3d(0.0, 0.0, -kStandardGravity);
   return machine;
+}
+
+void ElasticMachine::turnMotor(int joint, double angle) {
+  const auto& axes = nominal.axes_in_base_at_zero;
+  if (!axes.couplings) {
+    zeros[static_cast<std::size_t>(joint)] += angle;
+    return;
+  }
+  for (int axis = 0; axis < nominal.axes(); ++axis)
+    zeros[static_cast<std::size_t>(axis)] += axes.couplings->turns(axis, joint) * angle;
 }
 
 robot::Robot rigidGeometry(const ElasticMachine& machine) {

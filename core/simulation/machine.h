@@ -13,15 +13,15 @@
 
 namespace stiffscope::simulation {
 
-/// The errors of the axes: as listed, else drawn from stream "geometry" of the seed. A listed axis leaves
-/// the others' draws as they were.
+/// The errors of the axes: as listed for the joint whose own axis it is, else drawn from stream "geometry" of the seed.
+/// A listed axis leaves the others' draws as they were.
 PerJoint<AxisError> drawAxisErrors(const SimulationSpec& spec);
 
-/// E_i: where joint frame i and all that it carries truly stands at zero, from where the nominal robot has it
+/// E_i: where axis i and all that it carries truly stands at zero, from where the nominal robot has it
 /// (base_link): first turned by the tilt about the axis's point - about the wrist centre for the wrist's axes
 /// (4-6 of six) if these meet within 1 um - then moved by the offset. So the errors add up along the chain, the flange
 /// stays true to the last axis, and wrist axes miss each other only by their own offsets but the first one's.
-Eigen::Isometry3d frameError(const robot::Robot& nominal, int joint, const AxisError& error);
+Eigen::Isometry3d frameError(const robot::Robot& nominal, int axis, const AxisError& error);
 
 /// A Jenkins element: a spring of `rate` (Nm/rad) in series with a slider that holds up to `limit` (Nm) and
 /// then slips. C. F. Beards, Damping in Structural Joints (1992); several in parallel are Iwan's model of
@@ -71,8 +71,8 @@ std::vector<TorqueCurve::Stage> stagesByTorque(const std::vector<double>& torque
 /// 1/2 d' K d, d = (u, r).
 struct ElasticElement {
   std::string name;
-  int joint = -1;        ///< follows the motor of this joint, from 0; -1: the base; joints(): the tool's plate
-  bool is_link = false;  ///< a beam's tip: follows the joint's own element and the mass of the body
+  int axis = -1;         ///< beyond the turn of this axis, from 0; -1: the base; axes(): the tool's plate
+  bool is_link = false;  ///< a beam's tip: follows the axis's own element and the mass of the body
   Eigen::Isometry3d base_from_element_at_zero = Eigen::Isometry3d::Identity();  ///< z along the axis or beam
   std::vector<int> free;  ///< which of (ux uy uz rx ry rz) can move
   Eigen::Matrix<double, 6, 6> stiffness = Eigen::Matrix<double, 6, 6>::Zero();  ///< K; rows not free play no part
@@ -86,14 +86,15 @@ struct CoordinateCurve {
 };
 
 /// The machine as it truly is. Everything stands where the nominal robot has it in base_link at all joints
-/// zero; a body's place follows from the chain base element, then per joint i: frame error E_i, motor turn
-/// about axis i by zero_i + q_i, joint element, [mass of body i], link element; last the tool's plate.
-/// base_link here is the ground's: the tracker and the nests stand on it, and it does not move with the
-/// pedestal.
+/// zero; a body's place follows from the chain base element, then per axis i: frame error E_i, motor turn
+/// about axis i by zero_i + theta_i, joint element, [mass of body i], link element; last the tool's plate. theta are
+/// the axes' angles at joint angles q (q itself but for coupled joints); a drive's torsion turns the joint's own axis
+/// in its element, and what else the joint turns with the motor's turn there. base_link here is the ground's: the
+/// tracker and the nests stand on it, and it does not move with the pedestal.
 struct ElasticMachine {
   robot::Robot nominal;
-  PerJoint<Eigen::Isometry3d> axis_errors;  ///< E_i, in base_link at zero, nominal place to true place
-  PerJoint<double> zeros;                   ///< rad
+  PerJoint<Eigen::Isometry3d> axis_errors;  ///< E_i of each axis, in base_link at zero, nominal place to true place
+  PerJoint<double> zeros;                   ///< of each axis, rad
   std::vector<ElasticElement> elements;     ///< in chain order
   PerBody<robot::BodyMass> bodies;          ///< true masses, at nominal places; the last without the tool
   robot::Tool tool;
@@ -105,6 +106,9 @@ struct ElasticMachine {
   std::vector<CoordinateCurve> curves;
 
   int joints() const { return nominal.joints(); }
+  int axes() const { return nominal.axes(); }
+  /// Turns a joint's motor by an angle besides what is reported, rad, and all axes that it turns with it.
+  void turnMotor(int joint, double angle);
   int coordinateCount() const;       ///< elastic coordinates in all
   Eigen::Index sliderCount() const;  ///< of all curves
   bool changes() const;              ///< with posture or time: see machineAt

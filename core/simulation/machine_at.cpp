@@ -13,8 +13,9 @@ double waveAt(const JointWave& wave, double q) { return wave.amplitude * std::si
 double comeSoFar(double time_s, double time_constant) { return -std::expm1(-time_s / time_constant); }
 
 void scaleTorsion(ElasticMachine& machine, int joint, double factor) {
+  const int axis = machine.nominal.axes_in_base_at_zero.axisOf(joint);
   for (ElasticElement& element : machine.elements) {
-    if (element.joint == joint && !element.is_link) element.stiffness(5, 5) *= factor;
+    if (element.axis == axis && !element.is_link) element.stiffness(5, 5) *= factor;
   }
   for (CoordinateCurve& one : machine.curves) {
     if (one.joint != joint) continue;
@@ -52,7 +53,7 @@ ElasticMachine machineAt(const ElasticMachine& machine, const JointVector& q, do
   ElasticMachine now = machine;
   for (int i = 0; i < machine.joints(); ++i) {
     const JointStiffness& joint = machine.truth.joints[static_cast<std::size_t>(i)];
-    now.zeros[static_cast<std::size_t>(i)] += angleError(joint, machine.temperature, i, q, time_s);
+    now.turnMotor(i, angleError(joint, machine.temperature, i, q, time_s));
     double factor = 1.0;
     if (joint.rate_wave) factor *= 1.0 + waveAt(*joint.rate_wave, q[i]);
     if (joint.softening) {
@@ -61,13 +62,13 @@ ElasticMachine machineAt(const ElasticMachine& machine, const JointVector& q, do
     if (factor != 1.0) scaleTorsion(now, i, factor);
   }
   for (const ThermalGrowth& growth : machine.truth.growths) {
-    const std::size_t joint = static_cast<std::size_t>(growth.joint);
     const auto& axes = machine.nominal.axes_in_base_at_zero;
-    const Eigen::Vector3d along = (axes[joint + 1].point - axes[joint].point).normalized();
+    const auto axis = static_cast<std::size_t>(axes.axisOf(growth.joint));
+    const Eigen::Vector3d along = (axes[axis + 1].point - axes[axis].point).normalized();
     double longer = growth.growth * comeSoFar(time_s, growth.time_constant);
     if (machine.temperature)
       longer += growth.per_kelvin * (machine.temperature->at(time_s) - machine.temperature->at(0.0));
-    now.axis_errors[joint + 1] = Eigen::Translation3d(longer * along) * now.axis_errors[joint + 1];
+    now.axis_errors[axis + 1] = Eigen::Translation3d(longer * along) * now.axis_errors[axis + 1];
   }
   return now;
 }

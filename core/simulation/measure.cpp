@@ -260,7 +260,7 @@ void Session::moveTo(const JointVector& q) {
 
 ElasticMachine Session::machineNow(const JointVector& q, const JointVector& ahead) const {
   ElasticMachine now = machine.changes() ? machineAt(machine, q, now_s) : machine;
-  for (int i = 0; i < now.joints(); ++i) now.zeros[static_cast<std::size_t>(i)] += ahead[i];
+  for (int i = 0; i < now.joints(); ++i) now.turnMotor(i, ahead[i]);
   return now;
 }
 

@@ -74,6 +74,7 @@ bool keepsRules(const SimulationSpec& spec, const PostureDraw& draw, const Joint
     const robot::JointLimits& limits = spec.nominal.limits[static_cast<std::size_t>(i)];
     if (q[i] < limits.lower || q[i] > limits.upper) return false;
   }
+  if (spec.nominal.coupled() && !robot::withinAxisLimits(spec.nominal, q)) return false;
   if (robot::wristJointsOf(joints) == 3 && std::abs(std::sin(q[joints - 2])) < draw.min_abs_sin_bend) return false;
   const Eigen::Isometry3d base_from_flange = nominalFlange(spec.nominal, q);
   const double up = std::asin(std::clamp(base_from_flange.linear()(2, 2), -1.0, 1.0));
@@ -101,8 +102,9 @@ JointVector drawOne(const SimulationSpec& spec, const PostureDraw& draw, numeric
 
 Eigen::Isometry3d nominalFlange(const robot::Robot& robot, const JointVector& q) {
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
-  for (int i = 0; i < robot.joints(); ++i) {
-    motion = motion * turnAbout(robot.axes_in_base_at_zero[static_cast<std::size_t>(i)], q[i]);
+  const JointVector angles = robot.axes_in_base_at_zero.angles(q);
+  for (int i = 0; i < robot.axes(); ++i) {
+    motion = motion * turnAbout(robot.axes_in_base_at_zero[static_cast<std::size_t>(i)], angles[i]);
   }
   return motion * robot.base_from_flange_at_zero;
 }
@@ -110,10 +112,11 @@ Eigen::Isometry3d nominalFlange(const robot::Robot& robot, const JointVector& q)
 double hangClearance(const robot::Robot& robot, const JointVector& q, const Eigen::Vector3d& hook_in_flange) {
   std::vector<Eigen::Vector3d> corners{Eigen::Vector3d::Zero()};
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
-  for (int i = 0; i < robot.joints(); ++i) {
+  const JointVector angles = robot.axes_in_base_at_zero.angles(q);
+  for (int i = 0; i < robot.axes(); ++i) {
     const metrology::Line& axis = robot.axes_in_base_at_zero[static_cast<std::size_t>(i)];
     corners.push_back(motion * axis.point);
-    motion = motion * turnAbout(axis, q[i]);
+    motion = motion * turnAbout(axis, angles[i]);
   }
   const Eigen::Isometry3d flange = motion * robot.base_from_flange_at_zero;
   corners.push_back(flange.translation());

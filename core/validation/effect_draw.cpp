@@ -24,7 +24,8 @@ namespace {
 
 double length(const simulation::SimulationSpec& spec, int joint) {
   const auto& axes = spec.nominal.axes_in_base_at_zero;
-  return (axes[static_cast<std::size_t>(joint) + 1].point - axes[static_cast<std::size_t>(joint)].point).norm();
+  const auto axis = static_cast<std::size_t>(axes.axisOf(joint));
+  return (axes[axis + 1].point - axes[axis].point).norm();
 }
 
 }  // namespace
@@ -38,7 +39,8 @@ double fullLoad(const simulation::SimulationSpec& spec) {
 
 double usualTorque(const simulation::SimulationSpec& spec, int joint) {
   const Vector3d flange = spec.nominal.base_from_flange_at_zero.translation();
-  const Vector3d axis = spec.nominal.axes_in_base_at_zero[static_cast<std::size_t>(joint)].point;
+  const robot::ArmAxes& axes = spec.nominal.axes_in_base_at_zero;
+  const Vector3d axis = axes[static_cast<std::size_t>(axes.axisOf(joint))].point;
   // The hook's own offset is what turns the last joint.
   return fullLoad(spec) * (0.5 * (flange - axis).norm() + 0.5 * spec.loading->hook_in_flange.norm());
 }
@@ -181,7 +183,7 @@ EffectDraw hysteresis(const simulation::SimulationSpec& machine, numerics::Rando
 EffectDraw gravityCompensator(const simulation::SimulationSpec& machine, numerics::RandomStream& random) {
   const auto& axes = machine.nominal.axes_in_base_at_zero;
   const int joint = longestLinks(machine)[0];
-  const auto at = static_cast<std::size_t>(joint);
+  const auto at = static_cast<std::size_t>(axes.axisOf(joint));
   const Vector3d shoulder = axes[at].point, upper = axes[at + 1].point - axes[at].point;
   const double behind = random.uniform(0.25, 0.45), along = random.uniform(0.25, 0.45);
   const double rate = random.uniform(0.3, 1.5);
@@ -194,8 +196,8 @@ EffectDraw gravityCompensator(const simulation::SimulationSpec& machine, numeric
   draw.most = 5.0;
   draw.apply = [=](double s, simulation::SimulationSpec& spec) {
     if (s > 0.0) {
-      spec.machine.link_springs.push_back(
-          {joint, joint + 1, from, to, s * rate * weight / (to - from).norm(), s * weight});
+      spec.machine.link_springs.push_back({static_cast<int>(at), static_cast<int>(at) + 1, from, to,
+                                           s * rate * weight / (to - from).norm(), s * weight});
     }
   };
   return draw;
@@ -265,10 +267,10 @@ EffectDraw kinematicError(const simulation::SimulationSpec& machine, numerics::R
   draw.apply = [=](double s, simulation::SimulationSpec& spec) {  // s in m, or rad
     PerJoint<simulation::AxisError> errors = background;
     const auto add = [&](int joint, double size) {
-      simulation::AxisError& error = errors[static_cast<std::size_t>(joint)];
       const auto& axes = spec.nominal.axes_in_base_at_zero;
-      const Vector3d link =
-          axes[static_cast<std::size_t>(joint)].point - axes[static_cast<std::size_t>(joint) - 1].point;
+      const auto axis = static_cast<std::size_t>(axes.axisOf(joint));
+      simulation::AxisError& error = errors[axis];
+      const Vector3d link = axes[axis].point - axes[axis - 1].point;
       if (zero) {
         error.zero += size;
       } else {
@@ -277,7 +279,9 @@ EffectDraw kinematicError(const simulation::SimulationSpec& machine, numerics::R
     };
     add(first, sign * s);
     if (second != first) add(second, share * s);
-    for (std::size_t i = 0; i < errors.size(); ++i) spec.machine.geometry.listed[i] = errors[i];
+    for (int joint = 0; joint < spec.nominal.joints(); ++joint)
+      spec.machine.geometry.listed[static_cast<std::size_t>(joint)] =
+          errors[static_cast<std::size_t>(spec.nominal.axes_in_base_at_zero.axisOf(joint))];
   };
   return draw;
 }

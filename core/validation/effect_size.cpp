@@ -104,12 +104,18 @@ EffectSizer::Deflections EffectSizer::deflections(const campaign::Campaign& camp
     const Vector3d moment = cell.linear() * state.wrench_in_cell.tail<3>();
     // The point in base_link as the rigid arm would have it: what the reference's station saw.
     const Vector3d point = base_from_tracker_ * (zero - reference_.tracker->station) + station_in_base_;
-    for (std::size_t i = 0; i < arm.axes.size(); ++i) {
-      const metrology::Line& axis = arm.axes[i];
-      const double torque = axis.direction.dot(moment + (cell.translation() - axis.point).cross(force));
-      all.columns.block<3, 1>(row, static_cast<Index>(i)) =
-          sight.transpose() * base_from_tracker_.transpose() * axis.direction.cross(point - axis.point) * torque;
+    const auto axes = static_cast<Index>(arm.axes.size());
+    Eigen::Matrix3Xd moves(3, axes);
+    VectorXd torques(axes);
+    for (Index i = 0; i < axes; ++i) {
+      const metrology::Line& axis = arm.axes[static_cast<std::size_t>(i)];
+      torques[i] = axis.direction.dot(moment + (cell.translation() - axis.point).cross(force));
+      moves.col(i) = sight.transpose() * base_from_tracker_.transpose() * axis.direction.cross(point - axis.point);
     }
+    const auto& couplings = geometry_.axes_in_base_at_zero.couplings;
+    const Eigen::MatrixXd turns =
+        couplings ? Eigen::MatrixXd(couplings->turns) : Eigen::MatrixXd(Eigen::MatrixXd::Identity(axes, axes));
+    all.columns.middleRows<3>(row) = moves * turns * (turns.transpose() * torques).asDiagonal();
     row += 3;
   }
   return all;

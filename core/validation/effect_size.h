@@ -119,7 +119,7 @@ class GeometrySizer {
   Eigen::VectorXd leftHeldOut(const Eigen::VectorXd& gap) const;                             ///< m
   double noiseHeldOut() const;  ///< rms of noise in what is held out, m
 
-  int axisParameters() const { return 4 * geometry_.joints(); }
+  int axisParameters() const { return 4 * geometry_.axes(); }
 
   Eigen::Isometry3d tracker_from_base_;
   double true_noise_factor_ = 1.0;

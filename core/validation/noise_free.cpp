@@ -16,8 +16,9 @@ using Eigen::VectorXd;
 ArmNow armAt(const robot::Robot& robot, const JointVector& q) {
   ArmNow now;
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+  const JointVector angles = robot.axes_in_base_at_zero.angles(q);
   for (const metrology::Line& axis : robot.axes_in_base_at_zero) {
-    const double angle = q[static_cast<Index>(now.axes.size())];
+    const double angle = angles[static_cast<Index>(now.axes.size())];
     now.axes.push_back({motion * axis.point, motion.linear() * axis.direction});
     motion = motion * simulation::turnAbout(axis, angle);
   }

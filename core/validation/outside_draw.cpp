@@ -103,7 +103,7 @@ EffectDraw eccentricEncoder(const simulation::SimulationSpec& machine, numerics:
 
 EffectDraw dressPack(const simulation::SimulationSpec& machine, numerics::RandomStream& random) {
   const auto& axes = machine.nominal.axes_in_base_at_zero;
-  const int last = machine.nominal.joints(), forearm = robot::armJointsOf(last);  // bodies
+  const int last = machine.nominal.axes(), forearm = machine.nominal.armAxes();  // bodies
   const Vector3d from =
       axes[static_cast<std::size_t>(forearm) - 1].point + Vector3d(-0.1, random.uniform(0.15, 0.3), 0.2);
   const Vector3d to = axes[static_cast<std::size_t>(last) - 2].point + Vector3d(0.05, random.uniform(-0.2, 0.2), 0.15);

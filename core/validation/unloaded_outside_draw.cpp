@@ -15,8 +15,8 @@ namespace {
 /// A dress pack from the forearm to the hand, which pulls the wrist's joints about: their own weight hardly does.
 EffectDraw pullingCable(const simulation::SimulationSpec& machine, numerics::RandomStream& random) {
   const auto& axes = machine.nominal.axes_in_base_at_zero;
-  const int last = machine.nominal.joints(), forearm = robot::armJointsOf(last);  // bodies
-  const auto wrist = static_cast<std::size_t>(forearm);                           // its first joint
+  const int last = machine.nominal.axes(), forearm = machine.nominal.armAxes();  // bodies
+  const auto wrist = static_cast<std::size_t>(forearm);                          // its first joint
   const Vector3d from = axes[wrist - 1].point + Vector3d(-0.1, random.uniform(0.15, 0.3), 0.2);
   const Vector3d to = axes[static_cast<std::size_t>(last) - 2].point + Vector3d(0.1, random.uniform(-0.2, 0.2), 0.15);
   const double rate = random.uniform(0.5, 2.0);

@@ -25,7 +25,7 @@ bool withinLimits(const robot::Robot& arm, const JointVector& q) {
     const robot::JointLimits& limits = arm.limits[static_cast<std::size_t>(joint)];
     if (q[joint] < limits.lower || q[joint] > limits.upper) return false;
   }
-  return true;
+  return robot::withinAxisLimits(arm, q);
 }
 
 /// Joint angles of an arm of fewer than six joints at which a point of the flange is where it is to be, and the flange

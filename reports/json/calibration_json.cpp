@@ -68,7 +68,7 @@ Json axisJson(const calibration::UnloadedDay& day, const ArmFit& fit, const robo
     known.push_back(!held);
   }
   return {{"axis", j + 1},
-          {"joint", day.arm.joint_names[j]},
+          {"joint", day.arm.axis_names[j]},
           {"point_m", array(axis.point)},
           {"direction", array(axis.direction)},
           {"nominal_point_m", array(nominal.point)},

@@ -86,7 +86,7 @@ Json effectsOfJoint(const simulation::JointStiffness& joint, bool loaded) {
 
 Json linkEffect(const simulation::LinkBeam& link, const simulation::SimulationSpec& spec) {
   const auto& axes = spec.nominal.axes_in_base_at_zero;
-  const auto at = static_cast<std::size_t>(link.joint);
+  const auto at = static_cast<std::size_t>(axes.axisOf(link.joint));
   const Eigen::Vector3d tip =
       at + 1 < axes.size() ? axes[at + 1].point : Eigen::Vector3d(spec.nominal.base_from_flange_at_zero.translation());
   return {{"effect", "link_compliance"},
@@ -258,7 +258,7 @@ void addStation(const simulation::SimulationSpec& spec, Json& list) {
 
 /// R0 and axes by the rules of `frames`, of a machine whose axes are known.
 frames::ArmInR0 trueArm(const simulation::SimulationSpec& spec, const robot::Robot& geometry) {
-  frames::MeasuredAxes axes(static_cast<std::size_t>(geometry.joints()), frames::MeasuredAxis(geometry.joints()));
+  frames::MeasuredAxes axes(static_cast<std::size_t>(geometry.axes()), frames::MeasuredAxis(geometry.joints()));
   for (std::size_t i = 0; i < axes.size(); ++i) {
     axes[i].measured = true;
     axes[i].at_zero.line = geometry.axes_in_base_at_zero[i];

@@ -54,7 +54,7 @@ void writeAxes(const calibration::Calibration& calibration, Out out) {
                  "  {:<6}{:>38}{:>42}\n",
                  "axis", "moved, mm", "tilted, mdeg");
   constexpr double kMillidegree = 1e-3 * io::kDegree;
-  for (int j = 0; j < arm.joints(); ++j) {
+  for (int j = 0; j < arm.axes(); ++j) {
     fmt::format_to(out, "  {:<6}", j + 1);
     for (int k = 0; k < 4; ++k) {
       const int at = 4 * j + k;

@@ -109,7 +109,7 @@ void writeWrist(const campaign::Campaign& campaign, const frames::Frames& frames
   uncertain(wrist.table_mean_covariance);
   place("common sphere centre", wrist.centre_in_r0);
   uncertain(wrist.covariance);
-  const int last = campaign.robot.joints();
+  const int last = campaign.robot.axes();
   place(fmt::format("nearest to axes {} and {}", last - 1, last), wrist.nearest_last_axes_in_r0);
   place("barycentre of the reflectors (Dumas et al.)", wrist.reflector_barycentre_in_r0);
   const auto miss = [](double value, double sd) {

@@ -22,6 +22,11 @@ std::string compensationWords(compensation::RemarkId id, const RemarkValues& val
     case command_outside_limits:
       return fmt::format("joint {} would have to go to {:.3f} deg, outside its limits {:.1f} to {:.1f} deg",
                          values.count(0), degrees(1), degrees(2), degrees(3));
+    case follower_outside_limits:
+      return fmt::format(
+          "axis '{}', which follows other joints, would stand at {:.3f} deg, outside its limits {:.1f} to "
+          "{:.1f} deg",
+          values.name(0), degrees(1), degrees(2), degrees(3));
     case near_singularity:
       return fmt::format("too near a singularity: conditioning {:.4f}, at least {:g} is asked for", values.number(0),
                          values.number(1));

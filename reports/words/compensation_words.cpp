@@ -20,6 +20,8 @@ const char* refusalWords(compensation::RemarkId reason) {
       return "a joint stands outside its limits";
     case command_outside_limits:
       return "a command would be outside a joint's limits";
+    case follower_outside_limits:
+      return "an axis that follows others would be outside its limits";
     case near_singularity:
       return "the posture is too near a singularity";
     case turns_joint_of_negative_k:

@@ -18,6 +18,15 @@ std::string framesWords(frames::RemarkId id, const RemarkValues& values) {
       return "it was not swept";
     case RemarkId::other_joints_moved:
       return "other joints moved during its sweep";
+    case RemarkId::coupled_joints:
+      return "a joint that turns several axes ('mimic' in the URDF) moves the reflectors on circles without a common "
+             "axis: all axes are found together from all sweeps";
+    case RemarkId::coupled_axes_not_placed:
+      return "joints are coupled ('mimic' in the URDF), and the sweeps show fewer than three reflectors in three "
+             "postures, or turns about one direction only";
+    case RemarkId::coupled_axes_not_settling:
+      return "joints are coupled ('mimic' in the URDF), and the fit of all axes to the sweeps does not settle: readings "
+             "and URDF contradict each other";
     case RemarkId::earlier_axis_not_known:
       return fmt::format("axis {} stood away from zero during its sweep and is not measured itself", values.count(0));
     case RemarkId::no_wrist_sweep:
