@@ -100,11 +100,18 @@ preparation::AuditCheck residualCheck(const AuditInput& input, const SweptCircle
 
 }  // namespace
 
+Remark noCircles(const frames::MeasuredAxes& axes) {
+  const bool any = std::any_of(axes.begin(), axes.end(), [](const auto& axis) { return axis.fit.determined; });
+  return any ? Remark() : Remark(MissingId::axis_not_measured, 1, axes.front().reason);
+}
+
 Findings checkCircleResidual(const AuditInput& input) {
   if (!input.campaign.circle_sweeps) return {preparation::notTestable("circle_residual", Remark(MissingId::no_sweeps))};
   if (!input.noise) {
     return {preparation::notTestable("circle_residual", Remark(MissingId::tracker_not_declared))};
   }
+  const Remark none = noCircles(input.frames.axes);
+  if (!none.empty()) return {preparation::notTestable("circle_residual", none)};
   return {residualCheck(input, sweptCircles(input))};
 }
 

@@ -118,6 +118,8 @@ Findings checkSweptReflectors(const AuditInput& input) {
             preparation::notTestable("reflector_on_axis", Remark(MissingId::no_sweeps))};
   }
   const auto axes = sweptCircles(input);
+  const Remark none = noCircles(input.frames.axes);
+  if (!none.empty()) return {agreementCheck(input, axes), preparation::notTestable("reflector_on_axis", none)};
   return {agreementCheck(input, axes), onAxisCheck(input, axes)};
 }
 

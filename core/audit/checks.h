@@ -23,6 +23,9 @@ struct SweptCircle {
 using SweptCircles = PerJoint<std::vector<SweptCircle>>;
 SweptCircles sweptCircles(const AuditInput& input);
 
+/// Why no circles can be judged: no axis has any, as of an arm whose joints are coupled. Empty: some has.
+Remark noCircles(const frames::MeasuredAxes& axes);
+
 /// Standard uncertainty of an axis, the larger of its two directions.
 struct AxisUncertainty {
   double direction = 0.0;  ///< rad

@@ -82,8 +82,7 @@ class CoupledFit {
       centre_ += position.point / static_cast<double>(count);
     }
     for (const Eigen::Matrix3d& own : readings_.covariances) {
-      weights_.push_back(
-          (base_from_points_.linear() * own * base_from_points_.linear().transpose()).inverse());
+      weights_.push_back((base_from_points_.linear() * own * base_from_points_.linear().transpose()).inverse());
     }
     x_ = Eigen::VectorXd::Zero(parameters_.count(start.targets_at_zero.size()));
     for (std::size_t t = 0; t < start.targets_at_zero.size(); ++t) {
@@ -115,7 +114,7 @@ class CoupledFit {
   }
 
   void addPriors() {
-    constexpr double kOfUrdf = 0.01;  // m and rad
+    constexpr double kOfUrdf = 0.01;                 // m and rad
     constexpr double kOneLine = 1e-9, kTied = 1e-6;  // m and rad
     prior_ = Eigen::MatrixXd::Zero(x_.size(), x_.size());
     prior_.diagonal().head(parameters_.axes()).array() = 1.0 / (kOfUrdf * kOfUrdf);
@@ -156,8 +155,7 @@ class CoupledFit {
         rows.leftCols(parameters_.axes()) = posture.byAxes(modelled);
         rows.middleCols<6>(parameters_.baseAt()) = posture.byBase(modelled);
         rows.rightCols<3>() = posture.byTarget();
-        const Eigen::Matrix3d weight =
-            weights_.empty() ? Eigen::Matrix3d(Eigen::Matrix3d::Identity()) : weights_[i];
+        const Eigen::Matrix3d weight = weights_.empty() ? Eigen::Matrix3d(Eigen::Matrix3d::Identity()) : weights_[i];
         const Eigen::MatrixXd weighted = rows.transpose() * weight;
         const Eigen::MatrixXd products = weighted * rows;
         all.matrix.topLeftCorner(common, common) += products.topLeftCorner(common, common);

@@ -11,10 +11,10 @@ namespace stiffscope::frames {
 
 /// All axes of an arm with coupled joints, in the frame of the sweeps' readings, all joints at zero.
 struct CoupledAxes {
-  Remark reason;                                ///< why not found; empty: found
+  Remark reason;                                 ///< why not found; empty: found
   std::vector<metrology::MeasuredLine> at_zero;  ///< one an axis, directed as it turns positively
-  double rms = 0.0;                             ///< of the readings, plain, per coordinate, m
-  double chi2_per_dof = 0.0;                    ///< weighted; 1 where no tracker is declared
+  double rms = 0.0;                              ///< of the readings, plain, per coordinate, m
+  double chi2_per_dof = 0.0;                     ///< weighted; 1 where no tracker is declared
 };
 
 /// Where a joint turns several axes the reflectors move on circles without a common axis, and no sweep shows an axis by
@@ -23,10 +23,10 @@ struct CoupledAxes {
 /// Gauss-Newton from the URDF's arm, placed by the postures (baseFromPostures).
 /// Priors: each axis within 10 mm and 10 mrad of the URDF, which only counts for what the sweeps do not see; axes that
 /// are one line in the URDF (a parallelogram's elbow, about which one joint turns the forearm and another keeps it
-/// level) are one hinge of the machine and stay one line: without that no motion of the flange shows where axis 2 stands.
-/// Covariance of each line: by the inverse normal matrix, times chi^2 over degrees of freedom where that is above one;
-/// what the lines have in common is not kept. Not found, with the reason: without sweeps, without three reflectors in
-/// three postures, or where the steps do not settle.
+/// level) are one hinge of the machine and stay one line: without that no motion of the flange shows where axis 2
+/// stands. Covariance of each line: by the inverse normal matrix, times chi^2 over degrees of freedom where that is
+/// above one; what the lines have in common is not kept. Not found, with the reason: without sweeps, without three
+/// reflectors in three postures, or where the steps do not settle.
 CoupledAxes fitCoupledAxes(const campaign::Campaign& campaign, const RigidPoints& points);
 
 }  // namespace stiffscope::frames

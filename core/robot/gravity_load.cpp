@@ -21,7 +21,9 @@ GravityLoad gravityLoad(const Robot& nominal, const std::optional<Tool>& tool,
   for (std::size_t body = 1; body < weight.bodies.size(); ++body) {
     weight.bodies[body].mass_kg = nominal.bodies[body].mass_kg;
     weight.bodies[body].com_in_base_at_zero = base_from_base_link * nominal.bodies[body].com_in_base_at_zero;
-    const bool carries = body >= 2 && static_cast<int>(body) <= nominal.armAxes() + 1;
+    // An axis that only follows stands for rods beside a link, and has no body of its own where none is stated.
+    const bool own = nominal.axes_in_base_at_zero.jointOf(static_cast<int>(body) - 1) >= 0;
+    const bool carries = own && body >= 2 && static_cast<int>(body) <= nominal.armAxes() + 1;
     if (carries && weight.bodies[body].mass_kg <= 0.0) weight.links_known = false;
   }
   if (tool && tool->mass_kg > 0.0) {

@@ -27,6 +27,13 @@ struct KindJoint {
   std::array<double, 2> sweep;
 };
 
+/// An axis at the origin of joint `before` that turns with another joint: rods. From 0.
+struct KindFollower {
+  std::size_t before, follows;
+  Vector3d axis;
+  double multiplier;
+};
+
 struct KindModel {
   std::vector<KindJoint> joints;
   Vector3d flange;          ///< from the last joint
@@ -34,6 +41,7 @@ struct KindModel {
   DayScale day;
   double max_flange_up_deg;
   double min_abs_sin_bend;  ///< of the wrist's bend, for machines with a wrist of three axes
+  std::optional<KindFollower> follower = std::nullopt;
 };
 
 const Vector3d kX(1, 0, 0), kY(0, 1, 0), kZ(0, 0, 1);
@@ -84,7 +92,25 @@ KindModel palletiser() {
           0.0};
 }
 
+/// A heavy six-axis arm of 2.7 m whose motors 2 and 3 both sit at the shoulder: joint 3 turns the forearm against the
+/// base, through rods along the upper arm. Dimensions and springs of the size of the paper's machine (Table II).
+KindModel parallelogram() {
+  return {{{{0, 0, 0.94}, kZ, 750, {0.12, 0, -0.15}, 7.0e6, 180, {-70, 70}, {-60, 60}},
+           {{0.41, 0, 0}, kY, 500, {0, 0, 0.48}, 5.6e6, 75, {-35, 50}, {-50, 50}},
+           {{0, 0, 1.12}, kY, 550, {-0.05, 0, 0.16}, 6.3e6, 100, {-25, 45}, {-40, 60}},
+           {{0, 0, 0.25}, -kX, 180, {0.75, 0, 0}, 4.6e5, 350, {-110, 110}, {-120, 120}},
+           {{1.285, 0, 0}, -kY, 90, {0.06, 0, 0}, 3.5e5, 120, {-100, 100}, {-110, 110}},
+           {{0.3, 0, 0}, -kX, 30, {-0.03, 0, 0}, 7.9e4, 350, {-150, 150}, {-150, 150}}},
+          {0, 0, 0},
+          {180, -90, 0},
+          {2.7, 15.0, {700, 1500}},
+          20,
+          0.5,
+          KindFollower{2, 1, kY, -1.0}};
+}
+
 KindModel modelOf(MachineKind kind) {
+  if (kind == MachineKind::parallelogram) return parallelogram();
   if (kind == MachineKind::offset_wrist) return offsetWrist();
   if (kind == MachineKind::seven_axis) return sevenAxis();
   return palletiser();
@@ -97,14 +123,26 @@ std::string urdfOf(const KindModel& model, std::string_view name, double scale) 
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     const KindJoint& joint = model.joints[i];
     const double limit = joint.limit * io::kDegree;
+    std::string parent = i == 0 ? "base_link" : fmt::format("link_{}", i);
+    Vector3d origin = scale * joint.origin;
+    if (model.follower && model.follower->before == i) {
+      text += fmt::format(
+          "  <link name=\"rods\"/>\n"
+          "  <joint name=\"rods\" type=\"continuous\">\n    <parent link=\"{}\"/><child link=\"rods\"/>\n"
+          "    <origin xyz=\"{}\" rpy=\"0 0 0\"/><axis xyz=\"{}\"/>"
+          "<mimic joint=\"joint_{}\" multiplier=\"{:g}\"/>\n  </joint>\n",
+          parent, written(origin), written(model.follower->axis), model.follower->follows + 1,
+          model.follower->multiplier);
+      parent = "rods";
+      origin.setZero();
+    }
     text += fmt::format(
         "  <link name=\"link_{0}\"><inertial><origin xyz=\"{1}\"/><mass value=\"{2:.9g}\"/>"
         "<inertia ixx=\"1\" iyy=\"1\" izz=\"1\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial></link>\n"
         "  <joint name=\"joint_{0}\" type=\"revolute\">\n    <parent link=\"{3}\"/><child link=\"link_{0}\"/>\n"
         "    <origin xyz=\"{4}\" rpy=\"0 0 0\"/><axis xyz=\"{5}\"/>\n"
         "    <limit lower=\"{6:.9g}\" upper=\"{7:.9g}\" effort=\"0\" velocity=\"0\"/>\n  </joint>\n",
-        i + 1, written(scale * joint.com), joint.mass, i == 0 ? "base_link" : fmt::format("link_{}", i),
-        written(scale * joint.origin), written(joint.axis), -limit, limit);
+        i + 1, written(scale * joint.com), joint.mass, parent, written(origin), written(joint.axis), -limit, limit);
   }
   return text + fmt::format(
                     "  <link name=\"tool0\"/>\n  <joint name=\"flange\" type=\"fixed\"><parent link=\"link_{}\"/>"

@@ -15,11 +15,14 @@ namespace stiffscope::validation {
 /// each other kind is one machine of published dimensions, scaled by up to a tenth:
 /// - offset_wrist: six joints whose last axes do not meet (dimensions of a UR10),
 /// - seven_axis: one joint more than a pose needs, last three axes meeting (dimensions of an LBR iiwa 14),
-/// - palletiser: five joints, of which the last two meet.
-enum class MachineKind { six_axis, offset_wrist, seven_axis, palletiser };
+/// - palletiser: five joints, of which the last two meet,
+/// - parallelogram: six joints, rods hold the forearm where joint 3 has it whatever joint 2 does (dimensions of the
+/// paper's
+///   class, 2.7 m).
+enum class MachineKind { six_axis, offset_wrist, seven_axis, palletiser, parallelogram };
 
-inline constexpr std::array<std::string_view, 4> kMachineKindNames{"six_axis", "offset_wrist", "seven_axis",
-                                                                   "palletiser"};
+inline constexpr std::array<std::string_view, 5> kMachineKindNames{"six_axis", "offset_wrist", "seven_axis",
+                                                                   "palletiser", "parallelogram"};
 
 constexpr std::string_view nameOf(MachineKind kind) { return kMachineKindNames[static_cast<std::size_t>(kind)]; }
 

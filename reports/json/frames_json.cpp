@@ -65,7 +65,7 @@ Json axisJson(const campaign::Campaign& campaign, const frames::Frames& frames, 
   if (!axis.measured) return json;
   double arc = 0.0;
   for (const metrology::AxisCircle& circle : axis.fit.circles) arc = std::max(arc, circle.arc);
-  json["arc_deg"] = arc / io::kDegree;
+  json["arc_deg"] = axis.fit.circles.empty() ? Json(nullptr) : Json(arc / io::kDegree);
   json["rms_um"] = axis.fit.rms / io::kMicrometre;
   const AxisSd sd = sdAcross(axis);
   json["sd_point_um"] = sd.point / io::kMicrometre;

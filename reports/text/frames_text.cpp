@@ -39,7 +39,9 @@ void writeAxes(const frames::Frames& frames, Out out) {
     if (axis.measured) {
       double arc = 0.0;
       for (const metrology::AxisCircle& circle : axis.fit.circles) arc = std::max(arc, circle.arc);
-      fmt::format_to(out, "{:>6.0f}d{:>6.1f} µm\n", arc / io::kDegree, axis.fit.rms / io::kMicrometre);
+      fmt::format_to(out, "{:>7}{:>6.1f} µm\n",
+                     axis.fit.circles.empty() ? "-" : fmt::format("{:.0f}d", arc / io::kDegree),
+                     axis.fit.rms / io::kMicrometre);
     } else {
       fmt::format_to(out, "  nominal: {}\n", words(axis.reason));
     }

@@ -25,7 +25,8 @@ std::string framesWords(frames::RemarkId id, const RemarkValues& values) {
       return "joints are coupled ('mimic' in the URDF), and the sweeps show fewer than three reflectors in three "
              "postures, or turns about one direction only";
     case RemarkId::coupled_axes_not_settling:
-      return "joints are coupled ('mimic' in the URDF), and the fit of all axes to the sweeps does not settle: readings "
+      return "joints are coupled ('mimic' in the URDF), and the fit of all axes to the sweeps does not settle: "
+             "readings "
              "and URDF contradict each other";
     case RemarkId::earlier_axis_not_known:
       return fmt::format("axis {} stood away from zero during its sweep and is not measured itself", values.count(0));

@@ -141,7 +141,7 @@ TEST(BaseFromPostures, NominalArmExactly) {
   campaign::Campaign campaign = lab.empty();
   lab.addLoading(campaign, 5, pulledForce);
   const frames::LoadingGeometry start = nominalStart(campaign);
-  const auto found = frames::baseFromPostures(start, frames::unloadedPositions(campaign), 3);
+  const auto found = frames::baseFromPostures(start.arm, frames::unloadedPositions(campaign), 3);
   ASSERT_TRUE(found);
   // The arm's base frame is R0 by the nominal rule: 0.94 m up.
   const Eigen::Isometry3d tracker_from_r0 = lab.tracker_from_base * start.r0_from_base_link.inverse();
@@ -163,7 +163,7 @@ TEST(BaseFromPostures, TurnsAboutOneAxisAreNotEnough) {
   for (campaign::LoadingReading& row : campaign.loading->rows) {
     row.point = lab.seen(degrees(10.0 * row.pose, 10, 0, 20, 40, 30), static_cast<std::size_t>(row.target));
   }
-  EXPECT_FALSE(frames::baseFromPostures(nominalStart(campaign), frames::unloadedPositions(campaign), 3));
+  EXPECT_FALSE(frames::baseFromPostures(nominalStart(campaign).arm, frames::unloadedPositions(campaign), 3));
 }
 
 }  // namespace geometry_calibration_test

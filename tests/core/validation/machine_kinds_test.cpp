@@ -80,6 +80,12 @@ TEST(MachineKinds, FiveAxesAreIdentified) {
   EXPECT_GE(held.hold, held.intervals - 4);
 }
 
+TEST(MachineKinds, AParallelogramIsIdentified) {
+  const Held held = heldOn(MachineKind::parallelogram, 6, true);
+  EXPECT_GE(held.intervals, 30);
+  EXPECT_GE(held.hold, held.intervals - 4);
+}
+
 }  // namespace machine_kinds_test
 
 }  // namespace stiffscope
