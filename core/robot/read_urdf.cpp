@@ -248,7 +248,7 @@ void requireRevolute(const UrdfModel& model, const Chain& chain, const std::stri
     ++axes;
     if (!follows(*joint)) turning.push_back(joint->name);
   }
-  if (axes > kMostJoints) {
+  if (axes > kMostJoints && axes != turning.size()) {
     model.robot().refuse("joint", "",
                          fmt::format("expected at most {} axes between '{}' and '{}', those that follow others "
                                      "('mimic') among them; there are {}",
