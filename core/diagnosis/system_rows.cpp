@@ -23,10 +23,10 @@ std::vector<std::map<int, double>> timesOf(const campaign::Campaign& campaign) {
   return times;
 }
 
+/// `posture`: of the case, unloaded.
 Eigen::Matrix3d cellAxes(const campaign::LoadCell& cell, const frames::LoadingGeometry& geometry,
-                         const identification::LoadCase& one) {
+                         const identification::LoadCase& one, const robot::ArmPosture& posture) {
   Eigen::Matrix3d axes;
-  const robot::ArmPosture posture = identification::unloadedPosture(geometry.arm, one);
   for (int k = 0; k < 3; ++k) {
     const Vector6d unit = Vector6d::Unit(k);
     axes.col(k) =
@@ -98,6 +98,14 @@ class LoadingRowMaker {
                          [&](const identification::TargetMove& move) { return move.target == target; });
   }
 
+  /// What the states of a posture have in common.
+  struct Unloaded {
+    JointMatrix stiffening;    ///< K_c of the own weight
+    double compensator = 0.0;  ///< on joint 2
+    JointVector q_sagged;      ///< of the case before
+    robot::ArmPosture posture;
+  };
+
   SystemRows rowsOf(int pose, const std::vector<identification::LoadCase>& cases, const std::vector<int>& targets,
                     double largest) const {
     const auto per_state = 3 * static_cast<Eigen::Index>(targets.size());
@@ -116,29 +124,35 @@ class LoadingRowMaker {
     rows.loaded_readings = std::max(1, cases.front().targets.front().loaded_readings);
     rows.states.reserve(cases.size() + 1);
     rows.states.push_back(rest);
+    Unloaded unloaded{robot::geometricStiffness(rest.axes, rest.posture, geometry_.weight),
+                      compensatorSlope(at_, rest.turned),
+                      {},
+                      {}};
     for (std::size_t k = 0; k < cases.size(); ++k) {
-      addState(cases[k], rest, largest, static_cast<Eigen::Index>(k) * per_state, rows);
+      if (unloaded.q_sagged.size() == 0 || unloaded.q_sagged != cases[k].q_sagged) {
+        unloaded.q_sagged = cases[k].q_sagged;
+        unloaded.posture = identification::unloadedPosture(geometry_.arm, cases[k]);
+      }
+      addState(cases[k], rest, unloaded, largest, static_cast<Eigen::Index>(k) * per_state, rows);
     }
     rows.states.front().cell_axes = rows.states[1].cell_axes;
     if (cases.front().absolute) addPosition(rest, rows);
     return rows;
   }
 
-  void addState(const identification::LoadCase& one, const effects::ArmState& rest, double largest, Eigen::Index at_row,
-                SystemRows& rows) const {
+  void addState(const identification::LoadCase& one, const effects::ArmState& rest, const Unloaded& unloaded,
+                double largest, Eigen::Index at_row, SystemRows& rows) const {
     effects::ArmState& state = rows.states.emplace_back(rest);
     state.step = one.step;
     state.time_s = timeOf(one.pose, one.step);
     state.loaded = one.wrench.force.norm() > campaign::kReturnShare * largest;
-    state.cell_axes = cellAxes(*campaign_.load_cell, geometry_, one);
+    state.cell_axes = cellAxes(*campaign_.load_cell, geometry_, one, unloaded.posture);
     state.load = corrected(one.wrench, state, corrections_, at_);
-    const robot::ArmAxes axes = robot::axesAt(geometry_.arm, rest.posture);
-    state.load_torque = robot::jointTorque(axes, state.load);
+    state.load_torque = robot::jointTorque(rest.axes, state.load);
     // Springs' torque s = tau + K_c c s, and the Jacobian at the middle of the displacement (see
     // equations.h).
-    JointMatrix change =
-        robot::geometricStiffness(axes, state.load) + robot::geometricStiffness(axes, rest.posture, geometry_.weight);
-    change(1, 1) += compensatorSlope(at_, rest.turned);
+    JointMatrix change = robot::geometricStiffness(rest.axes, state.load) + unloaded.stiffening;
+    change(1, 1) += unloaded.compensator;
     const Eigen::Index joints = change.rows();
     const JointMatrix system = JointMatrix::Identity(joints, joints) - change * at_.compliance.asDiagonal();
     const JointVector torque = solveLu(system, state.load_torque);
@@ -146,7 +160,7 @@ class LoadingRowMaker {
         effects::movedPosture(geometry_.arm, rest.turned + 0.5 * at_.compliance.cwiseProduct(torque), rest.moved);
     const robot::ArmAxes middle_axes = robot::axesAt(geometry_.arm, middle);
     Eigen::Matrix<double, Eigen::Dynamic, 6> by_wrench(rest.rows(), 6);
-    const Jacobian torque_to_wrench = robot::jacobianAt(geometry_.arm, rest.posture, state.load.point);
+    const Jacobian torque_to_wrench = robot::jacobianAt(rest.axes, state.load.point);
     for (std::size_t t = 0; t < rest.targets.size(); ++t) {
       const identification::TargetMove& move = moveOf(one, rest.targets[t]);
       const PointJacobian jacobian = robot::pointJacobianAt(middle_axes, 0.5 * (move.unloaded + move.loaded));
@@ -239,6 +253,7 @@ std::vector<SweepRows> sweepRows(const campaign::Campaign& campaign, const frame
     for (const campaign::WristReading& reading : campaign.wrist_sweep->rows) add(campaign.robot.joints(), reading);
   }
   std::vector<SweepRows> all;
+  all.reserve(by_index.size());
   for (auto& [key, rows] : by_index) {
     rows.sag_by_compliance = effects::byEachJoint(rows.state, rows.state.weight_torque);
     all.push_back(std::move(rows));

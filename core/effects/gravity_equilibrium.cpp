@@ -26,6 +26,7 @@ BodyMotions motionsOf(const LinearizationPoint& at, const PostureStates& rest) {
   }
   BodyMotions all = noBodyMotions(bodies);
   for (std::size_t first = 1; first < by_body.size(); ++first) {
+    all[first] = all[first - 1];
     const Vector6d& twist = by_body[first];
     if (twist.isZero(0.0)) continue;
     // A screw: the rotation about its own axis, not about the origin, so that large arms do not bend it.
@@ -35,8 +36,7 @@ BodyMotions motionsOf(const LinearizationPoint& at, const PostureStates& rest) {
         square > 0.0 ? Eigen::Vector3d(turn.cross(shift) / square) : Eigen::Vector3d(Eigen::Vector3d::Zero());
     Vector6d about_centre;
     about_centre << turn, shift + turn.cross(centre);
-    const Eigen::Isometry3d own = metrology::motionAbout(centre, about_centre);
-    for (std::size_t b = first; b < all.size(); ++b) all[b] = own * all[b];
+    all[first] = metrology::motionAbout(centre, about_centre) * all[first];
   }
   return all;
 }
@@ -56,8 +56,8 @@ JointVector presentTurn(const LinearizationPoint& at, const ArmState& state) { r
 ArmState gravityEquilibrium(const frames::LoadingGeometry& geometry, const LinearizationPoint& at,
                             const JointVector& q) {
   const JointVector sagged = geometry.sagged(q);
-  PostureStates rest{stateMoved(geometry, q, sagged, noBodyMotions(geometry.arm.axes()))};
-  ArmState& state = rest.front();
+  PostureStates rest;
+  ArmState& state = rest.emplace_back(stateMoved(geometry, q, sagged, noBodyMotions(geometry.arm.axes())));
   if (at.present.empty()) return std::move(state);
   const bool turns = at.jointsTurn(), bodies = at.bodiesMove();
   constexpr int kRounds = 5;  // torques change with turns and motions by a hundredth with a strong effect
@@ -78,7 +78,8 @@ ArmState gravityEquilibrium(const frames::LoadingGeometry& geometry, const Linea
 
 Eigen::Isometry3d lastBodyNear(const frames::LoadingGeometry& geometry, const LinearizationPoint& at,
                                const ArmState& near) {
-  const PostureStates rest{stateMoved(geometry, near.q, near.turned, near.moved)};
+  PostureStates rest;
+  rest.push_back(stateMoved(geometry, near.q, near.turned, near.moved));
   JointVector turned = near.q + geometry.springTurns(rest.front().weight_torque);
   if (at.jointsTurn()) turned += turnOf(at, rest);
   return movedPosture(geometry.arm, turned, motionsOf(at, rest)).motion.back();

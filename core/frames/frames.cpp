@@ -276,9 +276,11 @@ Frames refineFrames(const campaign::Campaign& campaign, const Frames& so_far, co
   Frames frames = measuredWith(compliance);
   frames.sag_removed = true;
   frames.sag_note = Remark(RemarkId::sag_taken_off);
-  const Frames as_read = measureOnce(campaign, SagModel());
+  // `so_far` is of the same sweeps, so that what they give as they were read need not be measured again.
   for (std::size_t i = 0; i < frames.links.size(); ++i) {
-    frames.links[i].distance_by_sag = frames.links[i].distance - as_read.links[i].distance;
+    const LinkGeometry& before = so_far.links[i];
+    const double as_read = so_far.sag_removed ? before.distance - before.distance_by_sag : before.distance;
+    frames.links[i].distance_by_sag = frames.links[i].distance - as_read;
   }
   std::optional<Eigen::VectorXd> by_masses;
   if (campaign.mass_sigma > 0.0 && frames.arm.points_placed) {

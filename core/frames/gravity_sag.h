@@ -20,8 +20,16 @@ class SagModel {
 
   bool active() const { return active_; }
 
-  /// Displacement of target `target` by the sag at joint angles q, in the axes of the readings, m.
-  Eigen::Vector3d displacement(const JointVector& q, int target) const;
+  /// Motion of the last body from zero at one posture, by the joint angles and with the sag.
+  struct Stop {
+    Eigen::Isometry3d rigid, sagged;
+  };
+
+  /// Where the sag is active: the last body at joint angles q, which all targets of a stop have in common.
+  Stop at(const JointVector& q) const;
+
+  /// Displacement of target `target` there, in the axes of the readings, m; zero where its place is not known.
+  Eigen::Vector3d displacement(const Stop& at, int target) const;
 
  private:
   bool active_ = false;
