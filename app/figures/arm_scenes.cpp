@@ -152,13 +152,20 @@ render::ArmScene postureScene(const reports::ReportCampaign& one, std::size_t in
 
 namespace {
 
-/// The oblique view; where load and deflection would run along it, turned about the vertical until they are seen from
-/// the side.
-std::optional<Eigen::Vector3d> viewAcross(const Eigen::Vector3d& force) {
-  constexpr double kNearlyAlong = 0.9, kTurn = -M_PI / 3.0;
+/// None: the oblique view. Where load and deflection would run along it, it is turned about the vertical until they are
+/// seen from the side, to the hand where the arm's `reach` (from its foot to the flange) is seen longer.
+std::optional<Eigen::Vector3d> viewAcross(const Eigen::Vector3d& force, const Eigen::Vector3d& reach) {
+  constexpr double kNearlyAlong = 0.9, kTurn = M_PI / 3.0;
   const Eigen::Vector3d oblique = render::directionOf(render::View::oblique);
   if (std::abs(oblique.dot(force.normalized())) < kNearlyAlong) return std::nullopt;
-  return Eigen::AngleAxisd(kTurn, Eigen::Vector3d::UnitZ()) * oblique;
+  const auto turned = [&oblique](double angle) {
+    return Eigen::Vector3d(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()) * oblique);
+  };
+  const auto seen = [&reach](const Eigen::Vector3d& view) {
+    return std::abs(view.cross(Eigen::Vector3d::UnitZ()).normalized().dot(reach));
+  };
+  const Eigen::Vector3d one = turned(kTurn), other = turned(-kTurn);
+  return seen(one) > seen(other) ? one : other;
 }
 
 }  // namespace
@@ -166,7 +173,8 @@ std::optional<Eigen::Vector3d> viewAcross(const Eigen::Vector3d& force) {
 render::ArmScene deflectionScene(const reports::ReportCampaign& one) {
   const std::size_t median = medianCase(one);
   render::ArmScene scene = postureScene(one, median, reports::shownMethod(one.identification));
-  scene.view_direction = viewAcross(one.identification.cases[median].wrench.force);
+  const auto& joints = scene.poses.front().joint_points;
+  scene.view_direction = viewAcross(one.identification.cases[median].wrench.force, joints.back() - joints.front());
   return scene;
 }
 

@@ -510,7 +510,7 @@ void writeOpening(Html& html, const reports::ReportContent& content) {
       html.leaf("span", number.words);
     }
   }
-  // Beside pictures one above the other there is room for the words.
+  // Beside pictures one above the other there is room for the words; on paper they stand below.
   const bool several_pictures =
       loaded && std::count_if(content.figures.begin(), content.figures.end(),
                               [](const reports::Figure& figure) { return figure.section == "opening"; }) > 1;
@@ -523,9 +523,9 @@ void writeOpening(Html& html, const reports::ReportContent& content) {
       std::vector<Facts> facts;
       for (const reports::ReportCampaign& one : content.campaigns) facts.push_back(whoAndWhat(one));
       writeFacts(html, "What was measured, by whom and with what", columnNames(content), sideBySide(facts));
-      if (several_pictures) html.paragraph(content.verdict);
     }
     writeFiguresOf(html, content, "opening");
+    if (several_pictures) html.paragraph(content.verdict, "told");
   }
   writeAcceptance(html, content);
   if (loaded && !several_pictures) html.paragraph(content.verdict);

@@ -566,6 +566,7 @@
         line(origin, tip, palette.ink, 2);
         write(name, tip[0] + 6, tip[1] - 4);
       });
+      const taken = [];  // boxes that labels keep clear of
       const tip = loadTip(this.frame);
       if (tip) {
         const from = this.spotOf(this.frame.load_at), to = this.spotOf(tip);
@@ -573,11 +574,16 @@
         if (along >= 12) {  // a load seen end on has no direction to draw
           arrow(from, to, palette.paper, 9, 20);
           arrow(from, to, palette.ink, 5, 17);
-          write('load', to[0] + 10, to[1] + 4, true);
+          for (let i = 0; i <= 8; ++i) {
+            const at = [from[0] + (i / 8) * (to[0] - from[0]), from[1] + (i / 8) * (to[1] - from[1])];
+            taken.push([at[0] - 7, at[1] - 7, at[0] + 7, at[1] + 7]);
+          }
+          const side = to[0] >= from[0] - 20 ? to[0] + 11 : to[0] - 11 - write('load', 0, 0, true, true);
+          taken.push([side, to[1] - 5, write('load', side, to[1] + 4, true), to[1] + 13]);
         }
       }
       // A label stands beside its point, on the first side where it covers neither a point nor another label.
-      const taken = this.frame.points.map((point) => this.spotOf(point.at)).map(([x, y]) => [x - 6, y - 6, x + 6, y + 6]);
+      for (const [x, y] of this.frame.points.map((point) => this.spotOf(point.at))) taken.push([x - 6, y - 6, x + 6, y + 6]);
       for (const point of this.frame.points) {
         const [x, y] = this.spotOf(point.at);
         const wide = write(point.label, 0, 0, true, true), low = 9;

@@ -15,7 +15,8 @@ using nlohmann::json;
 
 const fs::path kSample = fs::path(STIFFSCOPE_SOURCE_DIR) / "samples" / "active";
 
-/// The sample without its loads: a day of sweeps alone, without those that `without` names. The load cell stays declared.
+/// The sample without its loads: a day of sweeps alone, without those that `without` names. The load cell stays
+/// declared.
 fs::path sweepsOnly(const ScratchFolder& scratch, const std::string& without = {}) {
   const fs::path folder = scratch.path() / "sweeps";
   fs::copy(kSample, folder);
@@ -53,7 +54,7 @@ TEST(Report, HasTheAuditItsRejectedReadingsAndItsFiles) {
   for (const json& name : results["files"]) EXPECT_TRUE(fs::exists(out / name.get<std::string>())) << name;
   const std::string page = contentsOf(out / "report.html");
   EXPECT_NE(page.find("<section id=\"audit\">"), std::string::npos);
-  EXPECT_NE(page.find("The audit warns"), std::string::npos);
+  EXPECT_NE(page.find("The audit finds the readings fit to identify from, and warns of"), std::string::npos);
   EXPECT_NE(page.find("No reading was rejected."), std::string::npos);
   EXPECT_NE(page.find("none left out; no drift of the station taken off"), std::string::npos);
 }
@@ -84,9 +85,10 @@ TEST(Report, OfAMistakenDayBeginsWithTheMistakeAndNotWithWhatItLooksLike) {
   ASSERT_LE(ran.status, 1) << ran.err;
   const std::string page = contentsOf(out / "report.html");
   const std::string first = page.substr(page.find("<header>"), page.find("<nav") - page.find("<header>"));
-  EXPECT_NE(first.find("The audit suspects a mistake in the files, wrench sign of the columns fz_n of states.csv: turn the "
-                       "sign of fz_n, then make this report again."),
-            std::string::npos);
+  EXPECT_NE(
+      first.find("The audit suspects a mistake in the files, wrench sign of the columns fz_n of states.csv: turn the "
+                 "sign of fz_n, then make this report again."),
+      std::string::npos);
   EXPECT_NE(first.find("class=\"judgement bad\""), std::string::npos);
   EXPECT_EQ(first.find("tare the cell"), std::string::npos);  // what a diagnosis makes of the wrong sign
   EXPECT_EQ(first.find("Besides joint springs"), std::string::npos);
