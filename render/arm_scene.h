@@ -19,6 +19,14 @@ struct ScenePoint {
   std::optional<Eigen::Vector3d> residual = std::nullopt;  ///< measured - predicted
 };
 
+/// What pulls at the arm: an arrow in its direction, of one length whatever the force, for newtons have no scale beside
+/// magnified millimetres.
+struct SceneLoad {
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();     ///< where it acts, base frame, m
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< base frame, N
+  std::string label;
+};
+
 /// The arm in one posture. Points and directions in the base frame.
 struct ArmPose {
   /// From the first joint to the flange, m; the flange is last. Points may coincide (a spherical wrist).
@@ -28,6 +36,7 @@ struct ArmPose {
   std::vector<ScenePoint> targets;  ///< reflectors, drawn as small spheres
   std::optional<ScenePoint> wrist;  ///< the wrist centre, drawn as a larger one
   bool ghost = false;               ///< drawn pale, behind the others, without labels: one of several postures
+  std::optional<SceneLoad> load = std::nullopt;  ///< not drawn of a ghost
 };
 
 /// Readings that belong together, drawn as dots over the arm: those of a circle sweep. Base frame, m.

@@ -46,7 +46,8 @@ void addJoints(const ReportCampaign& inactive, const ReportCampaign& active, con
 DayKind kindOf(const ReportCampaign& one) {
   if (one.accuracy != nullptr) return DayKind::unloaded;
   const campaign::Campaign& campaign = one.campaign;
-  const bool states = campaign.loading || campaign.displacements || campaign.states || campaign.load_cell;
+  // A load cell that is declared and was not read makes no loaded day.
+  const bool states = campaign.loading || campaign.displacements || campaign.states;
   const bool sweeps = campaign.circle_sweeps || campaign.wrist_sweep;
   return one.identification.cases.empty() && sweeps && !states ? DayKind::sweeps : DayKind::loaded;
 }

@@ -41,6 +41,7 @@
 #include "reports/words/calibration_words.h"
 #include "reports/words/day_words.h"
 #include "reports/words/extended_model_words.h"
+#include "reports/words/names.h"
 #include "reports/words/verdict.h"
 
 namespace stiffscope::app {
@@ -253,7 +254,11 @@ void addExtendedModel(const ModelChoice& choice, const std::list<Result>& result
                                                    : reports::asIs(fmt::format("{}", fmt::join(choice.with, ", ")))});
   content.settings.push_back({"subsets with effects", "all up to 1000, else a sample with seed 1"});
   for (const Result& one : results) {
-    if (one.improved) content.verdict += " " + reports::asIs(reports::gainWords(*one.improved));
+    if (!one.improved) continue;
+    const std::string state = reports::encoderWords(one.campaign().double_encoder);
+    const std::string label = state.empty() ? one.campaign().name : reports::capitalised(state);
+    content.verdict +=
+        " " + reports::asIs((results.size() > 1 ? label + ": " : std::string()) + reports::gainWords(*one.improved));
   }
 }
 

@@ -1,7 +1,9 @@
 #include "app/figures/arm_scenes.h"
 
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <set>
 #include <utility>
@@ -78,6 +80,7 @@ render::ArmPose armPose(const reports::ReportCampaign& one, std::size_t index,
     pose.targets.push_back(pointOf(reports::pointName(one.campaign.targets[static_cast<std::size_t>(move.target)].id),
                                    move.unloaded, move.displacement(), &identification::MethodResult::target_rows, t));
   }
+  pose.load = render::SceneLoad{load_case.wrench.point + up, load_case.wrench.force, "load"};
   if (index < result.wrist.size()) {
     const identification::WristMove& move = result.wrist[index];
     pose.wrist = pointOf("P_{wrist}", move.unloaded, move.displacement(), &identification::MethodResult::wrist_rows, 0);
@@ -147,8 +150,32 @@ render::ArmScene postureScene(const reports::ReportCampaign& one, std::size_t in
   return scene;
 }
 
+namespace {
+
+/// None: the oblique view. Where load and deflection would run along it, it is turned about the vertical until they are
+/// seen from the side, to the hand where the arm's `reach` (from its foot to the flange) is seen longer.
+std::optional<Eigen::Vector3d> viewAcross(const Eigen::Vector3d& force, const Eigen::Vector3d& reach) {
+  constexpr double kNearlyAlong = 0.9, kTurn = M_PI / 3.0;
+  const Eigen::Vector3d oblique = render::directionOf(render::View::oblique);
+  if (std::abs(oblique.dot(force.normalized())) < kNearlyAlong) return std::nullopt;
+  const auto turned = [&oblique](double angle) {
+    return Eigen::Vector3d(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()) * oblique);
+  };
+  const auto seen = [&reach](const Eigen::Vector3d& view) {
+    return std::abs(view.cross(Eigen::Vector3d::UnitZ()).normalized().dot(reach));
+  };
+  const Eigen::Vector3d one = turned(kTurn), other = turned(-kTurn);
+  return seen(one) > seen(other) ? one : other;
+}
+
+}  // namespace
+
 render::ArmScene deflectionScene(const reports::ReportCampaign& one) {
-  return postureScene(one, medianCase(one), reports::shownMethod(one.identification));
+  const std::size_t median = medianCase(one);
+  render::ArmScene scene = postureScene(one, median, reports::shownMethod(one.identification));
+  const auto& joints = scene.poses.front().joint_points;
+  scene.view_direction = viewAcross(one.identification.cases[median].wrench.force, joints.back() - joints.front());
+  return scene;
 }
 
 render::ArmScene allPosturesScene(const reports::ReportCampaign& one) {

@@ -162,6 +162,7 @@ std::string loadedSceneJson(const reports::ReportCampaign& one, const campaign::
   const render::ArmScene picture = deflectionScene(one);
   json["magnification"] = render::automaticMagnification(picture);
   json["residual_factor"] = picture.residual_factor;
+  if (picture.view_direction) json["view"] = vectorJson(*picture.view_direction, 0.01);
   json["corrected"] = before.has_value();
   for (const NamedMaterial& method : methods)
     json["methods"].push_back(
@@ -180,11 +181,32 @@ std::string loadedSceneJson(const reports::ReportCampaign& one, const campaign::
     Json made = frameJson(one.campaign.pose_ids[static_cast<std::size_t>(frame.posture)], frame.where, frame.load,
                           frame.posture, frame.step, frame.scene.poses.front());
     if (frame.force) made["force"] = vectorJson(*frame.force, 1.0);
+    if (const auto& load = frame.scene.poses.front().load) made["load_at"] = placeJson(load->at);
     made["points"] = loadedPoints(frame, i, methods, before ? &*before : nullptr);
     json["frames"].push_back(std::move(made));
   }
   return sceneText(json);
 }
+
+namespace {
+
+/// The frame whose largest vector is the median of all frames'.
+std::size_t medianFrame(const Json& frames) {
+  std::vector<std::pair<double, std::size_t>> largest;
+  for (const Json& frame : frames) {
+    double most = 0.0;
+    for (const Json& point : frame["points"]) {
+      const Json& m = point["m"];
+      most = std::max(most, std::hypot(m[0].get<double>(), m[1].get<double>(), m[2].get<double>()));
+    }
+    largest.emplace_back(most, largest.size());
+  }
+  if (largest.empty()) return 0;
+  std::sort(largest.begin(), largest.end());
+  return largest[(largest.size() - 1) / 2].second;
+}
+
+}  // namespace
 
 std::string accuracySceneJson(const reports::ReportCampaign& one) {
   if (one.accuracy == nullptr || !one.accuracy->calibration.reason.empty()) return {};
@@ -224,6 +246,7 @@ std::string accuracySceneJson(const reports::ReportCampaign& one) {
     }
     json["frames"].back()["points"].push_back(std::move(point));
   }
+  json["first"] = medianFrame(json["frames"]);
   return json["frames"].empty() ? std::string() : sceneText(json);
 }
 

@@ -49,6 +49,10 @@ void requireDrawable(const ArmPose& pose) {
   }
   for (const ScenePoint& target : pose.targets) requireFinite(target);
   if (pose.wrist) requireFinite(*pose.wrist);
+  if (pose.load) {
+    requireFinite(pose.load->at, "the place of the load");
+    requireFinite(pose.load->force, "the force of the load");
+  }
 }
 
 }  // namespace

@@ -188,6 +188,13 @@ double ArmProportions::radiusAt(double along) const {
   return std::lerp(base_radius, tip_radius, length > 0 ? along / length : 0);
 }
 
+bool drawsLoad(const ArmPose& pose) { return !pose.ghost && pose.load && pose.load->force.norm() > 0.0; }
+
+Eigen::Vector3d loadTip(const ArmPose& pose) {
+  constexpr double kShare = 0.15;
+  return pose.load->at + kShare * ArmProportions(pose).length * pose.load->force.normalized();
+}
+
 void addArm(Mesh& mesh, const ArmPose& pose, const Palette& palette) {
   const ArmProportions proportions(pose);
   const double faint = pose.ghost ? 0.4 : 1;
@@ -222,6 +229,7 @@ Eigen::AlignedBox3d extentOf(const ArmScene& scene, double magnification, const 
     for (const auto& point : pose.joint_points) include(point, 1.8 * proportions.base_radius);
     const Eigen::Vector3d& first = pose.joint_points.front();
     include({first.x(), first.y(), std::min(0.0, first.z())}, 2.2 * proportions.base_radius);
+    if (drawsLoad(pose)) include(loadTip(pose), proportions.tip_radius);
   }
   const double around = ArmProportions(scene.poses.front()).tip_radius;
   for (const auto& point : pointsOf(scene, magnification)) include(point, around);

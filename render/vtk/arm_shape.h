@@ -58,6 +58,11 @@ struct ArmProportions {
   double target_radius = 0;
 };
 
+/// Where the arrow of the pose's load ends: 0.15 of the arm's length from where the load acts. Needs a load with a
+/// force.
+Eigen::Vector3d loadTip(const ArmPose& pose);
+bool drawsLoad(const ArmPose& pose);
+
 /// Pedestal, links, drums, flange, holders of the targets, targets and wrist centre of one posture.
 void addArm(Mesh& mesh, const ArmPose& pose, const Palette& palette);
 

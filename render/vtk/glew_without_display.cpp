@@ -5,10 +5,11 @@
 
 extern "C" __attribute__((visibility("default"))) unsigned int glewInit() {
   constexpr unsigned int kNotLoaded = 1;
-  constexpr unsigned int kNoGlxDisplay = 4;
+  // Mesa 22 has a stub for any function, so GLEW asks for the display and there is none; Mesa 25 has none for GLX's.
+  constexpr unsigned int kNoGlx = 3, kNoGlxDisplay = 4;
   const auto real = reinterpret_cast<unsigned int (*)()>(dlsym(RTLD_NEXT, "glewInit"));
   if (real == nullptr) return kNotLoaded;
   const unsigned int result = real();
   // By then the function pointers are loaded; only what concerns a display is missing, and there is none.
-  return result == kNoGlxDisplay ? 0 : result;
+  return result == kNoGlx || result == kNoGlxDisplay ? 0 : result;
 }

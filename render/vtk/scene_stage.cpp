@@ -220,6 +220,19 @@ void paintTriad(Canvas& canvas, const SceneStage& stage, LabelPlacer& labels) {
   }
 }
 
+void paintLoad(Canvas& canvas, const SceneStage& stage, const ArmPose& pose, LabelPlacer& labels) {
+  const Spot from = stage.projection.spotOf(pose.load->at), tip = stage.projection.spotOf(loadTip(pose));
+  // A load seen end on has no direction to draw.
+  if (std::hypot(tip.x - from.x, tip.y - from.y) < 12 * stage.unit) return;
+  const double head = 22 * stage.unit, width = 6 * stage.unit, rim = 4 * stage.unit;
+  drawArrow(canvas, from, tip, stage.surface.palette.paper, width + rim, head + rim);
+  drawArrow(canvas, from, tip, stage.surface.palette.ink, width, head);
+  labels.takeLine(from, tip, head);
+  TextStyle style = labelStyle(canvas);
+  style.bold = true;
+  labels.place(pose.load->label, tip, 8 * stage.unit, style);
+}
+
 void paintRing(Canvas& canvas, const SceneStage& stage, const Eigen::Vector3d& point) {
   const Spot centre = stage.projection.spotOf(point);
   const double radius = std::max(15 * stage.unit, 1.4 * ballPixels(stage, stage.scene.poses.front()));
@@ -253,6 +266,9 @@ void paintLabels(Canvas& canvas, const SceneStage& stage) {
   paintTriad(canvas, stage, labels);
   for (const ArmPose& pose : stage.scene.poses) {
     if (!pose.ghost) takeArm(labels, stage, pose);
+  }
+  for (const ArmPose& pose : stage.scene.poses) {
+    if (drawsLoad(pose)) paintLoad(canvas, stage, pose, labels);
   }
   forEachPoint(stage.scene, [&](const ScenePoint& point, const ArmPose& pose) {
     if (pose.ghost || point.label.empty() || !inRoom(stage, point.position)) return;

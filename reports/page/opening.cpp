@@ -249,6 +249,7 @@ void addStiffnesses(const reports::ReportContent& content, reports::Table& table
         std::find(methods.begin(), methods.end(), name) == methods.end())
       methods.push_back(name);
   }
+  if (methods.empty()) return;  // the verdict says why
   const bool one_method = methods.size() == 1;
   std::vector<double> stiffnesses;
   for (const reports::ReportCampaign& one : content.campaigns) {
@@ -421,16 +422,33 @@ void writeJudgements(Html& html, const reports::ReportContent& content) {
   }
 }
 
+/// The audit fails and knows a mistake of the files that would do so.
+bool explainedByMistakes(const reports::ReportCampaign& one) {
+  return auditFails(one) && !one.audit->suspected.empty();
+}
+
+std::string mendWords(const mistakes::Suspected& suspected) {
+  return fmt::format("The audit suspects a mistake in the files, {} of the {}: {}, then make this report again.",
+                     reports::auditName(std::string(suspected.mistake.name())), reports::words(suspected.where),
+                     reports::words(suspected.remedy));
+}
+
 /// What a reader does with the result, the most pressing first; nothing where nothing is known to be open.
 void writeNext(Html& html, const reports::ReportContent& content) {
   std::vector<std::string> steps;
   const auto& campaigns = content.campaigns;
-  if (std::any_of(campaigns.begin(), campaigns.end(), auditFails)) {
+  for (const reports::ReportCampaign& one : campaigns) {
+    if (!explainedByMistakes(one)) continue;
+    for (const mistakes::Suspected& suspected : one.audit->suspected) steps.push_back(mendWords(suspected));
+  }
+  if (steps.empty() && std::any_of(campaigns.begin(), campaigns.end(), auditFails)) {
     steps.emplace_back(
         "See under Audit which readings fail and why; measure them again, or state why the result stands without "
         "them.");
   }
   for (const reports::ReportCampaign& one : campaigns) {
+    // What a diagnosis says of readings with a mistake in them, it says of the mistake.
+    if (explainedByMistakes(one)) continue;
     std::vector<std::string> own;
     if (one.diagnosis != nullptr && one.diagnosis->usable) own = diagnosisActions(*one.diagnosis);
     if (isCalibrated(one)) own = reports::accuracyActions(*one.accuracy);
@@ -453,16 +471,35 @@ void writeNext(Html& html, const reports::ReportContent& content) {
 
 }  // namespace
 
+namespace {
+
+/// The campaign, or of several the machine, and the dates, before the report's number.
+std::string whatAndWhen(const reports::ReportContent& content) {
+  std::vector<std::string> parts;
+  const auto add = [&parts](const std::string& words) {
+    if (!words.empty() && std::find(parts.begin(), parts.end(), reports::asIs(words)) == parts.end())
+      parts.push_back(reports::asIs(words));
+  };
+  for (const reports::ReportCampaign& one : content.campaigns)
+    add(content.campaigns.size() == 1 ? one.campaign.name : one.campaign.robot.name);
+  for (const reports::ReportCampaign& one : content.campaigns) add(one.campaign.date);
+  return parts.empty() ? std::string() : fmt::format("{} · ", fmt::join(parts, " · "));
+}
+
+}  // namespace
+
 void writeOpening(Html& html, const reports::ReportContent& content) {
   const auto header = html.element("header");
   html.leaf("h1", content.title);
-  html.paragraph(fmt::format("Report {}", reports::reportId(content)), "faint");
+  html.paragraph(whatAndWhen(content) + fmt::format("Report {}", reports::reportId(content)), "faint");
   const bool loaded = reports::anyOfKind(content.campaigns, reports::DayKind::loaded);
   // Of loads two sentences: what the audit says, what the diagnosis finds; the numbers are in the table below.
   writeJudgements(html, content);
-  if (const std::string diagnosis = reports::diagnosisVerdict(content.campaigns); !diagnosis.empty())
+  const bool mistaken = std::any_of(content.campaigns.begin(), content.campaigns.end(), explainedByMistakes);
+  if (const std::string diagnosis = reports::diagnosisVerdict(content.campaigns); !diagnosis.empty() && !mistaken)
     html.paragraph(diagnosis, "verdict");
-  if (!loaded) html.paragraph(content.verdict, "verdict");
+  const bool fails = std::any_of(content.campaigns.begin(), content.campaigns.end(), auditFails);
+  if (!loaded) html.paragraph(content.verdict, fails ? "verdict bad" : "verdict");
   if (content.campaigns.empty()) return;
   writeNext(html, content);
   if (const std::vector<KeyNumber> numbers = keyNumbers(content); !numbers.empty()) {
@@ -473,19 +510,25 @@ void writeOpening(Html& html, const reports::ReportContent& content) {
       html.leaf("span", number.words);
     }
   }
+  // Beside pictures one above the other there is room for the words; on paper they stand below.
+  const bool several_pictures =
+      loaded && std::count_if(content.figures.begin(), content.figures.end(),
+                              [](const reports::Figure& figure) { return figure.section == "opening"; }) > 1;
   {
     const auto first = html.element("div", {{"class", "first"}});
     {
       const auto result = html.element("div", {{"class", "result"}});
-      writeTable(html, resultTable(content));
+      if (const reports::Table table = resultTable(content); !table.groups.front().rows.empty())
+        writeTable(html, table);
       std::vector<Facts> facts;
       for (const reports::ReportCampaign& one : content.campaigns) facts.push_back(whoAndWhat(one));
       writeFacts(html, "What was measured, by whom and with what", columnNames(content), sideBySide(facts));
     }
     writeFiguresOf(html, content, "opening");
+    if (several_pictures) html.paragraph(content.verdict, "told");
   }
   writeAcceptance(html, content);
-  if (loaded) html.paragraph(content.verdict);
+  if (loaded && !several_pictures) html.paragraph(content.verdict);
   writeWarnings(html, content);
 }
 

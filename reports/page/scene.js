@@ -136,6 +136,14 @@
     return { base, tip, target: 0.6 * tip, at: (along) => base + (tip - base) * (length > 0 ? along / length : 0) };
   }
 
+  // Where the arrow of a load ends, whatever the force: newtons have no scale beside magnified millimetres.
+  function loadTip(frame) {
+    if (!frame.load_at || !(norm(frame.force) > 0)) return null;
+    let length = 0;
+    for (let i = 1; i < frame.joints.length; ++i) length += norm(sub(frame.joints[i], frame.joints[i - 1]));
+    return add(frame.load_at, times(unit(frame.force), 0.15 * length));
+  }
+
   function addArm(mesh, frame, palette) {
     const size = proportions(frame);
     const joints = frame.joints;
@@ -240,7 +248,8 @@
       this.magnification = data.magnification;
       this.residualFactor = data.residual_factor;
       this.dark = matchMedia('(prefers-color-scheme: dark)').matches;
-      this.direction = VIEWS[4];
+      this.home = data.view ? unit(data.view) : VIEWS[4];
+      this.direction = this.home;
       this.held = null;
       this.build();
       this.bind();
@@ -375,6 +384,7 @@
         const size = proportions(frame);
         for (const joint of frame.joints) include(joint, 1.8 * size.base);
         include([frame.joints[0][0], frame.joints[0][1], 0], 2.2 * size.base);
+        if (loadTip(frame)) include(loadTip(frame), size.tip);
         for (const point of frame.points) {
           include(point.at, size.tip);
           const vectors = this.vectorsOf(point);
@@ -510,14 +520,23 @@
       pen.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
       pen.clearRect(0, 0, this.width, this.height);
       pen.textBaseline = 'middle';
-      const write = (text, x, y, bold) => {
-        pen.font = (bold ? '600 ' : '') + '13px system-ui, sans-serif';
-        pen.lineJoin = 'round';
-        pen.lineWidth = 4;
-        pen.strokeStyle = css(palette.paper);
-        pen.strokeText(plain(text), x, y);
-        pen.fillStyle = css(palette.ink);
-        pen.fillText(plain(text), x, y);
+      // x_{abc} with a subscript; returns where the text ends.
+      const write = (text, x, y, bold, measure = false) => {
+        text.split(/_\{([^}]*)\}/).forEach((part, i) => {
+          if (!part) return;
+          const low = i % 2 === 1;
+          pen.font = (bold ? '600 ' : '') + (low ? '10px' : '13px') + ' system-ui, sans-serif';
+          if (!measure) {
+            pen.lineJoin = 'round';
+            pen.lineWidth = 4;
+            pen.strokeStyle = css(palette.paper);
+            pen.strokeText(part, x, y + (low ? 4 : 0));
+            pen.fillStyle = css(palette.ink);
+            pen.fillText(part, x, y + (low ? 4 : 0));
+          }
+          x += pen.measureText(part).width;
+        });
+        return x;
       };
       const line = (from, to, colour, width) => {
         pen.strokeStyle = css(colour);
@@ -527,6 +546,18 @@
         pen.lineTo(...to);
         pen.stroke();
       };
+      const arrow = (from, to, colour, width, head) => {
+        const away = Math.hypot(to[0] - from[0], to[1] - from[1]);
+        const way = [(to[0] - from[0]) / away, (to[1] - from[1]) / away], wing = 0.42 * head;
+        const neck = [to[0] - head * way[0], to[1] - head * way[1]];
+        line(from, neck, colour, width);
+        pen.fillStyle = css(colour);
+        pen.beginPath();
+        pen.moveTo(...to);
+        pen.lineTo(neck[0] - wing * way[1], neck[1] + wing * way[0]);
+        pen.lineTo(neck[0] + wing * way[1], neck[1] - wing * way[0]);
+        pen.fill();
+      };
       const origin = this.spotOf(this.data.origin);
       const long = (70 * this.view.high_mm) / this.height;
       ['x₀', 'y₀', 'z₀'].forEach((name, i) => {
@@ -535,13 +566,34 @@
         line(origin, tip, palette.ink, 2);
         write(name, tip[0] + 6, tip[1] - 4);
       });
-      const taken = [];
+      const taken = [];  // boxes that labels keep clear of
+      const tip = loadTip(this.frame);
+      if (tip) {
+        const from = this.spotOf(this.frame.load_at), to = this.spotOf(tip);
+        const along = Math.hypot(to[0] - from[0], to[1] - from[1]);
+        if (along >= 12) {  // a load seen end on has no direction to draw
+          arrow(from, to, palette.paper, 9, 20);
+          arrow(from, to, palette.ink, 5, 17);
+          for (let i = 0; i <= 8; ++i) {
+            const at = [from[0] + (i / 8) * (to[0] - from[0]), from[1] + (i / 8) * (to[1] - from[1])];
+            taken.push([at[0] - 7, at[1] - 7, at[0] + 7, at[1] + 7]);
+          }
+          const side = to[0] >= from[0] - 20 ? to[0] + 11 : to[0] - 11 - write('load', 0, 0, true, true);
+          taken.push([side, to[1] - 5, write('load', side, to[1] + 4, true), to[1] + 13]);
+        }
+      }
+      // A label stands beside its point, on the first side where it covers neither a point nor another label.
+      for (const [x, y] of this.frame.points.map((point) => this.spotOf(point.at))) taken.push([x - 6, y - 6, x + 6, y + 6]);
       for (const point of this.frame.points) {
         const [x, y] = this.spotOf(point.at);
-        let below = y;
-        while (taken.some(([tx, ty]) => Math.abs(tx - x) < 60 && Math.abs(ty - below) < 15)) below += 15;
-        taken.push([x, below]);
-        write(point.label, x + 12, below, true);
+        const wide = write(point.label, 0, 0, true, true), low = 9;
+        const places = [[x + 12, y], [x - 12 - wide, y], [x + 8, y - 18], [x + 8, y + 18], [x - 8 - wide, y - 18], [x - 8 - wide, y + 18],
+          [x - wide / 2, y - 24], [x - wide / 2, y + 24]];
+        const isFree = ([left, middle]) => left > 2 && left + wide < this.width - 2 &&
+          !taken.some((box) => left < box[2] && left + wide > box[0] && middle - low < box[3] && middle + low > box[1]);
+        const [left, middle] = places.find(isFree) || places[0];
+        taken.push([left, middle - low, left + wide, middle + low]);
+        write(point.label, left, middle, true);
         if (point.label !== this.picked) continue;
         pen.beginPath();
         pen.arc(x, y, 14, 0, 2 * Math.PI);
@@ -689,7 +741,7 @@
     }
 
     look(view) {
-      this.direction = VIEWS[view];
+      this.direction = view === 4 ? this.home : VIEWS[view];
       this.held = null;
       this.draw();
     }

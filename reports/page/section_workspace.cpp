@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <algorithm>
 #include <cmath>
 
 #include "core/io/units.h"
@@ -45,6 +46,13 @@ reports::Table placesTable(const workspace::WorkspaceStiffness& found, int joint
   return table;
 }
 
+/// Whether a posture has a stiffness; with too many joints unknown none has, and a table of them would be empty.
+bool saysAnything(const workspace::WorkspaceStiffness& found) {
+  return std::any_of(found.postures.begin(), found.postures.end(), [](const workspace::PointStiffness& one) {
+    return !one.of_model.empty() || !one.of_springs.empty();
+  });
+}
+
 }  // namespace
 
 bool hasWorkspace(const reports::ReportCampaign& one) { return one.workspace != nullptr; }
@@ -56,7 +64,11 @@ void writeWorkspace(Html& html, const reports::ReportContent& content) {
                  for (const std::string& note : reports::workspaceNotes(found))
                    html.paragraph(reports::withSubscripts(note));
                  const int joints = one.campaign.robot.joints();
-                 writeTable(html, placesTable(found, joints));
+                 const reports::Table places = placesTable(found, joints);
+                 if (saysAnything(found))
+                   writeTable(html, places);
+                 else
+                   html.keepTable(places.id, reports::csvTable(*places.data));
                  constexpr bool kPostures = true, kSlice = true;
                  html.keepTable("stiffness-slice",
                                 reports::csvTable(reports::stiffnessPlaces(found, joints, !kPostures, kSlice)));

@@ -101,8 +101,8 @@ std::string auditMeaning(const audit::AuditReport& audit, DayKind kind) {
     case preparation::AuditVerdict::pass:
       return fmt::format("The audit passes: the readings are fit to {}.", purposeOf(kind));
     case preparation::AuditVerdict::warn:
-      return fmt::format("The audit warns{}: the readings are fit to {}, with what is said under Audit.",
-                         checksThat(audit, preparation::AuditVerdict::warn, " of "), purposeOf(kind));
+      return fmt::format("The audit finds the readings fit to {}, and warns{} (see Audit).", purposeOf(kind),
+                         checksThat(audit, preparation::AuditVerdict::warn, " of "));
     case preparation::AuditVerdict::not_testable:
       // A day that is not meant for loads does not fail by what only a load would tell.
       if (kind == DayKind::sweeps) return "No check of the audit fails; some need what such a day does not measure.";

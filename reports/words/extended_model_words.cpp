@@ -28,11 +28,11 @@ std::string explainedWords(const extended_model::EffectFit& effects) {
   return fmt::format(
       "Stiffnesses alone leave {:.1f} µm rms per coordinate of the deflection in all load steps, {} {:.1f} µm; noise "
       "alone "
-      "{:.1f} µm. On postures held out the rms shrinks by {:.0f} % ({:.0f} to {:.0f} %), and {:.0f} % of what is above "
+      "{:.1f} µm. On postures held out the rms shrinks by {:.0f} % ({:.0f} to {:.0f} %), and {} % of what is above "
       "the noise "
       "is explained.",
       gap.before / io::kMicrometre, "with the effects", gap.after / io::kMicrometre, gap.noise / io::kMicrometre,
-      100.0 * shrink.value, 100.0 * shrink.low, 100.0 * shrink.high, 100.0 * effects.explained);
+      100.0 * shrink.value, 100.0 * shrink.low, 100.0 * shrink.high, percentNumber(effects.explained, 0));
 }
 
 namespace {
@@ -143,13 +143,13 @@ std::string gainWords(const extended_model::ExtendedModel& model) {
   if (!without.available || !with.available)
     return fmt::format("With {} in the model no method can be compared.", addedWords(model.effects));
   const auto share = [](const identification::MethodResult& method) {
-    return 100.0 *
-           (method.subsets.compliances.empty() ? method.at_targets->all_postures : method.at_targets->subsets.held_out);
+    return percentNumber(
+        method.subsets.compliances.empty() ? method.at_targets->all_postures : method.at_targets->subsets.held_out, 1);
   };
   return fmt::format(
-      "With {} in the model {} leaves {:.0f} µm rms per coordinate instead of {:.0f} µm, and compensates {:.1f} % "
+      "With {} in the model {} leaves {:.0f} µm rms per coordinate instead of {:.0f} µm, and compensates {} % "
       "instead of "
-      "{:.1f} % of the reflectors' deflection{}.",
+      "{} % of the reflectors' deflection{}.",
       addedWords(model.effects), namesOf(which).brief, with.estimate.rms_residual / io::kMicrometre,
       without.estimate.rms_residual / io::kMicrometre, share(with), share(without),
       with.subsets.compliances.empty() ? "" : " in postures held out");

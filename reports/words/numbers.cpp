@@ -124,8 +124,19 @@ std::string toPlaceOf(double value, double width) {
 
 std::string asPrinted(double value) { return withMinus(fmt::format("{}", value)); }
 
+std::string percentNumber(double share, int decimals) {
+  constexpr int kMostDecimals = 2;
+  const auto readsAsWhole = [share](int places) {
+    return share < 1.0 && fixed(100.0 * share, places).starts_with("100");
+  };
+  int places = decimals;
+  while (places < kMostDecimals && readsAsWhole(places)) ++places;
+  if (readsAsWhole(places)) places = decimals;
+  return fixed(100.0 * share, places);
+}
+
 std::string percent(double share, int decimals) {
-  return std::isfinite(share) ? fmt::format("{}\u00a0%", fixed(100.0 * share, decimals)) : kNoNumber;
+  return std::isfinite(share) ? fmt::format("{}\u00a0%", percentNumber(share, decimals)) : kNoNumber;
 }
 
 namespace {

@@ -64,8 +64,10 @@ std::string toPlaceOf(double value, double width);
 /// As few digits as tell the number: for one that comes from print.
 std::string asPrinted(double value);
 
-/// A share as "84.3 %".
+/// A share as "84.3 %". A share that is not the whole is not printed as the whole: with no decimals 0.997 is "99.7 %",
+/// down to a hundredth of a percent.
 std::string percent(double share, int decimals = 1);
+std::string percentNumber(double share, int decimals);  ///< the same without its sign: "84.3"
 
 /// A text of core with its units as people write them: um as µm, urad as µrad, +- as ±, chi2 as χ². Only
 /// whole words are changed.

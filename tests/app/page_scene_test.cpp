@@ -142,21 +142,27 @@ addEventListener('load', async function () {
 });
 </script></body>)js";
 
-TEST_F(PageScene, IsDrawnAsTheOffscreenPictureIs) {
-  if (!installed("chromium")) GTEST_SKIP() << "chromium is not installed";
-  std::string page = page_;
-  page.replace(page.rfind("</body>"), 7, kLook);
-  const auto copy = scratch_->path() / "look.html";
+/// What `script` says, between marks, in a copy of the page that the browser draws by software WebGL; null where it did
+/// not run.
+nlohmann::json saidWithWebGl(std::string page, const char* script, const std::filesystem::path& scratch) {
+  page.replace(page.rfind("</body>"), 7, script);
+  const auto copy = scratch / "look.html";
   std::ofstream(copy, std::ios::binary) << page;
   const Ran ran = runShell(
       "timeout 100 chromium --headless --no-sandbox --no-first-run --use-gl=angle --use-angle=swiftshader "
       "--enable-unsafe-swiftshader --ignore-gpu-blocklist --window-size=1400,1000 --virtual-time-budget=10000 "
       "--user-data-dir='" +
-          (scratch_->path() / "profile").string() + "' --dump-dom 'file://" + copy.string() + "'",
-      scratch_->path());
+          (scratch / "profile").string() + "' --dump-dom 'file://" + copy.string() + "'",
+      scratch);
   const std::size_t close = ran.out.rfind("@@"), open = ran.out.rfind("@@{", close);
-  if (open == std::string::npos) GTEST_SKIP() << "the browser did not run the page";
-  const nlohmann::json seen = nlohmann::json::parse(ran.out.substr(open + 2, close - open - 2));
+  if (open == std::string::npos) return {};
+  return nlohmann::json::parse(ran.out.substr(open + 2, close - open - 2), nullptr, false);
+}
+
+TEST_F(PageScene, IsDrawnAsTheOffscreenPictureIs) {
+  if (!installed("chromium")) GTEST_SKIP() << "chromium is not installed";
+  const nlohmann::json seen = saidWithWebGl(page_, kLook, scratch_->path());
+  if (!seen.is_object()) GTEST_SKIP() << "the browser did not run the page";
   if (seen.contains("none")) GTEST_SKIP() << seen["none"];
   const auto campaign = campaign::readCampaign(STIFFSCOPE_SOURCE_DIR "/samples/active").campaign;
   const auto identified = identification::identify(campaign);
@@ -215,6 +221,66 @@ TEST_F(PageScene, IsDrawnAsTheOffscreenPictureIs) {
   cv::absdiff(moved, offscreen, difference);
   const cv::Scalar mean = cv::mean(difference, a & b);
   EXPECT_LT((mean[0] + mean[1] + mean[2]) / 3.0, 8.0);
+}
+
+/// Marks a posture by a click in a chart, then steps on in the scene by its key; says what scene, tables and chart
+/// show.
+constexpr const char* kFollow = R"js(<script>
+addEventListener('load', async function () {
+  const wait = (ms) => new Promise((done) => setTimeout(done, ms));
+  for (let i = 0; i < 400 && !(window.stiffscopeScenes || []).length; ++i) await wait(25);
+  const say = (what) => { const pre = document.createElement('pre'); pre.textContent = '@@' + JSON.stringify(what) + '@@'; document.body.appendChild(pre); };
+  const scene = window.stiffscopeScenes[0];
+  if (!scene) return say({ none: document.getElementById('deflection').dataset.scene || 'no scene' });
+  const shown = () => ({ posture: scene.frame.id, step: scene.frame.step, choice: scene.postures.value, status: scene.status.textContent,
+    spots: scene.frame.points.map((point) => [point.label, ...point.at]), picture: scene.canvas.toDataURL('image/png'),
+    rows: Array.from(new Set(Array.from(document.querySelectorAll('main tr.marked')).map((row) =>
+      Array.from(row.cells).map((cell) => cell.textContent.trim()).find((text) => text === scene.frame.id) || 'another'))) });
+  const said = { before: shown() };
+  const chart = window.stiffscopeCharts.find((one) => one.hasPostures);
+  const i = chart.data.marks.findIndex((mark) => mark[3] >= 0 && chart.categories[mark[3]] !== scene.frame.id);
+  chart.layer.scrollIntoView({ block: 'center' });
+  const box = chart.layer.getBoundingClientRect(), mark = chart.data.marks[i];
+  const clientX = box.left + mark[0] * box.width, clientY = box.top + mark[1] * box.height;
+  for (const type of ['pointermove', 'click'])
+    document.elementFromPoint(clientX, clientY).dispatchEvent(new PointerEvent(type, { clientX, clientY, bubbles: true }));
+  said.clicked = chart.categories[chart.data.marks[chart.under][3]];
+  said.after_click = shown();
+  scene.canvas.dispatchEvent(new KeyboardEvent('keydown', { key: 'ArrowRight', bubbles: true }));
+  said.after_key = shown();
+  say(said);
+});
+</script></body>)js";
+
+TEST_F(PageScene, FollowsAClickInAChartAndChartsFollowIt) {
+  if (!installed("chromium")) GTEST_SKIP() << "chromium is not installed";
+  const nlohmann::json said = saidWithWebGl(page_, kFollow, scratch_->path());
+  if (!said.is_object()) GTEST_SKIP() << "the browser did not run the page";
+  if (said.contains("none")) GTEST_SKIP() << said["none"];
+  const nlohmann::json &before = said["before"], &clicked = said["after_click"], &stepped = said["after_key"];
+  EXPECT_EQ(before["rows"].dump(), "[]");  // nothing is marked at first
+  EXPECT_NE(clicked["posture"], before["posture"]);
+  EXPECT_EQ(clicked["posture"], said["clicked"]);
+  EXPECT_EQ(clicked["step"], before["step"]);  // another posture, the same load
+  EXPECT_NE(stepped["posture"], clicked["posture"]);
+  const nlohmann::json scene = dataOf("scene", "deflection");
+  for (const nlohmann::json* one : {&clicked, &stepped}) {
+    const std::string posture = one->at("posture");
+    EXPECT_EQ(one->at("choice"), posture);
+    EXPECT_NE(one->at("status").get<std::string>().find("posture " + posture + " ("), std::string::npos);
+    EXPECT_EQ(one->at("rows"), nlohmann::json::array({posture}));  // the marked rows are all of this posture
+    const auto frame = std::find_if(scene["frames"].begin(), scene["frames"].end(), [&](const nlohmann::json& any) {
+      return any["id"] == posture && any["step"] == one->at("step");
+    });
+    ASSERT_NE(frame, scene["frames"].end());
+    nlohmann::json places = nlohmann::json::array();
+    for (const nlohmann::json& point : (*frame)["points"])
+      places.push_back({point["label"], point["at"][0], point["at"][1], point["at"][2]});
+    EXPECT_EQ(one->at("spots"), places);
+  }
+  // And it is drawn: three postures, three pictures.
+  EXPECT_NE(clicked["picture"], before["picture"]);
+  EXPECT_NE(stepped["picture"], clicked["picture"]);
 }
 
 /// Points at every chart, marks a posture by a click and by another takes the mark off, filters; says what came of it.

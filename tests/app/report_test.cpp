@@ -15,12 +15,13 @@ using nlohmann::json;
 
 const fs::path kSample = fs::path(STIFFSCOPE_SOURCE_DIR) / "samples" / "active";
 
-/// The sample without its loads: a day of sweeps alone, with the sweeps that `keep` names.
+/// The sample without its loads: a day of sweeps alone, without those that `without` names. The load cell stays
+/// declared.
 fs::path sweepsOnly(const ScratchFolder& scratch, const std::string& without = {}) {
   const fs::path folder = scratch.path() / "sweeps";
   fs::copy(kSample, folder);
   std::string xml = contentsOf(folder / "campaign.xml");
-  for (const std::string element : {"loading", "states", "load_cell", without.c_str()}) {
+  for (const std::string element : {"loading", "states", without.c_str()}) {
     if (!element.empty()) xml = std::regex_replace(xml, std::regex("\\s*<" + element + "\\s[^>]*/>"), "");
   }
   std::ofstream(folder / "campaign.xml", std::ios::binary) << xml;
@@ -53,9 +54,44 @@ TEST(Report, HasTheAuditItsRejectedReadingsAndItsFiles) {
   for (const json& name : results["files"]) EXPECT_TRUE(fs::exists(out / name.get<std::string>())) << name;
   const std::string page = contentsOf(out / "report.html");
   EXPECT_NE(page.find("<section id=\"audit\">"), std::string::npos);
-  EXPECT_NE(page.find("The audit warns"), std::string::npos);
+  EXPECT_NE(page.find("The audit finds the readings fit to identify from, and warns of"), std::string::npos);
   EXPECT_NE(page.find("No reading was rejected."), std::string::npos);
   EXPECT_NE(page.find("none left out; no drift of the station taken off"), std::string::npos);
+}
+
+TEST(Report, OfAMistakenDayBeginsWithTheMistakeAndNotWithWhatItLooksLike) {
+  const ScratchFolder scratch;
+  const fs::path campaign = scratch.path() / "flipped", out = scratch.path() / "out";
+  fs::copy(kSample, campaign);
+  std::istringstream lines(contentsOf(campaign / "states.csv"));
+  std::ofstream flipped(campaign / "states.csv", std::ios::binary);
+  std::size_t column = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    std::vector<std::string> cells;
+    std::istringstream parts(line);
+    for (std::string cell; std::getline(parts, cell, ',');) cells.push_back(cell);
+    if (column == 0)
+      column = static_cast<std::size_t>(std::find(cells.begin(), cells.end(), "fz_n") - cells.begin());
+    else if (cells.at(column).starts_with('-'))
+      cells[column].erase(0, 1);
+    else
+      cells[column].insert(0, "-");
+    for (std::size_t i = 0; i < cells.size(); ++i) flipped << (i > 0 ? "," : "") << cells[i];
+    flipped << "\n";
+  }
+  flipped.close();
+  const Ran ran = report(campaign, out, scratch);
+  ASSERT_LE(ran.status, 1) << ran.err;
+  const std::string page = contentsOf(out / "report.html");
+  const std::string first = page.substr(page.find("<header>"), page.find("<nav") - page.find("<header>"));
+  EXPECT_NE(
+      first.find("The audit suspects a mistake in the files, wrench sign of the columns fz_n of states.csv: turn the "
+                 "sign of fz_n, then make this report again."),
+      std::string::npos);
+  EXPECT_NE(first.find("class=\"judgement bad\""), std::string::npos);
+  EXPECT_EQ(first.find("tare the cell"), std::string::npos);  // what a diagnosis makes of the wrong sign
+  EXPECT_EQ(first.find("Besides joint springs"), std::string::npos);
 }
 
 TEST(Report, LimitsAreDecidedByTheWholeInterval) {

@@ -221,6 +221,38 @@ TEST(ArmPicture, GhostsAndTargetsAreNotClipped) {
   }
 }
 
+TEST(ArmPicture, LoadIsAnArrowInItsDirectionWhateverTheForce) {
+  const auto changedBy = [](const Vector3d& force, bool ghost = false) {
+    render::ArmScene drawn = scene(render::View::side);
+    drawn.framing = render::SceneFraming{{1.2, 0, 1.2}, 3};
+    drawn.poses[0].ghost = ghost;
+    drawn.poses[0].wrist->label.clear();  // it makes room for the arrow
+    const cv::Mat without = decoded(render::render(drawn));
+    drawn.poses[0].load = render::SceneLoad{{2.3, 0, 2.1}, force, ""};
+    cv::Mat difference;
+    cv::absdiff(without, decoded(render::render(drawn)), difference);
+    cv::cvtColor(difference, difference, cv::COLOR_BGR2GRAY);
+    return cv::boundingRect(difference > 60);
+  };
+  const cv::Rect down = changedBy({0, 0, -1500});
+  EXPECT_GT(down.height, 60);
+  EXPECT_GT(down.height, 2 * down.width);
+  EXPECT_EQ(changedBy({0, 0, -15}), down);
+  const cv::Rect up = changedBy({0, 0, 1500}), right = changedBy({1500, 0, 0});
+  EXPECT_NEAR(up.br().y, down.y, 12);  // pixels: half the width of the shaft and its rim about the same place
+  EXPECT_NEAR(up.height, down.height, 12);
+  EXPECT_GT(right.width, 2 * right.height);
+  EXPECT_NEAR(right.width, down.height, 12);
+  EXPECT_EQ(changedBy({0, 1500, 0}).area(), 0);  // end on
+  EXPECT_EQ(changedBy({0, 0, 0}).area(), 0);
+  EXPECT_EQ(changedBy({0, 0, -1500}, true).area(), 0);
+  render::ArmScene drawn = scene(render::View::side);
+  drawn.poses[0].load = render::SceneLoad{{2.3, 0, 2.1}, {0, 0, -1500}, "load"};
+  expectNothingClipped(decoded(render::render(drawn)));
+  drawn.poses[0].load->force.x() = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(render::render(drawn), std::invalid_argument);
+}
+
 TEST(ArmPicture, MagnificationMakesTheLongestAFifth) {
   render::ArmScene drawn = scene(render::View::side);
   // The box of all points is 2.3 m long; a fifth of it is 0.46 m = 230 x 2 mm; 1-2-5 below: 200.

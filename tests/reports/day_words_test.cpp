@@ -24,14 +24,13 @@ TEST(DayWords, TheAuditsSentenceNamesTheChecksThatDecideIt) {
   using preparation::AuditVerdict;
   EXPECT_EQ(
       auditMeaning(auditOf(AuditVerdict::warn, {"repeat_outliers", "repeat_outliers", "lost_beam"}), DayKind::loaded),
-      "The audit warns of repeat outliers, lost beam: the readings are fit to identify from, with what is said "
-      "under Audit.");
+      "The audit finds the readings fit to identify from, and warns of repeat outliers, lost beam (see Audit).");
   EXPECT_EQ(auditMeaning(auditOf(AuditVerdict::fail, {"time_order"}), DayKind::unloaded),
             "The audit fails by time order: as they were read, the readings are not fit to calibrate from.");
   EXPECT_EQ(auditMeaning(auditOf(AuditVerdict::warn,
                                  {"lost_beam", "time_order", "nest_outliers", "repeat_outliers", "completeness"}),
                          DayKind::loaded),
-            "The audit warns of 5 checks: the readings are fit to identify from, with what is said under Audit.");
+            "The audit finds the readings fit to identify from, and warns of 5 checks (see Audit).");
 }
 
 }  // namespace

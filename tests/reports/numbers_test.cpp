@@ -36,6 +36,16 @@ TEST(Numbers, ZeroHasNoSign) {
 
 TEST(Numbers, PercentWithANoBreakSpace) { EXPECT_EQ(reports::percent(0.8432), "84.3\u00a0%"); }
 
+TEST(Numbers, WhatIsNotTheWholeDoesNotReadAsTheWhole) {
+  EXPECT_EQ(reports::percentNumber(0.994, 0), "99");
+  EXPECT_EQ(reports::percentNumber(0.996, 0), "99.6");
+  EXPECT_EQ(reports::percentNumber(0.9996, 1), "99.96");
+  EXPECT_EQ(reports::percentNumber(0.99999, 1), "100.0");  // whole to a hundredth of a percent
+  EXPECT_EQ(reports::percentNumber(1.0, 0), "100");
+  EXPECT_EQ(reports::percentNumber(1.0004, 0), "100");
+  EXPECT_EQ(reports::percentNumber(-0.3, 0), "−30");
+}
+
 TEST(Base64, TheVectorsOfRfc4648) {
   const auto encode = [](const std::string& text) { return page::base64({text.begin(), text.end()}); };
   EXPECT_EQ(encode(""), "");
