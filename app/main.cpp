@@ -1,10 +1,13 @@
 #include <fcntl.h>
 #include <glog/logging.h>
+#include <pthread.h>
+#include <sys/resource.h>
 #include <unistd.h>
 #include <csignal>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <functional>
 #include <new>
 #include "app/command_line.h"
 #include "core/io/input_error.h"
@@ -20,15 +23,36 @@ void holdStandardStreams() {
   }
 }
 
-}  // namespace
+/// Runs `work` with a stack of 8 MiB, which the decompositions of small matrices need some of; a shell may allow less
+/// (ulimit -s). All threads that `work` starts have as much.
+int onWideStack(const std::function<int()>& work) {
+  constexpr std::size_t kWide = std::size_t{8} << 20;
+  ::rlimit limit{};
+  if (::getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY || limit.rlim_cur >= kWide)
+    return work();
+  struct Task {
+    const std::function<int()>& work;
+    int status = 2;
+  } task{work};
+  pthread_attr_t wide;
+  pthread_t thread{};
+  pthread_attr_init(&wide);
+  pthread_attr_setstacksize(&wide, kWide);
+  pthread_setattr_default_np(&wide);
+  const auto run = [](void* given) -> void* {
+    auto& own = *static_cast<Task*>(given);
+    own.status = own.work();
+    return nullptr;
+  };
+  const bool started = pthread_create(&thread, &wide, run, &task) == 0;
+  pthread_attr_destroy(&wide);
+  if (!started) return work();
+  pthread_join(thread, nullptr);
+  return task.status;
+}
 
-// The only place that catches and prints.
-int main(int count, char** words) {
-  holdStandardStreams();
-  // A file size limit is then an error of the write like any other, which says what could not be written.
-  std::signal(SIGXFSZ, SIG_IGN);
-  // Ceres logs each step that fails; results say what could not be determined.
-  FLAGS_minloglevel = google::GLOG_FATAL;
+/// The only place that catches and prints.
+int statusOf(int count, char** words) {
   try {
     return stiffscope::app::runCommandLine(count, words);
   } catch (const std::bad_alloc&) {
@@ -42,4 +66,15 @@ int main(int count, char** words) {
     std::fprintf(stderr, "stiffscope: %s\n", error.what());
     return 2;
   }
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+  holdStandardStreams();
+  // A file size limit is then an error of the write like any other, which says what could not be written.
+  std::signal(SIGXFSZ, SIG_IGN);
+  // Ceres logs each step that fails; results say what could not be determined.
+  FLAGS_minloglevel = google::GLOG_FATAL;
+  return onWideStack([&] { return statusOf(count, words); });
 }

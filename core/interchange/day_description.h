@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <map>
 #include <optional>
-#include <regex>
 #include <string>
 #include <vector>
 
@@ -57,8 +56,8 @@ std::vector<ClockOffset> possibleOffsets(const std::vector<ReadingTime>& reading
                                          const std::vector<Standstill>& standstills, double share);
 
 /// How names of points or taught targets tell what they are: `P{target}_{pose}_{step}`. A field stands for any text, as
-/// short as the rest allows; {*} is not kept. Parts between `::` are matched with the last of collection, group and
-/// name.
+/// short as the rest allows; {*} is not kept. A name takes time in proportion to its length times the pattern's. Parts
+/// between `::` are matched with the last of collection, group and name.
 class NamePattern {
  public:
   /// Fields: target, pose, step, repeat, axis, index, nest, *. Throws InputError, naming the attribute of `node`, for
@@ -72,9 +71,13 @@ class NamePattern {
   std::optional<std::map<std::string, std::string>> fieldsIn(const PointReading& point) const;
 
  private:
-  std::vector<std::string> fields_;  ///< in their order; empty for {*}
+  struct Piece {
+    bool is_field = false;
+    std::string text;  ///< the letters themselves, or the field's name; of {*} empty
+  };
+
+  std::vector<Piece> pieces_;
   std::size_t parts_ = 1;
-  std::regex regex_;
 };
 
 /// The table of the campaign that a file of points becomes.

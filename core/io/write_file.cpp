@@ -7,9 +7,11 @@
 #include <unistd.h>
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <stdexcept>
 #include <string>
+#include <thread>
 
 namespace stiffscope::io {
 
@@ -65,6 +67,30 @@ int openLocked(const fs::path& file) {
   return -1;
 }
 
+bool isPipe(const fs::path& file) {
+  std::error_code error;
+  return fs::is_fifo(fs::status(file, error));
+}
+
+/// Descriptor of a named pipe once somebody reads it; -1, and errno. An ordinary opening would wait for ever.
+int openPipe(const fs::path& pipe, const fs::path& named) {
+  constexpr std::chrono::milliseconds kOften(50);
+  constexpr std::chrono::seconds kLongest(5);
+  const auto end = std::chrono::steady_clock::now() + kLongest;
+  while (true) {
+    const int descriptor = ::open(pipe.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK);
+    if (descriptor >= 0) {
+      // From here on a slow reader is waited for.
+      ::fcntl(descriptor, F_SETFL, ::fcntl(descriptor, F_GETFL) & ~O_NONBLOCK);
+      return descriptor;
+    }
+    if (errno != ENXIO && errno != EINTR) return -1;
+    if (std::chrono::steady_clock::now() >= end)
+      fail(named, "nobody reads this pipe; expected a program that reads it to be started before");
+    std::this_thread::sleep_for(kOften);
+  }
+}
+
 /// NAME.PID.part, as writeFileWhole calls what is not whole yet.
 bool isPart(const std::string& name) {
   const std::string end = ".part";
@@ -92,7 +118,7 @@ void writeOpened(int descriptor, const ByteSource& bytes, const fs::path& named,
 }  // namespace
 
 void writeFileNamed(const fs::path& file, const ByteSource& bytes, const fs::path& named) {
-  const int descriptor = ::open(file.c_str(), kAnew, kMode);
+  const int descriptor = isPipe(file) ? openPipe(file, named) : ::open(file.c_str(), kAnew, kMode);
   if (descriptor < 0) failToOpen(named, errno);
   writeOpened(descriptor, bytes, named, [] {});
 }

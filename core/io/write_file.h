@@ -15,8 +15,8 @@ using ByteSource = std::function<void(const ByteSink&)>;
 
 /// Writes `bytes` to `path` so that the file appears whole or not at all: into a temporary beside it, which
 /// is then renamed. Where `path` is a link the file it points to is replaced, where it is a device
-/// (/dev/stdout) it is written directly. Throws std::runtime_error with path and reason; the temporary is
-/// removed then.
+/// (/dev/stdout) or a named pipe it is written directly; a pipe that nobody reads within five seconds is refused.
+/// Throws std::runtime_error with path and reason; the temporary is removed then.
 void writeFileWhole(const std::filesystem::path& path, std::string_view bytes);
 void writeFileWhole(const std::filesystem::path& path, const ByteSource& bytes);
 

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <random>
+#include <regex>
+
 #include "core/interchange/length_unit.h"
 #include "tests/core/interchange/refusal.h"
 
@@ -40,6 +44,61 @@ TEST(NamePattern, SignsOfExpressionsStandForThemselves) {
   EXPECT_FALSE(given.of("P[{pose}]").fieldsIn("P1"));
   EXPECT_TRUE(given.of("a.b*({target})").fieldsIn("a.b*(1)"));
   EXPECT_FALSE(given.of("a.b").fieldsIn("axb"));
+}
+
+TEST(NamePattern, EachFieldTakesTheFewestLettersFromTheLeft) {
+  const Patterned given;
+  EXPECT_EQ(given.of("{target}_{pose}").fieldsIn("a_b_c"), (Fields{{"target", "a"}, {"pose", "b_c"}}));
+  EXPECT_EQ(given.of("{target}{pose}").fieldsIn("abc"), (Fields{{"target", "a"}, {"pose", "bc"}}));
+  EXPECT_EQ(given.of("{target}ab").fieldsIn("abab"), (Fields{{"target", "ab"}}));
+  EXPECT_FALSE(given.of("{target}{pose}{step}").fieldsIn("ab"));
+}
+
+// As an expression of the standard library, each field a group of letters that is as short as it may be, finds them.
+TEST(NamePattern, FindsWhatAnExpressionFinds) {
+  const Patterned given;
+  const std::vector<std::string> pieces{"{target}", "{pose}", "{step}", "a", "b", "ab", "::"};
+  std::mt19937 random(7);
+  const auto below = [&](std::size_t count) {
+    return std::uniform_int_distribution<std::size_t>(0, count - 1)(random);
+  };
+  int matched = 0;
+  for (int i = 0; i < 1000; ++i) {
+    std::string pattern, expression, name;
+    std::vector<std::string> fields;
+    int parts = 0;
+    for (std::size_t k = below(6) + 1; k > 0; --k) {
+      const std::string& piece = pieces[below(pieces.size())];
+      const std::string field = piece[0] == '{' ? piece.substr(1, piece.size() - 2) : "";
+      if (std::find(fields.begin(), fields.end(), field) != fields.end() ||
+          (piece == "::" && (pattern.ends_with(":") || ++parts > 2)))
+        continue;
+      pattern += piece;
+      expression += field.empty() ? piece : "([^:]+?)";
+      if (!field.empty()) fields.push_back(field);
+    }
+    if (pattern.empty()) continue;
+    for (std::size_t k = below(8); k > 0; --k) name += below(8) == 0 ? "::" : below(2) == 0 ? "a" : "b";
+    std::smatch match;
+    const bool of_it = std::regex_match(name, match, std::regex(expression));
+    const auto found = given.of(pattern).fieldsIn(name);
+    ASSERT_EQ(found.has_value(), of_it) << pattern << " " << name;
+    if (!of_it) continue;
+    ++matched;
+    for (std::size_t f = 0; f < fields.size(); ++f)
+      EXPECT_EQ(found->at(fields[f]), match[f + 1].str()) << pattern << " " << name;
+  }
+  EXPECT_GT(matched, 50);
+}
+
+// 66 fields and no letter that ends them: ways to share 200 letters among them have 54 digits. It takes no time.
+TEST(NamePattern, ManyFieldsInALongName) {
+  const Patterned given;
+  std::string pattern;
+  for (int i = 0; i < 66; ++i) pattern += "{*}";
+  EXPECT_FALSE(given.of(pattern + "x").fieldsIn(std::string(200, 'a')));
+  EXPECT_TRUE(given.of(pattern + "x").fieldsIn(std::string(200, 'a') + "x"));
+  EXPECT_FALSE(given.of(pattern).fieldsIn(std::string(65, 'a')));
 }
 
 TEST(NamePattern, PartsOfCollectionGroupAndName) {
