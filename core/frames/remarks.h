@@ -14,6 +14,7 @@ enum class RemarkId {
   earlier_axis_not_known,  ///< number of an axis that stood away from zero and is not measured
   // the wrist centre
   no_wrist_sweep,
+  wrist_turns_arm,
   r0_not_in_frame_of_readings,
   wrist_sweep_in_other_frame,
   arm_moved_in_wrist_sweep,  ///< number of the last axis before the wrist

@@ -93,6 +93,10 @@ WristCentre measureWristCentre(const campaign::Campaign& campaign, const ArmInR0
   }
   if (seen > 0) wrist.reflector_barycentre_in_r0 /= seen;
 
+  if (!arm.arm.wristStandsApart()) {
+    wrist.reason = Remark(RemarkId::wrist_turns_arm);
+    return wrist;
+  }
   if (!campaign.wrist_sweep) {
     wrist.reason = Remark(RemarkId::no_wrist_sweep);
     return wrist;

@@ -30,6 +30,10 @@ std::string framesWords(frames::RemarkId id, const RemarkValues& values) {
              "and URDF contradict each other";
     case RemarkId::earlier_axis_not_known:
       return fmt::format("axis {} stood away from zero during its sweep and is not measured itself", values.count(0));
+    case RemarkId::wrist_turns_arm:
+      return "joints are coupled ('mimic' in the URDF), and one of the wrist's turns axes before the wrist, so that no "
+             "point "
+             "stands apart from it";
     case RemarkId::no_wrist_sweep:
       return "the campaign has no wrist sweep";
     case RemarkId::r0_not_in_frame_of_readings:
