@@ -92,9 +92,10 @@ bool Robot::wristStandsApart() const {
 
 bool withinAxisLimits(const Robot& robot, const JointVector& q) {
   const JointVector angles = robot.axes_in_base_at_zero.angles(q);
-  for (int axis = 0; axis < robot.axes(); ++axis) {
-    const JointLimits& limits = robot.axis_limits[static_cast<std::size_t>(axis)];
-    if (angles[axis] < limits.lower || angles[axis] > limits.upper) return false;
+  for (std::size_t axis = 0; axis < robot.axis_limits.size(); ++axis) {  // a robot that states none has none
+    const JointLimits& limits = robot.axis_limits[axis];
+    const double angle = angles[static_cast<Eigen::Index>(axis)];
+    if (angle < limits.lower || angle > limits.upper) return false;
   }
   return true;
 }
