@@ -53,6 +53,12 @@ Json modelJson(const calibration::UnloadedDay& day, const calibration::ModelResu
           {"notes", words(model.notes)}};
 }
 
+/// The name of the joint whose own axis it is; of one that follows joints its own in the URDF.
+const std::string& jointOfAxis(const robot::Robot& arm, std::size_t axis) {
+  const int joint = arm.axes_in_base_at_zero.jointOf(static_cast<int>(axis));
+  return joint >= 0 ? arm.joint_names[static_cast<std::size_t>(joint)] : arm.axis_names[axis];
+}
+
 Json axisJson(const calibration::UnloadedDay& day, const ArmFit& fit, const robot::Robot& arm, std::size_t j) {
   const metrology::Line &axis = arm.axes_in_base_at_zero[j], &nominal = day.arm.axes_in_base_at_zero[j];
   Json across = Json::array(), shift = Json::array(), tilt = Json::array(), shift_sd = Json::array(),
@@ -68,7 +74,7 @@ Json axisJson(const calibration::UnloadedDay& day, const ArmFit& fit, const robo
     known.push_back(!held);
   }
   return {{"axis", j + 1},
-          {"joint", day.arm.axis_names[j]},
+          {"joint", jointOfAxis(day.arm, j)},
           {"point_m", array(axis.point)},
           {"direction", array(axis.direction)},
           {"nominal_point_m", array(nominal.point)},
