@@ -162,11 +162,11 @@ struct Frames {
 Frames measureFrames(const campaign::Campaign& campaign);
 
 /// Measures again with the readings corrected for the sag by these joint compliances (rad/Nm) and the arm as measured
-/// so far. Its error is that of `so_far` shrunk about a thousandfold. Where masses are not known, `so_far` with a note.
-/// `covariance` of the compliances, where it is given and finite, is propagated into that of the frames, by differences
-/// of the whole measurement. It knows nothing of what is wrong with a sag by joint springs alone: bearings that
-/// deflect across their axes bend the arm too, and falsify the springs; LinkGeometry::distance_by_sag shows the stake,
-/// and FramesCovariance::hidden weighs it.
+/// so far, which has to be of the same sweeps. Its error is that of `so_far` shrunk about a thousandfold. Where masses
+/// are not known, `so_far` with a note. `covariance` of the compliances, where it is given and finite, is propagated
+/// into that of the frames, by differences of the whole measurement. It knows nothing of what is wrong with a sag by
+/// joint springs alone: bearings that deflect across their axes bend the arm too, and falsify the springs;
+/// LinkGeometry::distance_by_sag shows the stake, and FramesCovariance::hidden weighs it.
 Frames refineFrames(const campaign::Campaign& campaign, const Frames& so_far, const JointVector& compliance,
                     const std::optional<JointMatrix>& covariance = std::nullopt);
 
