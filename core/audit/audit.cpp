@@ -26,7 +26,7 @@ struct Check {
 };
 
 /// In the order in which the day goes, which is that of the report.
-constexpr std::array<Check, 20> kAllChecks{{
+constexpr std::array<Check, 21> kAllChecks{{
     {checkTimeOrder, {"time_order"}},
     {checkCompleteness, {"completeness"}},
     {checkRepeatability, {"repeatability_along", "repeatability_across"}},
@@ -39,6 +39,7 @@ constexpr std::array<Check, 20> kAllChecks{{
     {checkSweptReflectors, {"axis_agreement", "reflector_on_axis"}},
     {checkLinkLengths, {"link_lengths"}},
     {checkWrist, {"wrist_sphere", "wrist_axes_meet"}},
+    {checkRail, {"rail_straight", "rail_scale", "rail_direction"}},
     {checkUnloadedPositions, {"frame_moved", "unloaded_positions", "joint_read_back"}},
     {checkServo, {"servo_change"}},
     {checkReturnToZero, {"return_to_zero"}},
@@ -154,7 +155,7 @@ AuditReport audit(const preparation::PreparedCampaign& prepared) {
   for (Findings& of_check : findings) std::move(of_check.begin(), of_check.end(), std::back_inserter(report.checks));
   const std::set<std::string> made = madeChecks(report.checks);
   report.made = static_cast<int>(made.size());
-  report.of = static_cast<int>(preparation::kAuditCheckIds.size());
+  report.of = preparation::checksOf(prepared.campaign.robot.rail.has_value());
   if (campaign::isUnloadedDay(prepared.campaign)) report.purpose = Purpose::calibrate;
   if (report.purpose == Purpose::calibrate) {
     report.unanswered = unansweredBy(made, kToCalibrate);

@@ -68,6 +68,7 @@ struct AuditInput {
   const campaign::Campaign& campaign;       ///< as prepared
   preparation::DriftCorrection drift = {};  ///< how far it was
   preparation::StationMotion station = {};  ///< by the nests
+  std::optional<preparation::RailCourse> rail = {};  ///< by the rail sweep
   preparation::RepeatScatter scatter = {};  ///< of the repeats, against the declared noise
   /// That of `campaign.tracker`; empty where none is declared.
   std::optional<metrology::TrackerNoise> noise = {};

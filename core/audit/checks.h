@@ -81,6 +81,10 @@ Findings checkLinkLengths(const AuditInput& input);
 /// wrist_sphere, wrist_axes_meet.
 Findings checkWrist(const AuditInput& input);
 
+/// rail_straight, rail_scale, rail_direction: how the carriage goes (core/preparation/rail.h) against a straight line,
+/// what is reported and the URDF. None for an arm that stands on no rail.
+Findings checkRail(const AuditInput& input);
+
 /// frame_moved, unloaded_positions, joint_read_back: unloaded absolute positions against forward kinematics.
 Findings checkUnloadedPositions(const AuditInput& input);
 

@@ -52,4 +52,18 @@ inline constexpr double kLongestLever = 5.0;
 /// at 3 m makes 0.05 mm, poses have as many digits. Identification trusts places to TrustLimits::position, 0.2 mm.
 inline constexpr double kControllerDigits = 0.2e-3;
 
+/// Rails of robots are laid and racks are cut to a tenth of a millimetre a metre and better; what they are off is
+/// measured and taken off. Travel reported in another unit is off by a tenth at least.
+inline constexpr double kRailScale = 1e-3;
+inline constexpr double kOtherUnit = 0.05;
+
+/// What a carriage leaves of a straight line, m: worn rails wave by some tenths of a millimetre, and a turn of the
+/// carriage moves the reflectors by as much. More is no rail.
+inline constexpr double kNoRail = 2e-3;
+
+/// Rails are laid along an axis of the robot's foot to a fraction of a degree; beyond kOtherRail it is another axis, or
+/// the other way.
+inline constexpr double kRailDirection = 1.0 * io::kDegree;
+inline constexpr double kOtherRail = 10.0 * io::kDegree;
+
 }  // namespace stiffscope::audit

@@ -104,6 +104,12 @@ enum class RemarkId {
   wrist_leak,         ///< share of the displacement; first and last joint of the wrist
   decoupling_needs_one_point,
 
+  // rail_straight, rail_scale, rail_direction.
+  rail_leaves,    ///< along it and across it, rms m; from and to which position, m; farthest reading m
+  rail_travels,   ///< true travel over the reported, its sd
+  rail_runs,      ///< angle to the URDF's direction, rad
+  rail_reversed,  ///< the same, beyond a quarter of a turn
+
   // frame_moved, unloaded_positions, joint_read_back.
   loading_shifted,  ///< shift in R0 m, turn rad, explained share of the misfit, more
   tracker_or_robot_moved,
@@ -189,6 +195,9 @@ enum class LimitId {
   built_to_drawing,
   leak_that_decoupling_bears,  ///< first and last joint of the wrist
   places_or_sweeps,
+  trusted_places,
+  travels_as_reported,
+  rails_are_laid,
   turn_at_lever,  ///< longest lever, m
   load_cell_axes,
   arms_stiffness,  ///< softest and stiffest arm, N/m
@@ -234,6 +243,7 @@ enum class MissingId {
   no_two_reflectors_in_states,
   few_wrist_readings,
   wrist_axes_not_swept,  ///< first and last
+  no_rail_sweep,
   no_readings_of_arm,
   few_loads_of_model,
   no_controller_poses,

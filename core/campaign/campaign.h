@@ -31,6 +31,7 @@ struct CircleReading {
   std::string index;
   int target = 0;
   JointVector q;
+  double rail = kNotGiven;  ///< position of the carriage, m; given where the robot has a rail, as below
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   double time_s = kNoTime;
   std::size_t line = 0;
@@ -40,6 +41,17 @@ struct WristReading {
   std::string index;
   int target = 0;
   JointVector q;
+  double rail = kNotGiven;
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  double time_s = kNoTime;
+  std::size_t line = 0;
+};
+
+/// While the carriage of a rail goes along and all joints stand still.
+struct RailReading {
+  std::string index;
+  int target = 0;
+  double rail = 0.0;
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   double time_s = kNoTime;
   std::size_t line = 0;
@@ -70,6 +82,7 @@ struct State {
   int step = 0;
   double time_s = kNoTime;
   JointVector q;
+  double rail = kNotGiven;
   Vector6d wrench_in_cell = Vector6d::Zero();  ///< force (N) then moment (Nm), as the load cell's row says
   // Not a number where the table does not say.
   JointVector commanded;             ///< joint angles that were commanded, rad
@@ -120,6 +133,7 @@ struct Table {
 
 using CircleSweeps = Table<CircleReading>;
 using WristSweep = Table<WristReading>;
+using RailSweep = Table<RailReading>;
 using Loading = Table<LoadingReading>;
 using States = Table<State>;
 using Displacements = Table<Displacement>;
@@ -239,6 +253,7 @@ struct Campaign {
 
   std::optional<CircleSweeps> circle_sweeps;
   std::optional<WristSweep> wrist_sweep;
+  std::optional<RailSweep> rail_sweep;
   std::optional<Loading> loading;
   std::optional<States> states;
   std::optional<Displacements> displacements;

@@ -344,7 +344,7 @@ void requireJoints(const std::vector<JointNumber>& numbers, int joints) {
 }
 
 const std::vector<std::string>& tableElements() {
-  static const std::vector<std::string> elements{"circle_sweeps", "wrist_sweep",   "loading",
+  static const std::vector<std::string> elements{"circle_sweeps", "wrist_sweep",   "rail_sweep", "loading",
                                                  "states",        "displacements", "nests"};
   return elements;
 }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
+#include <set>
 
 #include "core/io/input_error.h"
 #include "core/io/units.h"
@@ -225,11 +227,95 @@ void checkToolPosesAreWhole(const Campaign& campaign) {
   }
 }
 
+/// Where the carriage stood in the rows of one kind: whether all say so, and between which positions.
+struct CarriageAt {
+  bool given = true;
+  double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+  std::size_t line = 0;  ///< the first row that is elsewhere than the first
+
+  template <class Row>
+  void see(const std::vector<Row>& rows) {
+    for (const Row& row : rows) {
+      if (std::isnan(row.rail)) given = false;
+      lowest = std::min(lowest, row.rail);
+      highest = std::max(highest, row.rail);
+      if (line == 0 && highest > lowest) line = row.line;
+    }
+  }
+  bool moves() const { return highest > lowest; }
+};
+
+template <class Row>
+void checkCarriage(const Campaign& campaign, const std::optional<Table<Row>>& table, CarriageAt& in_tracker_frame) {
+  if (!table || table->rows.empty()) return;
+  CarriageAt own;
+  own.see(table->rows);
+  if (campaign.robot.rail && !own.given) {
+    throw io::InputError({shown(campaign, table->file), 1, "rail_mm"}, "",
+                         fmt::format("expected a column rail_mm, the position of '{}': the arm stands on a rail",
+                                     campaign.robot.rail->joint_name));
+  }
+  if (!campaign.robot.rail && own.given && own.moves()) {
+    throw io::InputError({shown(campaign, table->file), own.line, "rail_mm"}, "",
+                         "expected an arm that stands still: the URDF has no prismatic joint before the arm's joints");
+  }
+  if (table->frame == PointFrame::tracker) in_tracker_frame.see(table->rows);
+}
+
+/// The line along which the carriage goes is by the farthest stops.
+void checkRailSweep(const Campaign& campaign, const RailSweep& sweep) {
+  std::set<double> stops;
+  for (const RailReading& row : sweep.rows) stops.insert(row.rail);
+  constexpr std::size_t kFewestStops = 3;  // of a line through two stops nothing tells whether it is straight
+  constexpr double kShortest = 0.1;        // m; 10 um at both ends then turn it by 0.1 mrad
+  if (stops.size() >= kFewestStops && *stops.rbegin() - *stops.begin() >= kShortest) return;
+  throw io::InputError({shown(campaign, sweep.file), 0, "rail_mm"}, "",
+                       fmt::format("expected at least {} positions of the carriage over 100 mm or more; there are {} "
+                                   "over {:.1f} mm",
+                                   kFewestStops, stops.size(),
+                                   stops.empty() ? 0.0 : (*stops.rbegin() - *stops.begin()) / io::kMillimetre));
+}
+
+void checkRail(const Campaign& campaign, std::vector<std::string>& warnings) {
+  CarriageAt arm;
+  checkCarriage(campaign, campaign.circle_sweeps, arm);
+  checkCarriage(campaign, campaign.wrist_sweep, arm);
+  // What the states' rows say holds for the readings of the loading.
+  CarriageAt of_states;
+  checkCarriage(campaign, campaign.states, of_states);
+  if (campaign.loading && campaign.loading->frame == PointFrame::tracker && campaign.states)
+    arm.see(campaign.states->rows);
+  if (!campaign.robot.rail) {
+    if (!campaign.rail_sweep) return;
+    throw io::InputError({shown(campaign, campaign.rail_sweep->file), 0, "rail_sweep"}, "",
+                         "expected an arm on a rail: the URDF has no prismatic joint before the arm's joints");
+  }
+  const robot::Rail& rail = *campaign.robot.rail;
+  if (arm.moves() && !campaign.rail_sweep) {
+    throw io::InputError({(campaign.folder / "campaign.xml").string(), 0, "rail_sweep"}, "",
+                         fmt::format("expected a rail_sweep, which shows how the carriage goes in the tracker's frame: "
+                                     "the arm was read at {:.1f} to {:.1f} mm of '{}'",
+                                     arm.lowest / io::kMillimetre, arm.highest / io::kMillimetre, rail.joint_name));
+  }
+  if (campaign.rail_sweep) checkRailSweep(campaign, *campaign.rail_sweep);
+  constexpr double kMargin = 0.01;  // m; beyond the stops is another unit or another zero
+  CarriageAt seen = arm;
+  if (campaign.states) seen.see(campaign.states->rows);
+  if (seen.lowest < rail.lower - kMargin || seen.highest > rail.upper + kMargin) {
+    warnings.push_back(io::inputMessage(
+        {shown(campaign, campaign.states ? campaign.states->file : "campaign.xml"), 0, "rail_mm"}, "",
+        fmt::format("the carriage stands at {:.1f} to {:.1f} mm, outside the limits of '{}' ({:.1f} to {:.1f} mm)",
+                    seen.lowest / io::kMillimetre, seen.highest / io::kMillimetre, rail.joint_name,
+                    rail.lower / io::kMillimetre, rail.upper / io::kMillimetre)));
+  }
+}
+
 using Check = void (*)(const Campaign&, std::vector<std::string>&);
 
 // In the order of their errors and warnings.
 constexpr Check kChecks[] = {
     [](const Campaign& campaign, std::vector<std::string>&) { checkDisplacedTargetsHavePlaces(campaign); },
+    checkRail,
     warnOfPosesWithoutStepZero,
     warnOfAnglesOutsideLimits,
     warnOfMotorSidesApart,

@@ -9,7 +9,9 @@ namespace stiffscope::campaign {
 
 /// What no table shows alone, on a campaign as it was read.
 /// Throws InputError for a load state without a row in `states` (where that table is present), and for
-/// a displacement of a target whose place on the flange is not given. Warns of poses of `loading` without
+/// a displacement of a target whose place on the flange is not given; of a robot on a rail for tables that do not say
+/// where the carriage stood, and for readings from several of its positions without a `rail_sweep`; of one without a
+/// rail for a `rail_sweep` and for positions that differ. Warns of poses of `loading` without
 /// a step 0, of joint angles more than 5 degrees outside the URDF's limits (one warning a joint), of tables
 /// whose angles look like radians, and of states without a load cell.
 void checkCampaign(const Campaign& campaign, std::vector<std::string>& warnings);

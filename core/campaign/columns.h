@@ -168,6 +168,12 @@ std::vector<Column<Row>> jointColumns(int joints) {
   return angleColumns<Row, &Row::q>('q', joints, true);
 }
 
+/// rail_mm, of a row with a member rail. Tables of a robot on a rail have it (checkCampaign).
+template <class Row>
+Column<Row> railColumn(bool required = false) {
+  return {"rail_mm", CellKind::millimetre, [](Row& row) -> double& { return row.rail; }, required};
+}
+
 /// A row with a member q of so many joints, all at zero.
 template <class Row>
 Row blankRow(int joints) {

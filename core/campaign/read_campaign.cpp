@@ -167,6 +167,7 @@ CampaignReading readCampaign(const std::filesystem::path& folder_or_xml, Hashes 
   TableReader tables(files, xml, joints, reading.warnings);
   tables.read(circleSweepsLayout(joints), campaign.circle_sweeps);
   tables.read(wristSweepLayout(joints), campaign.wrist_sweep);
+  tables.read(railSweepLayout(), campaign.rail_sweep);
   tables.read(loadingLayout(), campaign.loading);
   tables.read(statesLayout(joints), campaign.states);
   tables.read(displacementsLayout(), campaign.displacements);

@@ -27,6 +27,7 @@ template <class CampaignType, class Visit>
 void forEachPointTable(CampaignType& campaign, const Visit& visit) {
   if (campaign.circle_sweeps) visit(*campaign.circle_sweeps);
   if (campaign.wrist_sweep) visit(*campaign.wrist_sweep);
+  if (campaign.rail_sweep) visit(*campaign.rail_sweep);
   if (campaign.loading) visit(*campaign.loading);
   if (campaign.nests) visit(*campaign.nests);
 }

@@ -15,6 +15,7 @@ inline TableLayout<CircleReading> circleSweepsLayout(int joints) {
                         {"index", CellKind::text, [](Row& row) -> std::string& { return row.index; }},
                         targetColumn<Row>()},
                        jointColumns<Row>(joints),
+                       {railColumn<Row>()},
                        pointColumns<Row>(),
                        {timeColumn<Row>(false)}}),
           {"axis", "index", "target"},
@@ -86,6 +87,7 @@ inline TableLayout<State> statesLayout(int joints) {
           joined<Row>({poseAndStepColumns<Row>(),
                        {timeColumn<Row>(false)},
                        jointColumns<Row>(joints),
+                       {railColumn<Row>()},
                        wrenchColumns<Row>(false),
                        angleColumns<Row, &Row::commanded>('c', joints, false),
                        angleColumns<Row, &Row::motor_side>('m', joints, false),
@@ -103,10 +105,25 @@ inline TableLayout<WristReading> wristSweepLayout(int joints) {
       "wrist_sweep",
       joined<Row>({{{"index", CellKind::text, [](Row& row) -> std::string& { return row.index; }}, targetColumn<Row>()},
                    jointColumns<Row>(joints),
+                   {railColumn<Row>()},
                    pointColumns<Row>(),
                    {timeColumn<Row>(false)}}),
       {"index", "target"},
       blankRow<Row>(joints)};
+}
+
+/// One reading while the carriage of a rail goes along and all joints stand still.
+inline const TableLayout<RailReading>& railSweepLayout() {
+  using Row = RailReading;
+  static const TableLayout<Row> layout{
+      "rail_sweep",
+      joined<Row>(
+          {{{"index", CellKind::text, [](Row& row) -> std::string& { return row.index; }}, targetColumn<Row>()},
+           {railColumn<Row>(true)},
+           pointColumns<Row>(),
+           {timeColumn<Row>(false)}}),
+      {"index", "target"}};
+  return layout;
 }
 
 }  // namespace stiffscope::campaign

@@ -234,6 +234,7 @@ std::string writtenCampaignXml(const Campaign& campaign) {
     writeJointReadings(printer, campaign.joint_readings);
     writeTableReference(printer, "circle_sweeps", campaign.circle_sweeps);
     writeTableReference(printer, "wrist_sweep", campaign.wrist_sweep);
+    writeTableReference(printer, "rail_sweep", campaign.rail_sweep);
     writeTableReference(printer, "loading", campaign.loading);
     writeTableReference(printer, "states", campaign.states);
     writeTableReference(printer, "displacements", campaign.displacements);
@@ -316,6 +317,7 @@ void writeFigures(const Campaign& campaign, const std::filesystem::path& urdf_fi
   std::vector<io::FileToWrite> files{{"robot.urdf", urdf}};
   addTable(circleSweepsLayout(joints), campaign.circle_sweeps, writing, files);
   addTable(wristSweepLayout(joints), campaign.wrist_sweep, writing, files);
+  addTable(railSweepLayout(), campaign.rail_sweep, writing, files);
   addTable(loadingLayout(), campaign.loading, writing, files);
   addTable(statesLayout(joints), campaign.states, writing, files);
   addTable(displacementsLayout(), campaign.displacements, writing, files);

@@ -118,6 +118,7 @@ SystemState startState(const campaign::Campaign& campaign, const frames::Loading
   if (geometry.compliance.size() > 0) state.at.compliance = geometry.compliance.cwiseMax(0.0);
   state.at.targets = static_cast<int>(campaign.targets.size());
   state.at.r0_from_base_link = geometry.r0_from_base_link;
+  if (campaign.robot.rail) state.at.rail_in_base = campaign.robot.rail->direction_in_base;
   state.at.load_offset = loadOffset(geometry.arm, cases, campaign.load_cell->moment_sigma);
   state.at.largest_torque = largestTorque(geometry, cases);
   if (geometry.r0_from_loading) state.r0_from_sweeps = *geometry.r0_from_loading;

@@ -28,7 +28,7 @@ std::vector<EffectModel> effectModels(const ModelScope& scope) {
 }
 
 std::vector<EffectModel> effectModelsOf(const campaign::Campaign& campaign) {
-  ModelScope scope{campaign.robot.joints(), {}};
+  ModelScope scope{campaign.robot.joints(), {}, campaign.robot.rail.has_value()};
   for (const campaign::Target& target : campaign.targets) scope.targets.push_back(target.id);
   return effectModels(scope);
 }

@@ -41,6 +41,7 @@ struct LinearizationPoint {
   double first_time = 0.0, time_span = 1.0;                ///< s, of the loading
   double sweep_time = 0.0;                                 ///< s; the sweeps' epoch as far as it is known
   Eigen::Isometry3d r0_from_base_link = Eigen::Isometry3d::Identity();
+  Eigen::Vector3d rail_in_base = Eigen::Vector3d::Zero();  ///< direction of an arm's rail; zero: it stands on none
 
   LinearizationPoint() = default;  ///< of no machine yet
   /// Of a machine of so many joints, rigid and without effects.
@@ -126,6 +127,7 @@ struct EffectModel {
 struct ModelScope {
   int joints = 6;
   std::vector<std::string> targets = {};  ///< names of the reflectors
+  bool on_rail = false;                   ///< the arm stands on the carriage of one
 };
 
 /// Parts of one parameter each for the joints.

@@ -55,6 +55,7 @@ void forEachDriftingTable(CampaignType& campaign, const Visit& visit) {
   };
   inTrackerFrame(campaign.circle_sweeps);
   inTrackerFrame(campaign.wrist_sweep);
+  inTrackerFrame(campaign.rail_sweep);
   inTrackerFrame(campaign.loading);
 }
 

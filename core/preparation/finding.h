@@ -45,6 +45,7 @@ inline constexpr double kFalseFinding = 0.01;
 struct AuditCheckId {
   std::string_view id;
   int limits_by_chance = 0;
+  bool of_rail = false;  ///< made of an arm on a rail alone
 };
 
 /// Every check of the audit in the order of the report. They stand here and not in core/audit because the screening of
@@ -52,7 +53,7 @@ struct AuditCheckId {
 /// says which function gives the others, reports/words/audit_figures.cpp in which unit its value is printed. A new
 /// check is one line in each; the compiler compares the three.
 inline constexpr std::size_t kScreeningChecks = 4;
-inline constexpr std::array<AuditCheckId, 34> kAuditCheckIds{{
+inline constexpr std::array<AuditCheckId, 37> kAuditCheckIds{{
     {"lost_beam"},
     {"duplicate_readings"},
     {"repeat_outliers", 1},
@@ -74,6 +75,9 @@ inline constexpr std::array<AuditCheckId, 34> kAuditCheckIds{{
     {"link_lengths", 1},  // five standard deviations, which is less than its share
     {"wrist_sphere", 1},
     {"wrist_axes_meet", 1},
+    {"rail_straight", 0, true},
+    {"rail_scale", 0, true},
+    {"rail_direction", 0, true},
     {"frame_moved", 1},
     {"unloaded_positions", 1},
     {"joint_read_back", 1},
@@ -88,6 +92,13 @@ inline constexpr std::array<AuditCheckId, 34> kAuditCheckIds{{
     {"load_model"},
     {"controller_poses"},
 }};
+
+/// How many checks are made of a machine.
+constexpr int checksOf(bool on_rail) {
+  int count = 0;
+  for (const AuditCheckId& check : kAuditCheckIds) count += on_rail || !check.of_rail ? 1 : 0;
+  return count;
+}
 
 /// Limits that share the chance of a false finding; each divides its part again by the readings, postures or reflectors
 /// it tries (Bonferroni).

@@ -32,6 +32,7 @@ void dropRejected(const std::vector<RejectedReading>& rejected, campaign::Campai
   // A table whose every reading was rejected is a measurement that the day did not produce.
   if (campaign.circle_sweeps && campaign.circle_sweeps->rows.empty()) campaign.circle_sweeps.reset();
   if (campaign.wrist_sweep && campaign.wrist_sweep->rows.empty()) campaign.wrist_sweep.reset();
+  if (campaign.rail_sweep && campaign.rail_sweep->rows.empty()) campaign.rail_sweep.reset();
   if (campaign.loading && campaign.loading->rows.empty()) campaign.loading.reset();
   if (campaign.nests && campaign.nests->rows.empty()) campaign.nests.reset();
 }
@@ -158,8 +159,9 @@ std::size_t spreadSweepTimes(const StationMotion& station, campaign::Campaign& c
   for (const StationEpoch& epoch : station.epochs) {
     if (epoch.time_s < loading) last = epoch.time_s;
   }
+  const auto rowsOf = [](const auto& table) { return table ? table->rows.size() : 0; };
   const std::size_t count =
-      campaign.circle_sweeps->rows.size() + (campaign.wrist_sweep ? campaign.wrist_sweep->rows.size() : 0);
+      rowsOf(campaign.circle_sweeps) + rowsOf(campaign.wrist_sweep) + rowsOf(campaign.rail_sweep);
   std::size_t at = 0, without_time = 0;
   const auto spread = [&](auto& table) {
     for (auto& row : table.rows) {
@@ -171,6 +173,7 @@ std::size_t spreadSweepTimes(const StationMotion& station, campaign::Campaign& c
   };
   spread(*campaign.circle_sweeps);
   if (campaign.wrist_sweep) spread(*campaign.wrist_sweep);
+  if (campaign.rail_sweep) spread(*campaign.rail_sweep);
   return without_time;
 }
 
@@ -197,6 +200,14 @@ DriftCorrection correctDrift(const DriftModel& station, campaign::Campaign& camp
   return drift;
 }
 
+void standOnCarriage(PreparedCampaign& prepared) {
+  if (!prepared.campaign.robot.rail) return;
+  const bool known = declaredNoise(prepared.campaign).has_value();
+  prepared.rail = fitRailCourse(prepared.campaign,
+                                known ? std::optional(frames::trackerNoise(*prepared.campaign.tracker)) : std::nullopt);
+  referToCarriageAtZero(prepared.rail, prepared.campaign);
+}
+
 }  // namespace
 
 PreparedCampaign prepareCampaign(campaign::Campaign read) {
@@ -216,6 +227,8 @@ PreparedCampaign prepareCampaign(campaign::Campaign read) {
   if (prepared.preparation.drift.taken_off) prepared.scatter = repeatScatter(prepared.campaign);
   prepared.noise = noiseModel(prepared.campaign, prepared.scatter);
   if (known) prepared.campaign.tracker = shown();
+  // Last, because the noise of a reading is by where the reflector was seen, and the nests are not on the rail.
+  standOnCarriage(prepared);
   return prepared;
 }
 
@@ -234,6 +247,7 @@ PreparedCampaign leaveRaw(campaign::Campaign read) {
   prepared.preparation.declared = prepared.campaign.tracker;
   prepared.noise = noiseModel(prepared.campaign, repeatScatter(prepared.campaign));
   prepared.preparation.drift.reason = Remark(RemarkId::raw_asked_for);
+  standOnCarriage(prepared);
   return prepared;
 }
 

@@ -5,6 +5,7 @@
 
 #include "core/preparation/drift_nests.h"
 #include "core/preparation/finding.h"
+#include "core/preparation/rail.h"
 #include "core/preparation/repeatability.h"
 #include "core/preparation/station_course.h"
 
@@ -41,6 +42,7 @@ struct PreparedCampaign {
   RepeatScatter scatter;              ///< of the repeats that are left, against the declared noise
   NoiseModel noise;
   DriftModel drift;  ///< by the nests
+  std::optional<RailCourse> rail;  ///< by the rail sweep, of an arm on a rail
 };
 
 /// A campaign as identification should see it: without the readings that screening rejects (lost beams,
@@ -49,10 +51,11 @@ struct PreparedCampaign {
 /// motion is taken off only where it is larger than noise explains (chi-square at the audit's level) and where the
 /// nests, one that moved left out, keep their shape: nests that do not are no reference. Sweeps that state no time are
 /// taken to have been read row by row, evenly, between the first round of the nests and the last one before the
-/// loading, where the station drifted.
+/// loading, where the station drifted. Of an arm on a rail everything is referred to its carriage at zero.
 PreparedCampaign prepareCampaign(campaign::Campaign read);
 
-/// The same readings with the station's motion put back on them: as they were measured, but for rounding.
+/// The same readings with the station's motion put back on them: as they were measured, but for rounding, and with the
+/// carriage of a rail where the preparation has it.
 PreparedCampaign asMeasured(PreparedCampaign prepared);
 
 /// The same campaign untouched, with a preparation that says so.

@@ -104,7 +104,7 @@ campaign::Campaign evenlySpread(const campaign::Campaign& campaign, std::size_t 
   // All of a Campaign by name: one more member does not compile until it is copied here.
   const auto& [folder, name, date, texts, robot, base_link, flange_link, double_encoder, gravity, mass_sigma, tracker,
                targets, load_cell, tool, known_stiffness, joint_readings, controller_model, circle_sweeps, wrist_sweep,
-               loading, states, displacements, nests, pose_ids, nest_ids, inputs] = campaign;
+               rail_sweep, loading, states, displacements, nests, pose_ids, nest_ids, inputs] = campaign;
   std::vector<int> now(pose_ids.size(), kNotKept);
   std::vector<std::string> kept_ids;
   for (const std::size_t posture : spreadPostures(campaign, most)) {
@@ -132,6 +132,7 @@ campaign::Campaign evenlySpread(const campaign::Campaign& campaign, std::size_t 
           ofReadings(circle_sweeps, most_swept,
                      [&](const campaign::CircleReading& row) { return row.axis * reflectors + row.target; }),
           ofReadings(wrist_sweep, most_swept, [](const campaign::WristReading& row) { return row.target; }),
+          rail_sweep,
           ofPostures(loading, now),
           ofPostures(states, now),
           ofPostures(displacements, now),
@@ -164,6 +165,7 @@ campaign::Campaign ofFirstReflectors(campaign::Campaign campaign, std::size_t mo
   };
   keep(campaign.circle_sweeps);
   keep(campaign.wrist_sweep);
+  keep(campaign.rail_sweep);
   keep(campaign.loading);
   keep(campaign.displacements);
   campaign.targets.resize(kept);

@@ -11,6 +11,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/io/input_error.h"
@@ -212,6 +213,12 @@ Chain chainBetween(const UrdfModel& model, const std::string& base, const std::s
 
 bool turns(const UrdfJoint& joint) { return joint.type == "revolute" || joint.type == "continuous"; }
 
+/// The linear axis of the chain: prismatic, and before every joint that turns. Null where there is none.
+const UrdfJoint* railOf(const Chain& chain) {
+  const auto first = std::find_if(chain.begin(), chain.end(), [](const UrdfJoint* joint) { return !joint->fixed(); });
+  return first != chain.end() && (*first)->type == "prismatic" ? *first : nullptr;
+}
+
 /// Of a joint that follows another: angle = multiplier * that one's + offset (URDF, `mimic`).
 struct Mimic {
   std::string followed;
@@ -239,11 +246,12 @@ void requireRevolute(const UrdfModel& model, const Chain& chain, const std::stri
   std::vector<std::string> turning;
   std::size_t axes = 0;
   for (const UrdfJoint* joint : chain) {
-    if (joint->fixed()) continue;
+    if (joint->fixed() || joint == railOf(chain)) continue;
     if (!turns(*joint)) {
-      joint->node.refuse(
-          "type", joint->type,
-          fmt::format("expected revolute joints between '{}' and '{}'; joint '{}' is not", base, flange, joint->name));
+      joint->node.refuse("type", joint->type,
+                         fmt::format("expected revolute joints between '{}' and '{}'; joint '{}' is not. One linear "
+                                     "axis may stand below the arm: a prismatic joint before all others",
+                                     base, flange, joint->name));
     }
     ++axes;
     if (!follows(*joint)) turning.push_back(joint->name);
@@ -298,18 +306,35 @@ std::shared_ptr<const Couplings> couplingsOf(const std::vector<const UrdfJoint*>
 
 constexpr JointLimits kUnlimited{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
 
+/// Lower and upper; URDF gives both a default of 0.
+std::pair<double, double> statedLimits(const UrdfJoint& joint) {
+  const io::XmlNode limit = joint.node.requiredChild("limit");
+  const double lower = limit.has("lower") ? limit.number("lower") : 0.0;
+  const double upper = limit.has("upper") ? limit.number("upper") : 0.0;
+  if (lower > upper) {
+    limit.refuse("lower", fmt::format("{}", lower),
+                 fmt::format("expected at most the upper limit of joint '{}', {}", joint.name, upper));
+  }
+  return {lower, upper};
+}
+
 JointLimits limitsOf(const UrdfJoint& joint) {
   if (joint.type == "continuous") return kUnlimited;
-  const io::XmlNode limit = joint.node.requiredChild("limit");
-  // URDF gives both a default of 0.
-  JointLimits limits;
-  if (limit.has("lower")) limits.lower = limit.number("lower");
-  if (limit.has("upper")) limits.upper = limit.number("upper");
-  if (limits.lower > limits.upper) {
-    limit.refuse("lower", fmt::format("{}", limits.lower),
-                 fmt::format("expected at most the upper limit of joint '{}', {}", joint.name, limits.upper));
+  const auto [lower, upper] = statedLimits(joint);
+  return {lower, upper};
+}
+
+/// A rail whose direction is known in the base; the arm on it stands still in the carriage.
+Rail railAlong(const UrdfJoint& joint, const Eigen::Isometry3d& base_from_joint) {
+  if (follows(joint)) {
+    joint.node.child("mimic")->refuse("joint", joint.name, "expected a linear axis that follows no other joint");
   }
-  return limits;
+  const auto [lower, upper] = statedLimits(joint);
+  constexpr double kLongest = 200.0;  // m; no rail is that long, one in millimetres is
+  if (std::max(std::abs(lower), std::abs(upper)) > kLongest) {
+    joint.node.requiredChild("limit").refuse("upper", fmt::format("{}", upper), "expected metres, within +-200 m");
+  }
+  return {joint.name, (base_from_joint.linear() * urdfAxis(joint.node)).normalized(), lower, upper};
 }
 
 void placeChain(const Chain& chain, const std::string& base, Robot& robot) {
@@ -318,6 +343,7 @@ void placeChain(const Chain& chain, const std::string& base, Robot& robot) {
   std::vector<const UrdfJoint*> turning;
   for (const UrdfJoint* joint : chain) {
     base_from_link = base_from_link * urdfOrigin(joint->node);
+    if (joint->type == "prismatic") robot.rail = railAlong(*joint, base_from_link);
     if (turns(*joint)) {
       turning.push_back(joint);
       const Eigen::Vector3d axis = urdfAxis(joint->node);

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <boost/container/static_vector.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -57,6 +58,14 @@ struct LinkFrame {
 struct JointLimits {
   double lower = 0.0;  ///< rad; -infinity for a continuous joint
   double upper = 0.0;  ///< rad
+};
+
+/// A linear axis below the arm (a URDF's prismatic joint before all others): the arm stands on a carriage. Everything
+/// else of a Robot is stated with the carriage at zero.
+struct Rail {
+  std::string joint_name;
+  Eigen::Vector3d direction_in_base = Eigen::Vector3d::UnitX();  ///< unit; in which the position grows
+  double lower = 0.0, upper = 0.0;                               ///< limits of the position, m
 };
 
 /// Joints at the end of the arm whose axes meet in the wrist centre, where the machine has one: three, of four and five
@@ -116,6 +125,7 @@ struct Robot {
   Eigen::Isometry3d base_from_flange_at_zero = Eigen::Isometry3d::Identity();
   PerBody<BodyMass> bodies;      ///< [0] the base (its mass plays no part), [i] the body beyond axis i
   std::vector<LinkFrame> links;  ///< every link on the chain, and every link rigidly fixed to one of those
+  std::optional<Rail> rail;      ///< of an arm on a linear axis
 
   int joints() const { return axes_in_base_at_zero.joints(); }                ///< that have angles and springs
   int axes() const { return static_cast<int>(axes_in_base_at_zero.size()); }  ///< as many as moving bodies

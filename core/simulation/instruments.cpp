@@ -188,6 +188,7 @@ void addTrackerNoise(double factor, std::uint64_t noise_seed, campaign::Campaign
   const campaign::Tracker& tracker = campaign.tracker.value();
   addToTable(tracker, factor, {noise_seed, "tracker sweeps"}, campaign.circle_sweeps);
   addToTable(tracker, factor, {noise_seed, "tracker wrist"}, campaign.wrist_sweep);
+  addToTable(tracker, factor, {noise_seed, "tracker rail"}, campaign.rail_sweep);
   addToTable(tracker, factor, {noise_seed, "tracker loading"}, campaign.loading);
   addToTable(tracker, factor, {noise_seed, "tracker nests"}, campaign.nests);
 }

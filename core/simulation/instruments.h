@@ -83,7 +83,7 @@ Eigen::Vector3d trackerError(const campaign::Tracker& tracker, double factor, co
                              numerics::RandomStream& random);
 
 /// Adds an error of its own to every point of the campaign's tables (tracker frame): streams "tracker
-/// sweeps", "tracker wrist", "tracker loading" and "tracker nests" of `noise_seed`.
+/// sweeps", "tracker wrist", "tracker rail", "tracker loading" and "tracker nests" of `noise_seed`.
 void addTrackerNoise(double factor, std::uint64_t noise_seed, campaign::Campaign& campaign);
 
 }  // namespace stiffscope::simulation

@@ -10,6 +10,7 @@
 #include "core/io/input_error.h"
 #include "core/io/units.h"
 #include "core/numerics/random.h"
+#include "core/simulation/carriage.h"
 #include "core/simulation/equilibrium.h"
 #include "core/simulation/gears.h"
 #include "core/simulation/instruments.h"
@@ -29,6 +30,7 @@ struct Session {
   double now_s = 0.0;
   double last_nests_s = 0.0;
   Arrival arrival{spec.nominal.joints()};
+  Carriage carriage{spec};
 
   /// The clock and the arm move on to the next posture.
   void moveTo(const JointVector& q);
@@ -39,6 +41,12 @@ struct Session {
   JointVector reported(const JointVector& q) const;  ///< rounded to the read-back resolution
   /// What the controller logs of this state: where it stands still, or a little before.
   JointVector logged(const MachineState& state) const;
+  /// Of the carriage, for the rows of an arm on a rail.
+  double reportedRail() const { return carriage.onRail() ? carriage.reported() : campaign::kNotGiven; }
+  /// A point of the robot in base_link with its carriage at zero, read now.
+  Eigen::Vector3d read(const Eigen::Vector3d& point) const {
+    return station.readRobot(point + carriage.displacement(), now_s);
+  }
   /// The time a reading is finished; the clock moves on to it.
   double takeReading();
 };
@@ -47,6 +55,7 @@ void measureNests(Session& session);       ///< one reading of every nest, now
 void measureNestsIfDue(Session& session);  ///< if their interval has passed
 void measureCircleSweeps(Session& session);
 void measureWristSweep(Session& session);
+void measureRailSweep(Session& session);
 void measureLoading(Session& session);
 
 namespace {
@@ -118,7 +127,7 @@ void readTargets(Session& session, PostureRun& run, const AppliedLoad& load, con
       reading.target = static_cast<int>(t);
       reading.time_s = session.takeReading();
       state = stateNow(session, run, load, rest, late, session.now_s - changed_s);
-      reading.point = session.station.readRobot(reflectorPlace(session, state, run.seats, t), session.now_s);
+      reading.point = session.read(reflectorPlace(session, state, run.seats, t));
       session.campaign.loading->rows.push_back(reading);
     }
   }
@@ -132,6 +141,8 @@ void measureState(Session& session, PostureRun& run, int step) {
   AppliedLoad load;
   if (spec.loading) {
     load = loadAtStep(*spec.loading, step, session.machine.gravity_in_base, run.posture.pull_direction, unread);
+    // An anchor stands on the floor, and the machine's frame goes with the carriage.
+    if (auto* cable = std::get_if<AnchoredCable>(&load)) cable->anchor_in_base -= session.carriage.displacement();
   }
   const MachineState rest = session.rest(run.posture.q, load, step > 0 ? &run.anchors : nullptr);
   run.anchors =
@@ -141,6 +152,7 @@ void measureState(Session& session, PostureRun& run, int step) {
   row.step = step;
   row.time_s = session.now_s;
   row.q = session.logged(rest);
+  row.rail = session.reportedRail();
   if (spec.temperature) row.temperature_c = spec.temperature->at(session.now_s);
   for (int i = 0; i < session.machine.joints(); ++i) {
     if (session.machine.truth.joints[static_cast<std::size_t>(i)].gear) row.motor_side[i] = rest.motor_side[i];
@@ -162,8 +174,10 @@ void measureLoading(Session& session) {
   session.campaign.loading = campaign::Loading{"loading.csv", campaign::PointFrame::tracker, {}};
   session.campaign.states = campaign::States{"states.csv", campaign::PointFrame::tracker, {}};
   const std::vector<Posture> postures = loadingPostures(spec);
+  const std::vector<double> positions = carriagePositions(spec, postures.size());
   for (std::size_t p = 0; p < postures.size(); ++p) {
     session.campaign.pose_ids.push_back(std::to_string(p + 1));
+    session.carriage.driveTo(positions[p]);
     session.moveTo(postures[p].q);
     PostureRun run{postures[p], static_cast<int>(p), ReflectorSeats(spec, static_cast<int>(p))};
     for (int step = 0; step <= later_steps; ++step) {
@@ -188,9 +202,9 @@ Row reading(Session& session, const MachineState& state, ReflectorSeats& seats, 
   row.index = std::to_string(index);
   row.target = target;
   row.q = session.logged(state);
+  row.rail = session.reportedRail();
   row.time_s = session.takeReading();
-  row.point =
-      session.station.readRobot(reflectorPlace(session, state, seats, static_cast<std::size_t>(target)), session.now_s);
+  row.point = session.read(reflectorPlace(session, state, seats, static_cast<std::size_t>(target)));
   return row;
 }
 
@@ -245,6 +259,32 @@ void measureWristSweep(Session& session) {
     measureNestsIfDue(session);
   }
   session.campaign.wrist_sweep = std::move(table);
+}
+
+void measureRailSweep(Session& session) {
+  const SimulationSpec& spec = session.spec;
+  const RailSpec& rail = spec.rail;
+  if (!session.carriage.onRail() || rail.stops == 0) return;
+  campaign::RailSweep table{"rail_sweep.csv", campaign::PointFrame::tracker, {}};
+  const JointVector q = JointVector::Zero(spec.nominal.joints());
+  for (int stop = 0; stop < rail.stops; ++stop) {
+    session.carriage.driveTo(rail.low + (rail.high - rail.low) * stop / (rail.stops - 1));
+    session.moveTo(q);
+    const MachineState state = session.rest(q);
+    ReflectorSeats seats(spec, stop);
+    for (std::size_t t = 0; t < spec.targets.size(); ++t) {
+      campaign::RailReading row;
+      row.index = std::to_string(stop);
+      row.target = static_cast<int>(t);
+      row.rail = session.carriage.reported();
+      row.time_s = session.takeReading();
+      row.point = session.read(reflectorPlace(session, state, seats, t));
+      table.rows.push_back(row);
+    }
+    measureNestsIfDue(session);
+  }
+  session.carriage.driveTo(rail.sweeps_at);
+  session.campaign.rail_sweep = std::move(table);
 }
 
 namespace {
@@ -353,6 +393,7 @@ campaign::Campaign measureWithoutNoise(const ElasticMachine& machine, const Simu
   measureNests(session);
   measureCircleSweeps(session);
   measureWristSweep(session);
+  measureRailSweep(session);
   if (spec.nests_after_sweeps) measureNests(session);
   session.station.startLoading();
   measureLoading(session);
@@ -371,6 +412,7 @@ void numberRows(campaign::Campaign& campaign) {
   };
   number(campaign.circle_sweeps);
   number(campaign.wrist_sweep);
+  number(campaign.rail_sweep);
   number(campaign.loading);
   number(campaign.states);
   number(campaign.displacements);

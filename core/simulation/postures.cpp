@@ -81,7 +81,12 @@ bool keepsRules(const SimulationSpec& spec, const PostureDraw& draw, const Joint
   if (draw.max_flange_up && up > *draw.max_flange_up) return false;
   const Eigen::Vector3d flange = base_from_flange.translation();
   if (!within(flange.z(), draw.min_height, draw.max_height)) return false;
-  const double distance = (flange - spec.tracker.base_from_tracker.translation()).norm();
+  // On a rail as seen from its middle: where the carriage stands is drawn by itself.
+  const Eigen::Vector3d carriage = spec.nominal.rail
+                                       ? Eigen::Vector3d(0.5 * (spec.rail.low + spec.rail.high) *
+                                                         spec.nominal.rail->direction_in_base)
+                                       : Eigen::Vector3d(Eigen::Vector3d::Zero());
+  const double distance = (flange + carriage - spec.tracker.base_from_tracker.translation()).norm();
   if (!within(distance, draw.min_tracker_distance, draw.max_tracker_distance)) return false;
   return !draw.min_hang_clearance || !spec.loading ||
          hangClearance(spec.nominal, q, spec.loading->hook_in_flange) >= *draw.min_hang_clearance;

@@ -258,6 +258,29 @@ std::optional<WristSweepSpec> readWristSweep(const io::XmlNode& root, int joints
   return sweep;
 }
 
+RailSpec readRail(const io::XmlNode& root, const robot::Robot& robot) {
+  RailSpec rail;
+  const std::optional<io::XmlNode> node = root.child("rail");
+  if (!node) return rail;
+  if (!robot.rail) node->refuse("rail", "", "expected a URDF with a prismatic joint before all that turn");
+  refuseUnknown(*node, {"sweeps_at_mm", "min_mm", "max_mm", "stops", "tilt_deg", "scale_error", "straightness_um",
+                        "wave_mm", "stop_sigma_um"});
+  rail.sweeps_at = numberOr(*node, "sweeps_at_mm", io::kMillimetre, 0.0);
+  rail.low = numberOr(*node, "min_mm", io::kMillimetre, 0.0);
+  rail.high = numberOr(*node, "max_mm", io::kMillimetre, rail.low);
+  if (rail.high < rail.low) {
+    node->refuse("max_mm", node->requiredAttribute("max_mm"), "expected no position below that of min_mm");
+  }
+  constexpr int kFewestStops = 3, kMostStops = 10000;
+  if (node->has("stops")) rail.stops = integer(*node, "stops", kFewestStops, kMostStops);
+  rail.tilt = vectorOr(*node, "tilt_deg", io::kDegree, Eigen::Vector3d::Zero());
+  rail.scale = 1.0 + numberOr(*node, "scale_error", 1.0, 0.0);
+  rail.straightness = nonNegativeOr(*node, "straightness_um", io::kMicrometre, 0.0);
+  rail.wave = optionalPositive(*node, "wave_mm", io::kMillimetre).value_or(rail.wave);
+  rail.stop_sigma = nonNegativeOr(*node, "stop_sigma_um", io::kMicrometre, 0.0);
+  return rail;
+}
+
 void readNestsAndTimes(const io::XmlNode& root, SimulationSpec& spec) {
   if (const auto nests = root.child("nests")) {
     refuseUnknown(*nests, {"interval_s", "after_sweeps"}, {"nest"});
@@ -316,7 +339,8 @@ SimulationSpec parseSimulationSpec(std::string_view bytes, const std::filesystem
                 {"robot",       "joints",      "base",         "link",        "geometry",  "tool",
                  "tool_plate",  "loose_plate", "coupling",     "spring",      "growth",    "creep",
                  "temperature", "targets",     "tracker",      "station",     "load_cell", "hanging_load",
-                 "cable_load",  "postures",    "circle_sweep", "wrist_sweep", "nests",     "times"});
+                 "cable_load",  "postures",    "circle_sweep", "wrist_sweep", "rail",      "nests",
+                 "times"});
   integer(root, "format", 1, 1);
 
   SimulationSpec spec;
@@ -333,6 +357,7 @@ SimulationSpec parseSimulationSpec(std::string_view bytes, const std::filesystem
   spec.station = readStation(root);
   spec.load_cell = readLoadCell(root, spec.nominal);
   spec.loading = readLoading(root);
+  spec.rail = readRail(root, spec.nominal);
   readPostures(root, spec);
   spec.circle_sweeps = readCircleSweeps(root, spec.nominal.joints());
   spec.wrist_sweep = readWristSweep(root, spec.nominal.joints(), spec.targets.size());

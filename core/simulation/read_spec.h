@@ -72,6 +72,10 @@ namespace stiffscope::simulation {
 ///   [circle_sweep]...: axis start_deg stop_deg count [others_deg=0] (n)
 ///   [wrist_sweep]: readings (rows in all) [scheme=one_target] (or all_targets) [arm_deg=0] (one a joint
 ///       before the wrist) min_deg max_deg (one a joint of the wrist)
+///   [rail] (of a URDF with a prismatic joint before all others): [sweeps_at_mm=0] [min_mm=0] [max_mm=min_mm] (of the
+///       loaded postures) [stops=0] (of a rail sweep between those) [tilt_deg=0] (rotation vector, nominal to true)
+///       [scale_error=0] (true travel over the reported, less 1) [straightness_um=0] [wave_mm=4000] (across the rail)
+///       [stop_sigma_um=0] (along it)
 ///   [nests]: [interval_s=3600] [after_sweeps=false] (read once more between wrist sweep and loading)
 ///     nest...: id xyz_mm (in the base)
 ///   [times]: [reading_s=2] [move_s=10] [load_change_s=60]

@@ -38,6 +38,7 @@ void readPostures(const io::XmlNode& root, SimulationSpec& spec);  ///< after no
 
 std::vector<CircleSweepSpec> readCircleSweeps(const io::XmlNode& root, int joints);
 std::optional<WristSweepSpec> readWristSweep(const io::XmlNode& root, int joints, std::size_t targets);
+RailSpec readRail(const io::XmlNode& root, const robot::Robot& robot);
 void readNestsAndTimes(const io::XmlNode& root, SimulationSpec& spec);
 
 /// Refuses attributes and child elements of `node` that are not listed, naming the nearest that is.

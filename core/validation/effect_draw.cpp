@@ -98,7 +98,10 @@ EffectDraw baseCompliance(const simulation::SimulationSpec& machine, numerics::R
   EffectDraw draw;
   draw.most = 1.0;
   draw.apply = [=](double s, simulation::SimulationSpec& spec) {
-    if (s > 0.0) spec.machine.base_rotation = rate / s * Vector3d(1.0, 1.0 / other, 10.0 / (0.1 + yaw));
+    if (!(s > 0.0)) return;
+    spec.machine.base_rotation = rate / s * Vector3d(1.0, 1.0 / other, 10.0 / (0.1 + yaw));
+    // Of an arm on a rail the carriage's drive gives along it as well, by as much at the height of a shoulder.
+    if (spec.nominal.rail) spec.machine.base_translation = rate / s * Vector3d(1.0, 20.0, 20.0);
   };
   return draw;
 }

@@ -42,6 +42,7 @@ struct KindModel {
   double max_flange_up_deg;
   double min_abs_sin_bend;  ///< of the wrist's bend, for machines with a wrist of three axes
   std::optional<KindFollower> follower = std::nullopt;
+  double rail = 0.0;  ///< length of a linear axis along base_link's x, m; 0: it stands on none
 };
 
 const Vector3d kX(1, 0, 0), kY(0, 1, 0), kZ(0, 0, 1);
@@ -109,7 +110,25 @@ KindModel parallelogram() {
           KindFollower{2, 1, kY, -1.0}};
 }
 
+/// KUKA KR 210 R2700 on a linear axis: the maker's lengths; masses and springs of that class of arm.
+KindModel onRail() {
+  return {{{{0, 0, 0.675}, kZ, 400, {0.10, 0, -0.10}, 4.0e6, 185, {-70, 70}, {-60, 60}},
+           {{0.35, 0, 0}, kY, 230, {0, 0, 0.50}, 3.4e6, 140, {-40, 50}, {-45, 50}},
+           {{0, 0, 1.15}, kY, 210, {0.05, 0, 0.02}, 2.6e6, 155, {-40, 55}, {-45, 60}},
+           {{0, 0, -0.041}, kX, 80, {0.65, 0, 0}, 4.2e5, 350, {-110, 110}, {-120, 120}},
+           {{1.2, 0, 0}, kY, 45, {0.06, 0, 0}, 3.2e5, 125, {-100, 100}, {-110, 110}},
+           {{0.215, 0, 0}, kX, 15, {-0.02, 0, 0}, 1.1e5, 350, {-150, 150}, {-150, 150}}},
+          {0, 0, 0},
+          {180, -90, 0},
+          {2.7, 12.0, {600, 1300}},
+          20,
+          0.5,
+          std::nullopt,
+          6.0};
+}
+
 KindModel modelOf(MachineKind kind) {
+  if (kind == MachineKind::rail) return onRail();
   if (kind == MachineKind::parallelogram) return parallelogram();
   if (kind == MachineKind::offset_wrist) return offsetWrist();
   if (kind == MachineKind::seven_axis) return sevenAxis();
@@ -120,10 +139,18 @@ std::string written(const Vector3d& v) { return fmt::format("{:.9g} {:.9g} {:.9g
 
 std::string urdfOf(const KindModel& model, std::string_view name, double scale) {
   std::string text = fmt::format("<?xml version=\"1.0\"?>\n<robot name=\"{}\">\n  <link name=\"base_link\"/>\n", name);
+  const std::string foot = model.rail > 0.0 ? "carriage" : "base_link";
+  if (model.rail > 0.0) {
+    text += fmt::format(
+        "  <link name=\"carriage\"/>\n"
+        "  <joint name=\"rail\" type=\"prismatic\">\n    <parent link=\"base_link\"/><child link=\"carriage\"/>\n"
+        "    <axis xyz=\"1 0 0\"/><limit lower=\"0\" upper=\"{:.9g}\" effort=\"0\" velocity=\"0\"/>\n  </joint>\n",
+        model.rail);
+  }
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     const KindJoint& joint = model.joints[i];
     const double limit = joint.limit * io::kDegree;
-    std::string parent = i == 0 ? "base_link" : fmt::format("link_{}", i);
+    std::string parent = i == 0 ? foot : fmt::format("link_{}", i);
     Vector3d origin = scale * joint.origin;
     if (model.follower && model.follower->before == i) {
       text += fmt::format(
@@ -192,6 +219,24 @@ void addSweeps(const KindModel& model, simulation::SimulationSpec& spec) {
   spec.timing = {2.0, 4.0, 60.0, spec.timing.nest_interval_s};
 }
 
+/// The middle half of the rail, so that the tracker beside the arm sees it; as straight and as true as rails are.
+void addRail(double length, numerics::RandomStream& random, simulation::SimulationSpec& spec) {
+  if (length == 0.0) return;
+  simulation::RailSpec& rail = spec.rail;
+  rail.low = 0.25 * length;
+  rail.high = 0.75 * length;
+  rail.sweeps_at = 0.5 * length;
+  rail.stops = 15;
+  rail.tilt = 0.1 * io::kDegree * random.normal3();
+  rail.scale = 1.0 + 1e-4 * random.normal();
+  rail.straightness = random.uniform(0.0, 40e-6);
+  rail.stop_sigma = 20e-6;
+  // The tracker stands where it would beside an arm at the middle.
+  spec.tracker.base_from_tracker.translation() += rail.sweeps_at * spec.nominal.rail->direction_in_base;
+  for (simulation::NestSpec& nest : spec.nests)
+    nest.position_in_base += rail.sweeps_at * spec.nominal.rail->direction_in_base;
+}
+
 }  // namespace
 
 std::optional<MachineKind> machineKindOf(std::string_view name) {
@@ -215,6 +260,7 @@ MachineDraw drawMachineOfKind(MachineKind kind, std::uint64_t seed, const std::s
   addSprings(stiffness, model.day, random, draw.spec);
   addInstruments(model.day, random, draw.spec);
   draw.loading = addLoad(model.day, random, draw.spec);
+  addRail(model.rail, random, draw.spec);
   addPostures(model, draw.loading == "hanging", draw.spec);
   addSweeps(model, draw.spec);
   return draw;

@@ -18,11 +18,12 @@ namespace stiffscope::validation {
 /// - palletiser: five joints, of which the last two meet,
 /// - parallelogram: six joints, rods hold the forearm where joint 3 has it whatever joint 2 does (dimensions of the
 /// paper's
-///   class, 2.7 m).
-enum class MachineKind { six_axis, offset_wrist, seven_axis, palletiser, parallelogram };
+///   class, 2.7 m),
+/// - rail: six joints with a spherical wrist on a linear axis of 6 m (dimensions of a KR 210 R2700).
+enum class MachineKind { six_axis, offset_wrist, seven_axis, palletiser, parallelogram, rail };
 
-inline constexpr std::array<std::string_view, 5> kMachineKindNames{"six_axis", "offset_wrist", "seven_axis",
-                                                                   "palletiser", "parallelogram"};
+inline constexpr std::array<std::string_view, 6> kMachineKindNames{"six_axis",   "offset_wrist",  "seven_axis",
+                                                                   "palletiser", "parallelogram", "rail"};
 
 constexpr std::string_view nameOf(MachineKind kind) { return kMachineKindNames[static_cast<std::size_t>(kind)]; }
 

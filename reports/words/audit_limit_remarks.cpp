@@ -79,6 +79,12 @@ std::string auditLimitWords(audit::LimitId id, const RemarkValues& values) {
           values.count(0), values.count(1));
     case audit::LimitId::places_or_sweeps:
       return "how far identification trusts places (0.2 mm), or what the sweeps' uncertainty would show";
+    case audit::LimitId::trusted_places:
+      return "how far identification trusts places (0.2 mm)";
+    case audit::LimitId::travels_as_reported:
+      return "racks and scales are right to a tenth of a millimetre a metre; what they are off is taken off";
+    case audit::LimitId::rails_are_laid:
+      return "rails are laid along an axis of the robot's foot to a fraction of a degree";
     case audit::LimitId::turn_at_lever:
       return fmt::format("turn that carries a reflector at the longest lever, {:.2f} m, by twice its reading noise",
                          values.number(0));
@@ -178,6 +184,9 @@ std::string auditMissingWords(audit::MissingId id, const RemarkValues& values) {
       return "no two reflectors were read in the same states: read two or more in each";
     case audit::MissingId::few_wrist_readings:
       return "too few readings: more than centre and radii take";
+    case audit::MissingId::no_rail_sweep:
+      return "no sweep of the rail: read the reflectors at several positions of the carriage, joints at rest "
+             "(`rail_sweep`)";
     case audit::MissingId::wrist_axes_not_swept:
       return fmt::format("axes {} are not all measured: sweep each", axesFromTo(values.count(0), values.count(1)));
     case audit::MissingId::no_readings_of_arm:

@@ -315,6 +315,23 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
                          100.0 * values.number(0));
     case audit::RemarkId::decoupling_needs_one_point:
       return "; Decoupled Partial Pose takes them to meet in one point";
+    case audit::RemarkId::rail_leaves:
+      return fmt::format(
+          "from {:.1f} to {:.1f} mm the carriage leaves a straight line by {:.1f} um rms across it, and what is "
+          "reported by {:.1f} um along it; at most {:.1f} um",
+          values.number(2) / io::kMillimetre, values.number(3) / io::kMillimetre, 1e6 * values.number(1),
+          1e6 * values.number(0), 1e6 * values.number(4));
+    case audit::RemarkId::rail_travels:
+      return fmt::format("a reported metre is {:.6f} +- {:.6f} m of travel, and is taken as that", values.number(0),
+                         values.number(1));
+    case audit::RemarkId::rail_runs:
+      return fmt::format("the carriage goes {:.3f} deg off the axis of the URDF's prismatic joint",
+                         values.number(0) / io::kDegree);
+    case audit::RemarkId::rail_reversed:
+      return fmt::format(
+          "the carriage goes against the axis of the URDF's prismatic joint ({:.3f} deg from it): turn the axis round "
+          "in the URDF, or the sign of `rail_mm`",
+          values.number(0) / io::kDegree);
     case audit::RemarkId::loading_shifted:
       return fmt::format(
           "loading against sweeps: shift of ({}) mm in R0 at the arm and turn of {:.0f} urad, which explains "

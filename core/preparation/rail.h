@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+
+#include "core/campaign/campaign.h"
+#include "metrology/measured_points.h"
+
+namespace stiffscope::preparation {
+
+/// How the carriage of a rail goes through the frame of the points, by the day's rail sweep: a straight line.
+struct RailCourse {
+  Eigen::Vector3d per_metre = Eigen::Vector3d::Zero();     ///< displacement for a metre that the controller reports, m/m
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();    ///< of per_metre, with what the rail is not straight
+  double lowest = 0.0, highest = 0.0;                      ///< reported positions of the sweep, m
+  double along_rms = 0.0, across_rms = 0.0;                ///< of what is left, along the line and across it, m
+  double farthest = 0.0;                                   ///< of one reading from its place, m
+  std::string farthest_file;
+  std::size_t farthest_line = 0;
+  int readings = 0;
+
+  /// True travel over what is reported.
+  double scale() const { return per_metre.norm(); }
+  double scaleSd() const;
+};
+
+/// Least squares of p = a_t + r d over the rail sweep's readings: a_t the place of reflector t with the carriage at
+/// zero, r the reported position, d what is asked for. Weighted by the noise where it is known; the covariance is scaled
+/// by the residual variance where that is larger. Assumes joints that stand still and a carriage that does not turn:
+/// a turn by phi of an arm that reaches L moves a reflector by phi L, which is in what is left. Empty without a rail
+/// sweep of two positions at least.
+std::optional<RailCourse> fitRailCourse(const campaign::Campaign& campaign,
+                                        const std::optional<metrology::TrackerNoise>& noise);
+
+/// Refers the arm's readings to the carriage at zero: p - r d, in the tracker's frame by the course that was measured,
+/// in base_link's by the URDF's direction. Without a course (checkCampaign has then seen that the carriage stood still)
+/// readings in the tracker's frame stay as they are. The rows' `rail` is 0 afterwards. Nests and the rail sweep itself
+/// are left. For a robot without a rail nothing happens.
+void referToCarriageAtZero(const std::optional<RailCourse>& course, campaign::Campaign& campaign);
+
+}  // namespace stiffscope::preparation
