@@ -97,6 +97,7 @@ py::dict tablesOf(campaign::Campaign campaign) {
   py::dict tables;
   add(campaign::circleSweepsLayout(joints), campaign, campaign.circle_sweeps, tables);
   add(campaign::wristSweepLayout(joints), campaign, campaign.wrist_sweep, tables);
+  add(campaign::railSweepLayout(), campaign, campaign.rail_sweep, tables);
   add(campaign::loadingLayout(), campaign, campaign.loading, tables);
   add(campaign::statesLayout(joints), campaign, campaign.states, tables);
   add(campaign::displacementsLayout(), campaign, campaign.displacements, tables);

@@ -115,7 +115,8 @@ std::string calibratedUrdf(std::string_view bytes, const std::string& file, cons
     const Eigen::Isometry3d as_built = parent_as_built * origin;
     Eigen::Isometry3d placed = parent * origin;
     const char* type = joint->Attribute("type");
-    if (type != nullptr && std::string_view(type) != "fixed" && turning < axes) {
+    const bool turns = type != nullptr && std::string_view(type) != "fixed" && std::string_view(type) != "prismatic";
+    if (turns && turning < axes) {
       const metrology::Line& axis = calibrated.axes_in_base_at_zero[turning];
       if (turning + 1 == axes) {
         placed = flange_moved * as_built;

@@ -11,9 +11,6 @@ namespace stiffscope::effects {
 // the carriage gives: 1 / (m/N) is the rail's own stiffness. Parameters: rocking about x, about y (rad/Nm), shift along
 // x, y, z (m/N); never negative.
 
-namespace {
-
-/// Axes of the foot in base_link: its own, or with x along the rail and z as near to base_link's as that leaves it.
 Eigen::Matrix3d footAxes(const Eigen::Vector3d& rail_in_base) {
   if (rail_in_base.isZero(0.0)) return Eigen::Matrix3d::Identity();
   const bool upright = std::abs(rail_in_base.z()) > 0.9;  // a lift
@@ -25,6 +22,8 @@ Eigen::Matrix3d footAxes(const Eigen::Vector3d& rail_in_base) {
   axes.col(1) = axes.col(2).cross(axes.col(0));
   return axes;
 }
+
+namespace {
 
 std::vector<BodyTwist> baseComplianceTwists(const LinearizationPoint& at, const PostureStates& posture, std::size_t i) {
   const Eigen::Vector3d foot = at.r0_from_base_link.translation();

@@ -139,6 +139,10 @@ EffectPart rigidMotionPart(double most);
 /// The wrench's own displacement field: joint springs turned by the torque of a changed wrench on the tool.
 Eigen::VectorXd bySprings(const LinearizationPoint& at, const ArmState& state, const robot::Wrench& change);
 
+/// Axes in base_link along which the foot of an arm gives (base_compliance): those of base_link, or of an arm on a rail
+/// with x along the rail and z as near to base_link's as that leaves it.
+Eigen::Matrix3d footAxes(const Eigen::Vector3d& rail_in_base);
+
 /// What parameter `k` of a part is called, and its unit: "joint 3", "P12 x", "1/EI of link 2", "turn about
 /// x".
 std::string parameterName(const EffectPart& part, std::size_t k);

@@ -111,12 +111,15 @@ class ChainBuilder {
 
   void addBase() {
     const SizesOf base(source_.effects, effects::Effect::base_compliance);
+    const std::optional<robot::Rail>& rail = source_.campaign.robot.rail;
+    const Eigen::Matrix3d foot =
+        effects::footAxes(rail ? rail->direction_in_base : Eigen::Vector3d(Eigen::Vector3d::Zero()));
     ChainBody body = bodyNamed("base_flexure", Eigen::Vector3d::Zero());
     const char* const along[] = {"x", "y", "z"};
     for (int k = 0; k < 3; ++k)
-      addShift(body, fmt::format("base_shift_{}", along[k]), Eigen::Vector3d::Unit(k), base.at(2 + k));
+      addShift(body, fmt::format("base_shift_{}", along[k]), foot.col(k), base.at(2 + k));
     for (int k = 0; k < 2; ++k)
-      addTurn(body, fmt::format("base_rocking_{}", along[k]), Eigen::Vector3d::Unit(k), base.at(k));
+      addTurn(body, fmt::format("base_rocking_{}", along[k]), foot.col(k), base.at(k));
     addIfElastic(std::move(body));
   }
 

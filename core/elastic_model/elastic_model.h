@@ -37,7 +37,8 @@ struct ElasticModel {
 ///    (Euler and Bernoulli), carried from the tip to the middle of the beam, is diagonal: of stiffnesses EI/L about and
 ///    12 EI/L^3 along the two directions across, GJ/L about the beam. Springs of these stand there, between the link
 ///    and the next joint's axis.
-///  - base_compliance: about x and y and along x, y, z of base_link, at its origin.
+///  - base_compliance: about x and y and along x, y, z of base_link (of an arm on a rail: effects::footAxes), at its
+///    origin.
 ///  - tool_compliance: about and along the flange's axes, at its origin; what it carries (by the effect's shape the
 ///    load alone, or all that the last body weighs as well) lies beyond it.
 /// Other effects of the machine are no springs in series and are named in the remarks, those of the measurement too.

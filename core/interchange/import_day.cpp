@@ -26,6 +26,11 @@ class DayImport {
     std::string sha256 = std::move(result_.files.front().sha256);
     result_.campaign = day_.xml.campaign;
     result_.campaign.robot = files_.robot;
+    if (const auto& rail = files_.robot.rail) {
+      throw io::InputError({files_.urdf.string(), 0, rail->joint_name}, "prismatic",
+                           "expected an arm that stands still: no file of a day is read for where its carriage stood. "
+                           "Where it did not move the joint may be 'fixed' in the URDF");
+    }
     result_.urdf = files_.urdf;
     result_.start = files_.start;
     files_.files.push_back({day_xml.filename().string(), "day", "", nameOf(Encoding::utf8), std::move(sha256)});

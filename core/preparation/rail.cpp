@@ -99,7 +99,15 @@ void referToCarriageAtZero(const std::optional<RailCourse>& course, campaign::Ca
       if (position != at.end()) row.point -= position->second * d;
     }
   }
-  for (campaign::State& row : campaign.states->rows) row.rail = 0.0;
+  const auto [first, last] = std::minmax_element(
+      campaign.states->rows.begin(), campaign.states->rows.end(),
+      [](const campaign::State& a, const campaign::State& b) { return a.rail < b.rail; });
+  const bool moves = first != last && last->rail > first->rail;
+  for (campaign::State& row : campaign.states->rows) {
+    row.rail = 0.0;
+    // Whether a controller counts the carriage into the poses that it states is not known.
+    if (moves) row.tool_pose = {};
+  }
 }
 
 }  // namespace stiffscope::preparation

@@ -176,6 +176,28 @@ TEST(ReadUrdf, TakesFourToEightJoints) {
             "j5, j6, j7, j8, j9");
 }
 
+// A linear axis, turned in its own frame, between a fixed column and the arm.
+TEST(ReadUrdf, APrismaticJointBeforeAllOthersIsARail) {
+  std::string text = kRobot;
+  const std::string before = "<joint name=\"j1\" type=\"continuous\"><parent link=\"base\"/>";
+  text.replace(text.find(before), before.size(),
+               "<link name=\"carriage\"/><joint name=\"track\" type=\"prismatic\"><parent link=\"base\"/>"
+               "<child link=\"carriage\"/><origin xyz=\"0 0 0.2\" rpy=\"0 0 1.5707963267948966\"/>"
+               "<axis xyz=\"2 0 0\"/><limit lower=\"-0.5\" upper=\"4\"/></joint>"
+               "<joint name=\"j1\" type=\"continuous\"><parent link=\"carriage\"/>");
+  const robot::Robot arm = robot::parseUrdf(text, "odd.urdf", "base", "tool0");
+  EXPECT_EQ(arm.joints(), 6);
+  ASSERT_TRUE(arm.rail);
+  EXPECT_EQ(arm.rail->joint_name, "track");
+  EXPECT_LT((arm.rail->direction_in_base - Eigen::Vector3d::UnitY()).norm(), kRounding);
+  EXPECT_EQ(arm.rail->lower, -0.5);
+  EXPECT_EQ(arm.rail->upper, 4.0);
+  // The arm stands 0.2 m higher than without it, and is turned with it.
+  EXPECT_NEAR(arm.axes_in_base_at_zero[0].point.z(), odd().axes_in_base_at_zero[0].point.z() + 0.2, kRounding);
+  EXPECT_EQ(link(arm, "carriage").body, 0);
+  EXPECT_FALSE(odd().rail);
+}
+
 struct RejectedUrdf {
   const char *find, *replace, *message;
 };

@@ -86,6 +86,12 @@ TEST(MachineKinds, AParallelogramIsIdentified) {
   EXPECT_GE(held.hold, held.intervals - 4);
 }
 
+TEST(MachineKinds, AnArmOnARailIsIdentified) {
+  const Held held = heldOn(MachineKind::rail, 6, true);
+  EXPECT_GE(held.intervals, 30);
+  EXPECT_GE(held.hold, held.intervals - 4);
+}
+
 }  // namespace machine_kinds_test
 
 }  // namespace stiffscope
