@@ -70,6 +70,7 @@ GapStudy studyGap(const preparation::PreparedCampaign& prepared, const GapOption
       SystemInput{start->campaign, start->noise.noise, prepared.campaign.load_cell->force_sigma,
                   prepared.campaign.load_cell->moment_sigma, modelsFor(prepared.campaign, options.only),
                   start->absolute, start->sweeps, complianceExpected(start->state.at.compliance)});
+  if (prepared.rail) input->carriage = prepared.rail->of_stop;
   DiagnosisInput& begun = *start;
   study.start = std::move(start);
   if (study.usable()) {

@@ -90,6 +90,17 @@ void addWander(const SystemInput& input, const GapPosture& posture, const Eigen:
   }
 }
 
+/// Where the carriage stands in this posture: one shift of all reflectors, of which displacements are free.
+void addCarriage(const SystemInput& input, const GapPosture& posture, const Eigen::Isometry3d& r0_from_points,
+                 Eigen::MatrixXd& covariance) {
+  if (input.carriage.isZero(0.0)) return;
+  const Eigen::Matrix3d turn = r0_from_points.linear();
+  const Eigen::Matrix3d shift = turn * input.carriage * turn.transpose();
+  for (Eigen::Index a = 0; a < posture.position_rows; a += 3) {
+    for (Eigen::Index b = 0; b < posture.position_rows; b += 3) covariance.block<3, 3>(a, b) += shift;
+  }
+}
+
 /// What the model is not good for: more noise in absolute positions; in a deflection an error that grows
 /// with the load, one number a posture, reflector and direction, so that it counts once however many load
 /// steps show it.
@@ -145,6 +156,7 @@ GapCovariance gapCovariance(const SystemInput& input, const SystemState& state, 
         by_wrench * variances.asDiagonal() * by_wrench.transpose();
   }
   addWander(input, posture, r0_from_points, covariance);
+  addCarriage(input, posture, r0_from_points, covariance);
   result.by_measuring = covariance;
   addModelError(state, posture, covariance);
   result.whole = std::move(covariance);

@@ -275,6 +275,7 @@ EffectFit fitToAll(const preparation::PreparedCampaign& prepared, const Requeste
       diagnosis::SystemInput{start->campaign, start->noise.noise, campaign.load_cell->force_sigma,
                              campaign.load_cell->moment_sigma, modelsOf(wanted, campaign), start->absolute,
                              start->sweeps, diagnosis::complianceExpected(start->state.at.compliance)});
+  if (prepared.rail) input->carriage = prepared.rail->of_stop;
   requireTestable(asked.effects, *input, *start);
   if (wanted.empty()) return effects;
   diagnosis::boundDriftByNests(*start, *input);

@@ -54,12 +54,23 @@ std::optional<RailCourse> fitRailCourse(const campaign::Campaign& campaign,
   course.covariance = factors.solve(Eigen::MatrixXd::Identity(unknowns, unknowns)).topLeftCorner<3, 3>();
   course.readings = static_cast<int>(rows.size());
 
+  /// What is left at one position of the carriage, over its reflectors.
+  struct Stop {
+    Eigen::Vector3d left = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d noise = Eigen::Matrix3d::Zero();
+    double readings = 0.0;
+  };
+  std::map<std::string, Stop> stops;
   const Eigen::Vector3d along = course.per_metre.normalized();
   double chi2 = 0.0, along_sum = 0.0, across_sum = 0.0;
   for (const campaign::RailReading& row : rows) {
     const Eigen::Vector3d left =
         row.point - solution.segment<3>(place[row.target]) - (row.rail - middle) * course.per_metre;
     chi2 += noise ? left.dot(noise->covarianceAt(row.point).inverse() * left) : left.squaredNorm();
+    Stop& stop = stops[row.index];
+    stop.left += left;
+    if (noise) stop.noise += noise->covarianceAt(row.point);
+    stop.readings += 1.0;
     const double by_travel = along.dot(left);
     along_sum += by_travel * by_travel;
     across_sum += left.squaredNorm() - by_travel * by_travel;
@@ -70,6 +81,13 @@ std::optional<RailCourse> fitRailCourse(const campaign::Campaign& campaign,
   }
   course.along_rms = std::sqrt(along_sum / static_cast<double>(rows.size()));
   course.across_rms = std::sqrt(across_sum / static_cast<double>(rows.size()));
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+  for (const auto& [index, stop] : stops)
+    scatter += (stop.left * stop.left.transpose() - stop.noise) / (stop.readings * stop.readings);
+  scatter /= std::max(1.0, static_cast<double>(stops.size()) - 2.0);  // a line takes two numbers a coordinate
+  const double by_stop = std::max(0.0, along.dot(scatter * along));
+  const double aside = std::max(0.0, 0.5 * (scatter.trace() - along.dot(scatter * along)));
+  course.of_stop = by_stop * along * along.transpose() + aside * (one - along * along.transpose());
   const double dof = 3.0 * static_cast<double>(rows.size()) - static_cast<double>(unknowns);
   const double variance = dof > 0.0 ? chi2 / dof : 0.0;
   course.covariance *= noise ? std::max(1.0, variance) : variance;

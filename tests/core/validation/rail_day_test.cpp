@@ -44,6 +44,8 @@ TEST(RailDay, TheCarriageLeavesTheSpringsAsTheyAre) {
     const JointVector with = compliances(moved_day, method), without = compliances(simulation::simulate(still), method);
     ASSERT_EQ(with.size(), 6);
     for (int j = 0; j < 6; ++j) {
+      EXPECT_EQ(with[j] == 0.0, without[j] == 0.0) << j;
+      if (without[j] == 0.0) continue;  // a load that hangs does not turn joint 1
       // Weights are by the distance from the tracker, which is another: of a noise-free day they only weigh how far the
       // linear model is off.
       EXPECT_NEAR(with[j] / without[j], 1.0, 1e-3) << j;
