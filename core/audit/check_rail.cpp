@@ -48,8 +48,7 @@ preparation::AuditCheck directionCheck(const AuditInput& input, const preparatio
   const frames::ArmInR0& arm = input.frames.arm;
   const bool in_points = input.campaign.rail_sweep->frame == campaign::PointFrame::tracker;
   if (in_points && !arm.points_placed) return preparation::notTestable(check.id, Remark(MissingId::no_sweeps));
-  const Eigen::Matrix3d r0_from_points =
-      in_points ? arm.r0_from_points.linear() : arm.r0_from_base_link.linear();
+  const Eigen::Matrix3d r0_from_points = in_points ? arm.r0_from_points.linear() : arm.r0_from_base_link.linear();
   const Eigen::Vector3d stated = arm.r0_from_base_link.linear() * input.campaign.robot.rail->direction_in_base;
   const double cosine = stated.dot((r0_from_points * rail.per_metre).normalized());
   check.value = std::acos(std::clamp(cosine, -1.0, 1.0));

@@ -117,11 +117,10 @@ inline const TableLayout<RailReading>& railSweepLayout() {
   using Row = RailReading;
   static const TableLayout<Row> layout{
       "rail_sweep",
-      joined<Row>(
-          {{{"index", CellKind::text, [](Row& row) -> std::string& { return row.index; }}, targetColumn<Row>()},
-           {railColumn<Row>(true)},
-           pointColumns<Row>(),
-           {timeColumn<Row>(false)}}),
+      joined<Row>({{{"index", CellKind::text, [](Row& row) -> std::string& { return row.index; }}, targetColumn<Row>()},
+                   {railColumn<Row>(true)},
+                   pointColumns<Row>(),
+                   {timeColumn<Row>(false)}}),
       {"index", "target"}};
   return layout;
 }

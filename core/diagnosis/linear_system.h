@@ -49,8 +49,8 @@ struct SystemInput {
   Vector6d drift = Vector6d::Zero();
   Matrix6d drift_weight = Matrix6d::Zero();
   const preparation::DriftModel* wandering = nullptr;  ///< whose interpolated motion was corrected for; null: none
-  /// Of where the carriage of a rail stands in one posture, in the axes of the readings (RailCourse::of_stop); zero where
-  /// it stands still.
+  /// Of where the carriage of a rail stands in one posture, in the axes of the readings (RailCourse::of_stop); zero
+  /// where it stands still.
   Eigen::Matrix3d carriage = Eigen::Matrix3d::Zero();
 };
 

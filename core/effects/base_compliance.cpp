@@ -37,8 +37,9 @@ std::vector<BodyTwist> baseComplianceTwists(const LinearizationPoint& at, const 
 
 std::vector<EffectModel> baseComplianceModels(const ModelScope& scope) {
   EffectModel model{.most_parts = 5, .twists = &baseComplianceTwists};
-  const std::array<const char*, 2> rocking = scope.on_rail ? std::array{"rocking about the rail", "rocking across the rail"}
-                                                           : std::array{"rocking about x", "rocking about y"};
+  const std::array<const char*, 2> rocking = scope.on_rail
+                                                 ? std::array{"rocking about the rail", "rocking across the rail"}
+                                                 : std::array{"rocking about x", "rocking about y"};
   const std::array<const char*, 3> shift =
       scope.on_rail ? std::array{"shift along the rail", "shift across the rail", "shift off the rail"}
                     : std::array{"shift along x", "shift along y", "shift along z"};

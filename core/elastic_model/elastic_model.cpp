@@ -116,10 +116,8 @@ class ChainBuilder {
         effects::footAxes(rail ? rail->direction_in_base : Eigen::Vector3d(Eigen::Vector3d::Zero()));
     ChainBody body = bodyNamed("base_flexure", Eigen::Vector3d::Zero());
     const char* const along[] = {"x", "y", "z"};
-    for (int k = 0; k < 3; ++k)
-      addShift(body, fmt::format("base_shift_{}", along[k]), foot.col(k), base.at(2 + k));
-    for (int k = 0; k < 2; ++k)
-      addTurn(body, fmt::format("base_rocking_{}", along[k]), foot.col(k), base.at(k));
+    for (int k = 0; k < 3; ++k) addShift(body, fmt::format("base_shift_{}", along[k]), foot.col(k), base.at(2 + k));
+    for (int k = 0; k < 2; ++k) addTurn(body, fmt::format("base_rocking_{}", along[k]), foot.col(k), base.at(k));
     addIfElastic(std::move(body));
   }
 

@@ -160,8 +160,7 @@ std::size_t spreadSweepTimes(const StationMotion& station, campaign::Campaign& c
     if (epoch.time_s < loading) last = epoch.time_s;
   }
   const auto rowsOf = [](const auto& table) { return table ? table->rows.size() : 0; };
-  const std::size_t count =
-      rowsOf(campaign.circle_sweeps) + rowsOf(campaign.wrist_sweep) + rowsOf(campaign.rail_sweep);
+  const std::size_t count = rowsOf(campaign.circle_sweeps) + rowsOf(campaign.wrist_sweep) + rowsOf(campaign.rail_sweep);
   std::size_t at = 0, without_time = 0;
   const auto spread = [&](auto& table) {
     for (auto& row : table.rows) {

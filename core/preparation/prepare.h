@@ -41,7 +41,7 @@ struct PreparedCampaign {
   std::vector<AuditCheck> screening;  ///< the checks that found the rejected readings
   RepeatScatter scatter;              ///< of the repeats that are left, against the declared noise
   NoiseModel noise;
-  DriftModel drift;  ///< by the nests
+  DriftModel drift;                ///< by the nests
   std::optional<RailCourse> rail;  ///< by the rail sweep, of an arm on a rail
 };
 

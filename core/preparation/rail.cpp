@@ -117,9 +117,9 @@ void referToCarriageAtZero(const std::optional<RailCourse>& course, campaign::Ca
       if (position != at.end()) row.point -= position->second * d;
     }
   }
-  const auto [first, last] = std::minmax_element(
-      campaign.states->rows.begin(), campaign.states->rows.end(),
-      [](const campaign::State& a, const campaign::State& b) { return a.rail < b.rail; });
+  const auto [first, last] =
+      std::minmax_element(campaign.states->rows.begin(), campaign.states->rows.end(),
+                          [](const campaign::State& a, const campaign::State& b) { return a.rail < b.rail; });
   const bool moves = first != last && last->rail > first->rail;
   for (campaign::State& row : campaign.states->rows) {
     row.rail = 0.0;

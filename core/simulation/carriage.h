@@ -22,8 +22,8 @@ class Carriage {
   void driveTo(double position);
 
   double reported() const { return position_; }
-  /// Of everything on it against the carriage at zero, base_link, m: scale r d + straightness sin(2 pi r / wave) across,
-  /// level and upwards, + what the stop missed along d; d the true direction.
+  /// Of everything on it against the carriage at zero, base_link, m: scale r d + straightness sin(2 pi r / wave)
+  /// across, level and upwards, + what the stop missed along d; d the true direction.
   const Eigen::Vector3d& displacement() const { return displacement_; }
 
  private:

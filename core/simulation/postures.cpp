@@ -82,10 +82,9 @@ bool keepsRules(const SimulationSpec& spec, const PostureDraw& draw, const Joint
   const Eigen::Vector3d flange = base_from_flange.translation();
   if (!within(flange.z(), draw.min_height, draw.max_height)) return false;
   // On a rail as seen from its middle: where the carriage stands is drawn by itself.
-  const Eigen::Vector3d carriage = spec.nominal.rail
-                                       ? Eigen::Vector3d(0.5 * (spec.rail.low + spec.rail.high) *
-                                                         spec.nominal.rail->direction_in_base)
-                                       : Eigen::Vector3d(Eigen::Vector3d::Zero());
+  const Eigen::Vector3d carriage =
+      spec.nominal.rail ? Eigen::Vector3d(0.5 * (spec.rail.low + spec.rail.high) * spec.nominal.rail->direction_in_base)
+                        : Eigen::Vector3d(Eigen::Vector3d::Zero());
   const double distance = (flange + carriage - spec.tracker.base_from_tracker.translation()).norm();
   if (!within(distance, draw.min_tracker_distance, draw.max_tracker_distance)) return false;
   return !draw.min_hang_clearance || !spec.loading ||

@@ -336,11 +336,10 @@ SimulationSpec parseSimulationSpec(std::string_view bytes, const std::filesystem
   const io::XmlNode root = xml.root();
   if (root.name() != "simulation") root.refuse(root.name(), "", "expected the root element 'simulation'");
   refuseUnknown(root, {"format", "name", "date", "seed", "measurement"},
-                {"robot",       "joints",      "base",         "link",        "geometry",  "tool",
-                 "tool_plate",  "loose_plate", "coupling",     "spring",      "growth",    "creep",
-                 "temperature", "targets",     "tracker",      "station",     "load_cell", "hanging_load",
-                 "cable_load",  "postures",    "circle_sweep", "wrist_sweep", "rail",      "nests",
-                 "times"});
+                {"robot",       "joints",   "base",      "link",         "geometry",   "tool",        "tool_plate",
+                 "loose_plate", "coupling", "spring",    "growth",       "creep",      "temperature", "targets",
+                 "tracker",     "station",  "load_cell", "hanging_load", "cable_load", "postures",    "circle_sweep",
+                 "wrist_sweep", "rail",     "nests",     "times"});
   integer(root, "format", 1, 1);
 
   SimulationSpec spec;

@@ -374,14 +374,14 @@ struct WristSweepSpec {
 
 /// The day on a rail (robot::Rail of `nominal`), and how the true carriage differs from what the controller reports.
 struct RailSpec {
-  double sweeps_at = 0.0;         ///< where it stands in circle and wrist sweeps, m
-  double low = 0.0, high = 0.0;   ///< of the loaded postures, m
-  int stops = 0;                  ///< of the rail sweep, evenly from low to high; 0: none
+  double sweeps_at = 0.0;                          ///< where it stands in circle and wrist sweeps, m
+  double low = 0.0, high = 0.0;                    ///< of the loaded postures, m
+  int stops = 0;                                   ///< of the rail sweep, evenly from low to high; 0: none
   Eigen::Vector3d tilt = Eigen::Vector3d::Zero();  ///< rotation vector, nominal direction to true, base_link, rad
-  double scale = 1.0;             ///< true travel over what is reported
-  double straightness = 0.0;      ///< amplitude of its wave across the rail, level and upwards, m
-  double wave = 4.0;              ///< length of that wave, m
-  double stop_sigma = 0.0;        ///< by which a stop misses what is reported, along the rail, m
+  double scale = 1.0;                              ///< true travel over what is reported
+  double straightness = 0.0;                       ///< amplitude of its wave across the rail, level and upwards, m
+  double wave = 4.0;                               ///< length of that wave, m
+  double stop_sigma = 0.0;                         ///< by which a stop misses what is reported, along the rail, m
 };
 
 struct NestSpec {

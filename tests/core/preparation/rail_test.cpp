@@ -51,7 +51,8 @@ TEST(Rail, ItsCourseIsTheLineThatTheReadingsLieOn) {
   EXPECT_EQ(course->readings, 33);
 }
 
-// Of one coordinate of a line through n stops of three reflectors the slope's variance is sigma^2 / (3 sum (r - mean)^2).
+// Of one coordinate of a line through n stops of three reflectors the slope's variance is sigma^2 / (3 sum (r -
+// mean)^2).
 TEST(Rail, ItsUncertaintyIsThatOfASlope) {
   const metrology::TrackerNoise noise{10e-6, 0.0, 10e-6, 0.0, Vector3d::Zero()};
   const auto course = preparation::fitRailCourse(onRail(), noise);

@@ -9,7 +9,8 @@
 #include "core/validation/machine_kinds.h"
 #include "reports/words/remark_words.h"
 
-// Days of an arm on a rail from the simulator, which moves a true carriage and knows nothing of how its course is found.
+// Days of an arm on a rail from the simulator, which moves a true carriage and knows nothing of how its course is
+// found.
 
 namespace stiffscope {
 namespace rail_day_test {
