@@ -22,6 +22,7 @@ AuditInput auditInput(const preparation::PreparedCampaign& prepared) {
   AuditInput input{prepared.campaign};
   input.drift = prepared.preparation.drift;
   input.station = prepared.drift.rounds;
+  input.stations = prepared.preparation.stations;
   input.scatter = prepared.scatter;
   input.noise = preparation::declaredNoise(input.campaign);
   input.states = campaign::statePoints(input.campaign);

@@ -16,7 +16,7 @@ inline TableLayout<CircleReading> circleSweepsLayout(int joints) {
                         targetColumn<Row>()},
                        jointColumns<Row>(joints),
                        pointColumns<Row>(),
-                       {timeColumn<Row>(false)}}),
+                       {timeColumn<Row>(false), stationColumn<Row>()}}),
           {"axis", "index", "target"},
           blankRow<Row>(joints)};
 }
@@ -31,7 +31,8 @@ inline const TableLayout<Displacement>& displacementsLayout() {
            {targetColumn<Row>(),
             {"dx_mm", CellKind::displacement_millimetre, [](Row& row) -> double& { return row.displacement.x(); }},
             {"dy_mm", CellKind::displacement_millimetre, [](Row& row) -> double& { return row.displacement.y(); }},
-            {"dz_mm", CellKind::displacement_millimetre, [](Row& row) -> double& { return row.displacement.z(); }}}}),
+            {"dz_mm", CellKind::displacement_millimetre, [](Row& row) -> double& { return row.displacement.z(); }},
+            stationColumn<Row>()}}),
       {"pose", "step", "target"}};
   return layout;
 }
@@ -45,7 +46,8 @@ inline const TableLayout<LoadingReading>& loadingLayout() {
                    {{"repeat", CellKind::text, [](Row& row) -> std::string& { return row.repeat; }, false},
                     targetColumn<Row>(),
                     timeColumn<Row>(false)},
-                   pointColumns<Row>()}),
+                   pointColumns<Row>(),
+                   {stationColumn<Row>()}}),
       {"pose", "step", "repeat", "target"}};
   return layout;
 }
@@ -56,7 +58,8 @@ inline const TableLayout<NestReading>& nestsLayout() {
   static const TableLayout<Row> layout{
       "nests",
       joined<Row>({{timeColumn<Row>(true), {"nest", CellKind::nest, [](Row& row) -> int& { return row.nest; }}},
-                   pointColumns<Row>()}),
+                   pointColumns<Row>(),
+                   {stationColumn<Row>()}}),
       {"time_s", "nest"}};
   return layout;
 }
@@ -104,7 +107,7 @@ inline TableLayout<WristReading> wristSweepLayout(int joints) {
       joined<Row>({{{"index", CellKind::text, [](Row& row) -> std::string& { return row.index; }}, targetColumn<Row>()},
                    jointColumns<Row>(joints),
                    pointColumns<Row>(),
-                   {timeColumn<Row>(false)}}),
+                   {timeColumn<Row>(false), stationColumn<Row>()}}),
       {"index", "target"},
       blankRow<Row>(joints)};
 }

@@ -23,7 +23,9 @@ std::vector<NestSet> usable(const std::vector<NestRound>& rounds, const metrolog
     for (const auto& [nest, reading] : round.readings) {
       if (nest != left_out) set.readings.push_back(reading);
     }
-    if (set.readings.size() >= 3) sets.push_back(std::move(set));
+    if (set.readings.size() < 3) continue;
+    set.noise = noise.seenFrom(set.readings.front()->from);
+    sets.push_back(std::move(set));
   }
   return sets;
 }
@@ -188,14 +190,21 @@ std::vector<NestRound> nestRounds(const campaign::Nests& nests) {
     return a->time_s < b->time_s;
   });
   std::vector<NestRound> rounds;
+  std::map<int, std::size_t> latest;  // of each station: two trackers may read at the same time
   for (const campaign::NestReading* row : rows) {
-    if (rounds.empty() || rounds.back().readings.contains(row->nest)) rounds.emplace_back();
-    rounds.back().readings[row->nest] = row;
+    const auto [place, first] = latest.try_emplace(row->station, rounds.size());
+    if (first || rounds[place->second].readings.contains(row->nest))
+      place->second = rounds.size(), rounds.emplace_back();
+    rounds[place->second].readings[row->nest] = row;
   }
   for (NestRound& round : rounds) {
     for (const auto& [nest, row] : round.readings) {
       round.time_s += row->time_s / static_cast<double>(round.readings.size());
     }
+  }
+  if (latest.size() > 1) {
+    std::stable_sort(rounds.begin(), rounds.end(),
+                     [](const NestRound& a, const NestRound& b) { return a.time_s < b.time_s; });
   }
   return rounds;
 }

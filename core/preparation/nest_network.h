@@ -28,7 +28,7 @@ struct NestRound {
   std::map<int, const campaign::NestReading*> readings;
 };
 
-/// Rounds in the order of time; a nest that comes again starts the next one. They point into `nests`.
+/// Rounds in the order of time; a nest that comes again starts the next one of its station. They point into `nests`.
 std::vector<NestRound> nestRounds(const campaign::Nests& nests);
 
 /// Readings that one motion brings onto those of the first set; a nest may be among them more than once.

@@ -211,9 +211,11 @@ void leaveOutNests(const Stations& stations, const Eigen::Vector3d& centre, Fitt
       for (const int nest : nests) {
         FittedStations other = fitStations(withoutNest(rest, s, nest), centre);
         if (!joinsAsMany(other.network, fit.network) || other.network.dof <= 0) continue;
-        // Rounding decides nothing: of two stations a nest is wrong at either.
-        constexpr double kAsGood = 1e-6;
-        if (best && other.network.chi2 >= best_fit.network.chi2 * (1.0 - kAsGood)) continue;
+        // Of a nest that two stations read chance decides nothing: a log-likelihood ratio of 5, odds of 150 to one.
+        constexpr double kDecisive = 10.0;
+        const auto excess = [](const FittedStations& one) { return one.network.chi2 - one.network.dof; };
+        const double at_least = best && best->nest == nest ? kDecisive : 0.0;
+        if (best && excess(other) >= excess(best_fit) - at_least) continue;
         best = OutlyingNest{s, nest, std::nullopt, 0.0};
         best_fit = std::move(other);
       }
@@ -231,18 +233,12 @@ void leaveOutNests(const Stations& stations, const Eigen::Vector3d& centre, Fitt
 
 }  // namespace
 
-Eigen::Matrix3d StationPose::covarianceAt(const Eigen::Vector3d& point_in_first) const {
-  Eigen::Matrix<double, 3, 6> by_motion;
-  by_motion << -metrology::crossMatrix(point_in_first - centre), Eigen::Matrix3d::Identity();
-  return by_motion * covariance * by_motion.transpose();
-}
-
 bool StationNetwork::allJoined() const {
   return std::all_of(stations.begin(), stations.end(),
                      [](const StationPose& pose) { return pose.joined == StationPose::Joined::yes; });
 }
 
-StationNetwork joinStations(const std::vector<NestsOfStation>& stations, const Eigen::Vector3d& centre) {
+StationNetwork fitStationNetwork(const std::vector<NestsOfStation>& stations, const Eigen::Vector3d& centre) {
   if (stations.empty()) return {};
   Stations used = stations;
   FittedStations fit = fitStations(used, centre);

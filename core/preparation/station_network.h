@@ -17,20 +17,11 @@ struct NestsOfStation {
 };
 
 /// How a station stands against the first one.
-struct StationPose {
+struct StationPose : campaign::StationPlace {
   enum class Joined { yes, too_few_common_nests, common_nests_on_one_line };
 
   Joined joined = Joined::too_few_common_nests;
   int common_nests = 0;  ///< with the stations that it is joined to
-  Eigen::Isometry3d first_from_station = Eigen::Isometry3d::Identity();
-  /// By the declared noise: of a small rotation (rad) after the pose, and of the displacement at `centre` (m), in the
-  /// first station's axes. Zero for the first station.
-  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-
-  /// What the pose's uncertainty does to a reading at this point of the first station's frame, m^2: common to all
-  /// readings of the station, so that it leaves the difference of two of them as it was but for the turn.
-  Eigen::Matrix3d covarianceAt(const Eigen::Vector3d& point_in_first) const;
 };
 
 /// A nest, or one of its readings, that the others contradict.
@@ -74,6 +65,6 @@ struct StationNetwork {
 ///
 /// Assumes stations that do not drift: a drift is taken off each of them first. Correlations between the poses of a
 /// third station and a second, by the nests' places that they share, are not given.
-StationNetwork joinStations(const std::vector<NestsOfStation>& stations, const Eigen::Vector3d& centre);
+StationNetwork fitStationNetwork(const std::vector<NestsOfStation>& stations, const Eigen::Vector3d& centre);
 
 }  // namespace stiffscope::preparation

@@ -70,7 +70,7 @@ Eigen::Matrix<double, 6, 1> offBy(const Eigen::Isometry3d& pose, const Eigen::Is
 }
 
 TEST(StationNetwork, ExactReadingsGiveTheMotionThatWasPutIn) {
-  const preparation::StationNetwork network = preparation::joinStations(twoStations({}), kArm);
+  const preparation::StationNetwork network = preparation::fitStationNetwork(twoStations({}), kArm);
   ASSERT_TRUE(network.allJoined());
   EXPECT_EQ(network.stations[1].common_nests, 5);
   // Rounding of coordinates of some metres: 1e-15 of 5 m, and some more through the normal equations.
@@ -91,7 +91,7 @@ TEST(StationNetwork, OneReadingEachIsTheWeightedRigidRegistration) {
   setup.rounds = 1;
   setup.noise = &noise;
   const auto stations = twoStations(setup);
-  const preparation::StationNetwork network = preparation::joinStations(stations, kArm);
+  const preparation::StationNetwork network = preparation::fitStationNetwork(stations, kArm);
   ASSERT_TRUE(network.allJoined());
   std::vector<Eigen::Vector3d> own, first;
   std::vector<Eigen::Matrix3d> covariances;
@@ -131,7 +131,7 @@ TEST(StationNetwork, CovarianceHoldsTheTruthAsOftenAsItSays) {
     Noise noise(9'417'000 + static_cast<std::uint64_t>(day));
     HowRead setup;
     setup.noise = &noise;
-    const preparation::StationNetwork network = preparation::joinStations(twoStations(setup), kArm);
+    const preparation::StationNetwork network = preparation::fitStationNetwork(twoStations(setup), kArm);
     ASSERT_TRUE(network.allJoined());
     const preparation::StationPose& pose = network.stations[1];
     const Eigen::Matrix<double, 6, 1> off = offBy(pose.first_from_station, otherSide());
@@ -162,7 +162,7 @@ TEST(StationNetwork, NamesANestThatMovedBetweenTheStationsAndGoesByTheOthers) {
   for (campaign::NestReading& reading : stations[1].readings) {
     if (reading.nest == 3) reading.point += otherSide().linear().transpose() * shift;
   }
-  const preparation::StationNetwork network = preparation::joinStations(stations, kArm);
+  const preparation::StationNetwork network = preparation::fitStationNetwork(stations, kArm);
   ASSERT_EQ(network.outlying.size(), 1u);
   EXPECT_EQ(network.outlying[0].nest, 3);
   EXPECT_EQ(network.outlying[0].station, 1u);
@@ -186,7 +186,7 @@ TEST(StationNetwork, ThreeStationsTellWhichOfThemReadTheNestElsewhere) {
   for (campaign::NestReading& reading : stations[1].readings) {
     if (reading.nest == 2) reading.point.x() += 1e-3;
   }
-  const preparation::StationNetwork network = preparation::joinStations(stations, kArm);
+  const preparation::StationNetwork network = preparation::fitStationNetwork(stations, kArm);
   ASSERT_EQ(network.outlying.size(), 1u);
   EXPECT_EQ(network.outlying[0].nest, 2);
   EXPECT_EQ(network.outlying[0].station, 1u);
@@ -200,7 +200,7 @@ TEST(StationNetwork, NamesASingleWrongReadingByItsLine) {
   auto stations = twoStations(setup);
   campaign::NestReading& wrong = stations[1].readings[7];
   wrong.point.y() += 2e-3;
-  const preparation::StationNetwork network = preparation::joinStations(stations, kArm);
+  const preparation::StationNetwork network = preparation::fitStationNetwork(stations, kArm);
   ASSERT_EQ(network.outlying.size(), 1u);
   ASSERT_TRUE(network.outlying[0].line);
   EXPECT_EQ(*network.outlying[0].line, wrong.line);
@@ -213,7 +213,7 @@ TEST(StationNetwork, SaysWhyAStationIsNotJoined) {
   std::vector<preparation::NestsOfStation> stations;
   stations.push_back(readingsOf(Eigen::Isometry3d::Identity(), {0, 1, 2, 3}, {}, line));
   stations.push_back(readingsOf(otherSide(), {0, 1, 4}, {}, line));
-  preparation::StationNetwork network = preparation::joinStations(stations, kArm);
+  preparation::StationNetwork network = preparation::fitStationNetwork(stations, kArm);
   EXPECT_FALSE(network.allJoined());
   EXPECT_EQ(network.stations[1].joined, Joined::too_few_common_nests);
   EXPECT_EQ(network.stations[1].common_nests, 2);
@@ -229,7 +229,7 @@ TEST(StationNetwork, SaysWhyAStationIsNotJoined) {
       stations[s].readings.push_back(reading);
     }
   }
-  network = preparation::joinStations(stations, kArm);
+  network = preparation::fitStationNetwork(stations, kArm);
   EXPECT_EQ(network.stations[1].joined, Joined::common_nests_on_one_line);
   EXPECT_EQ(network.stations[1].common_nests, 3);
 }
@@ -244,7 +244,7 @@ TEST(StationNetwork, JoinsAStationThroughAnother) {
   stations.push_back(readingsOf(Eigen::Isometry3d::Identity(), {0, 1, 2}, {}, line));
   stations.push_back(readingsOf(third, {2, 3, 4}, {}, line));
   stations.push_back(readingsOf(otherSide(), {0, 1, 2, 3, 4}, {}, line));
-  const preparation::StationNetwork network = preparation::joinStations(stations, kArm);
+  const preparation::StationNetwork network = preparation::fitStationNetwork(stations, kArm);
   ASSERT_TRUE(network.allJoined());
   EXPECT_LT(offBy(network.stations[1].first_from_station, third).norm(), 1e-11);
   EXPECT_LT(offBy(network.stations[2].first_from_station, otherSide()).norm(), 1e-11);
