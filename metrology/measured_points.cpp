@@ -1,5 +1,7 @@
 #include "metrology/measured_points.h"
 
+#include <cmath>
+
 namespace stiffscope::metrology {
 
 Eigen::Matrix3d TrackerNoise::covarianceAt(const Eigen::Vector3d& point) const {
@@ -11,6 +13,16 @@ Eigen::Matrix3d TrackerNoise::covarianceAt(const Eigen::Vector3d& point) const {
   if (distance == 0.0) return isotropic;
   const Eigen::Vector3d beam = sight / distance;
   return isotropic + (along * along - across * across) * beam * beam.transpose();
+}
+
+Eigen::Matrix3d TrackerNoise::covarianceAt(const Eigen::Vector3d& point, const Eigen::Vector3d& from) const {
+  return std::isnan(from.x()) ? covarianceAt(point) : seenFrom(from).covarianceAt(point);
+}
+
+TrackerNoise TrackerNoise::seenFrom(const Eigen::Vector3d& from) const {
+  TrackerNoise noise = *this;
+  if (!std::isnan(from.x())) noise.station = from;
+  return noise;
 }
 
 }  // namespace stiffscope::metrology

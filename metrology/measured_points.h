@@ -51,6 +51,12 @@ struct TrackerNoise {
 
   /// Covariance (m^2) of a reading at `point`, in the frame in which point and station are given.
   Eigen::Matrix3d covarianceAt(const Eigen::Vector3d& point) const;
+
+  /// The same of an instrument that stood at `from`; where that is not a number, at `station`.
+  Eigen::Matrix3d covarianceAt(const Eigen::Vector3d& point, const Eigen::Vector3d& from) const;
+
+  /// The noise of an instrument that stood at `from`; where that is not a number, at `station`.
+  TrackerNoise seenFrom(const Eigen::Vector3d& from) const;
 };
 
 }  // namespace stiffscope::metrology

@@ -25,6 +25,12 @@ const std::vector<std::string>& namesOfKind(CellKind kind, const campaign::Campa
   return kind == CellKind::pose ? campaign.pose_ids : campaign.nest_ids;
 }
 
+std::vector<std::string> stationNames(const campaign::Campaign& campaign) {
+  std::vector<std::string> names;
+  for (const campaign::StationPlace& station : campaign.stations) names.push_back(station.id);
+  return names;
+}
+
 template <class Row>
 class TableColumns {
  public:
@@ -61,6 +67,13 @@ class TableColumns {
         py::array_t<std::int64_t> values(static_cast<py::ssize_t>(rows_.size()));
         std::int64_t* to = values.mutable_data();
         for (Row& row : rows_) *to++ = (*index)(row) + (column.kind == CellKind::axis ? 1 : 0);
+        return std::move(values);
+      }
+      if (column.kind == CellKind::station) {
+        if (campaign_.stations.empty()) return py::none();
+        const std::vector<std::string> stations = stationNames(campaign_);
+        py::list values;
+        for (Row& row : rows_) values.append(stations.at(static_cast<std::size_t>((*index)(row))));
         return std::move(values);
       }
       const std::vector<std::string>& names = namesOfKind(column.kind, campaign_, targets_);

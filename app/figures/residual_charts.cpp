@@ -199,10 +199,10 @@ bool hasBeam(const reports::ReportCampaign& one, const identification::MethodRes
 }
 
 Eigen::Matrix3d directionsAt(const reports::ReportCampaign& one, const identification::MethodResult& method,
-                             const Eigen::Vector3d& point) {
+                             const identification::TargetMove& move) {
   if (!hasBeam(one, method)) return Eigen::Matrix3d::Identity();
   const Eigen::Vector3d station = *method.geometry.r0_from_loading * one.campaign.tracker->station;
-  return beamDirections(station, point);
+  return beamDirections(move.from.allFinite() ? move.from : station, move.unloaded);
 }
 
 std::vector<ResidualVector> residualsOf(const reports::ReportCampaign& one,
@@ -216,7 +216,7 @@ std::vector<ResidualVector> residualsOf(const reports::ReportCampaign& one,
       const identification::TargetMove& move = cases[i].targets[k];
       const auto row = static_cast<Eigen::Index>(3 * k);
       if (row + 3 > left.size()) break;
-      const Eigen::Matrix3d directions = directionsAt(one, method, move.unloaded);
+      const Eigen::Matrix3d directions = directionsAt(one, method, move);
       ResidualVector residual{i, move.target, {}, {}};
       for (int d = 0; d < 3; ++d) {
         const auto at = static_cast<std::size_t>(d);

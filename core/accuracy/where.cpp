@@ -40,13 +40,13 @@ struct Left {
 std::vector<Left> leftOver(const UnloadedDay& day, const ArmFit& fit) {
   const std::vector<Eigen::Vector3d> residuals = calibration::residualsOf(day, fit);
   const Eigen::Isometry3d& base_from_points = fit.place.base_from_points;
-  const Eigen::Vector3d station = base_from_points * day.station;
   std::vector<Left> left;
   std::size_t at = 0;
   for (std::size_t i = 0; i < day.postures.size(); ++i) {
     for (const calibration::Reading& reading : day.postures[i].readings) {
       if (fit.weights[at] > 0.0) {
         const Eigen::Vector3d point = base_from_points * reading.point;
+        const Eigen::Vector3d station = base_from_points * day.stationOf(reading);
         left.push_back({i, reading.target, residuals[at], point, (point - station).normalized(),
                         base_from_points.linear() * reading.covariance * base_from_points.linear().transpose()});
       }

@@ -155,7 +155,7 @@ AuditReport audit(const preparation::PreparedCampaign& prepared) {
   for (Findings& of_check : findings) std::move(of_check.begin(), of_check.end(), std::back_inserter(report.checks));
   const std::set<std::string> made = madeChecks(report.checks);
   report.made = static_cast<int>(made.size());
-  report.of = preparation::checksOf(prepared.campaign.robot.rail.has_value());
+  report.of = preparation::checksOf(prepared.campaign.robot.rail.has_value()) + (input.stations ? 1 : 0);
   if (campaign::isUnloadedDay(prepared.campaign)) report.purpose = Purpose::calibrate;
   if (report.purpose == Purpose::calibrate) {
     report.unanswered = unansweredBy(made, kToCalibrate);

@@ -23,6 +23,7 @@ AuditInput auditInput(const preparation::PreparedCampaign& prepared) {
   input.drift = prepared.preparation.drift;
   input.station = prepared.drift.rounds;
   input.rail = prepared.rail;
+  input.stations = prepared.preparation.stations;
   input.scatter = prepared.scatter;
   input.noise = preparation::declaredNoise(input.campaign);
   input.states = campaign::statePoints(input.campaign);

@@ -65,11 +65,12 @@ AbsoluteFit fitAbsolutePositions(const campaign::Campaign& campaign, const frame
 
 /// What the checks look at: the campaign as identification sees it.
 struct AuditInput {
-  const campaign::Campaign& campaign;                ///< as prepared
-  preparation::DriftCorrection drift = {};           ///< how far it was
-  preparation::StationMotion station = {};           ///< by the nests
-  std::optional<preparation::RailCourse> rail = {};  ///< by the rail sweep
-  preparation::RepeatScatter scatter = {};           ///< of the repeats, against the declared noise
+  const campaign::Campaign& campaign;                        ///< as prepared
+  preparation::DriftCorrection drift = {};                   ///< how far it was
+  preparation::StationMotion station = {};                   ///< by the nests
+  std::optional<preparation::JoinedStations> stations = {};  ///< of a day of several
+  std::optional<preparation::RailCourse> rail = {};          ///< by the rail sweep
+  preparation::RepeatScatter scatter = {};                   ///< of the repeats, against the declared noise
   /// That of `campaign.tracker`; empty where none is declared.
   std::optional<metrology::TrackerNoise> noise = {};
   std::vector<campaign::StatePoints> states = {};  ///< reflectors in every state of sweeps and loading

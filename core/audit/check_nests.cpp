@@ -11,8 +11,8 @@ namespace stiffscope::audit {
 
 namespace {
 
-preparation::AuditCheck driftCheck(const AuditInput& input) {
-  const preparation::StationMotion& station = input.station;
+/// `station`: tested.
+preparation::AuditCheck driftCheck(const AuditInput& input, const preparation::StationMotion& station) {
   const auto worst = std::max_element(station.epochs.begin(), station.epochs.end(),
                                       [&](const preparation::StationEpoch& a, const preparation::StationEpoch& b) {
                                         return station.significance(a) < station.significance(b);
@@ -79,14 +79,79 @@ preparation::AuditCheck nestCheck(const AuditInput& input) {
   return check;
 }
 
+/// Of each station that tells, else why none does.
+Findings driftChecks(const AuditInput& input) {
+  Findings findings;
+  Remark why;
+  for (std::size_t s = 0; s < input.stations->courses.size(); ++s) {
+    const preparation::StationMotion& rounds = input.stations->courses[s].rounds;
+    if (!rounds.tested) {
+      why = rounds.reason;
+      continue;
+    }
+    findings.push_back(driftCheck(input, rounds));
+    findings.back().message =
+        Remark(RemarkId::of_station, preparation::shownStation(input.campaign.stations[s]), findings.back().message);
+  }
+  if (findings.empty()) findings.push_back(preparation::notTestable("station_drift", why));
+  return findings;
+}
+
+/// The network by which the stations were joined: whether the nests keep their shape from one to the other.
+preparation::AuditCheck stationsCheck(const AuditInput& input) {
+  const preparation::StationNetwork& network = input.stations->network;
+  preparation::AuditCheck check;
+  check.id = preparation::kStationsAgree;
+  for (std::size_t s = 0; s < network.stations.size(); ++s) {
+    const preparation::PoseUncertainty known = preparation::poseUncertainty(network.stations[s]);
+    if (s == 0) continue;
+    check.details.push_back(Remark(RemarkId::station_at_arm, preparation::shownStation(input.campaign.stations[s]),
+                                   network.stations[s].common_nests, known.position, known.turn));
+  }
+  if (network.dof <= 0) {
+    check.verdict = preparation::AuditVerdict::not_testable;
+    check.message = Remark(MissingId::no_nest_to_spare);
+    return check;
+  }
+  check.value = std::sqrt(network.chi2 / network.dof);
+  check.limit = std::sqrt(network.limit / network.dof);
+  check.limit_source = preparation::byChance(Remark(LimitId::chi_square, network.dof));
+  std::vector<Remark> more;
+  for (const preparation::OutlyingNest& apart : network.outlying) {
+    const std::string& nest = input.campaign.nest_ids[static_cast<std::size_t>(apart.nest)];
+    const std::string station = preparation::shownStation(input.campaign.stations[apart.station]);
+    check.verdict = preparation::AuditVerdict::warn;
+    if (apart.line) {
+      check.where = preparation::atRow(input.campaign.nests->file, *apart.line);
+      more.push_back(Remark(RemarkId::reading_read_apart, *apart.line, nest, station, apart.by));
+    } else {
+      check.where = Remark(preparation::RemarkId::at_name, nest);
+      more.push_back(Remark(RemarkId::nest_read_apart, nest, station, apart.by));
+    }
+  }
+  if (!network.consistent()) {
+    check.verdict = preparation::AuditVerdict::fail;
+    more.push_back(Remark(RemarkId::stations_not_mended));
+  }
+  check.message = Remark(RemarkId::stations_left, *check.value, std::move(more));
+  return check;
+}
+
 }  // namespace
 
 Findings checkNests(const AuditInput& input) {
+  if (input.stations) {
+    Findings findings = driftChecks(input);
+    findings.push_back(input.station.tested ? nestCheck(input)
+                                            : preparation::notTestable("nest_moved", input.station.reason));
+    findings.push_back(stationsCheck(input));
+    return findings;
+  }
   if (!input.station.tested) {
     return {preparation::notTestable("station_drift", input.station.reason),
             preparation::notTestable("nest_moved", input.station.reason)};
   }
-  return {driftCheck(input), nestCheck(input)};
+  return {driftCheck(input, input.station), nestCheck(input)};
 }
 
 }  // namespace stiffscope::audit

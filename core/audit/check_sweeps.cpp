@@ -323,7 +323,7 @@ SweptCircles sweptCircles(const AuditInput& input) {
                                [&](const SweptCircle& one) { return one.target == rows[i].target; });
     if (circle == circles.end()) circle = circles.insert(circles.end(), {rows[i].target, {}, {}});
     circle->readings.points.push_back(input.rigid.circle_sweeps[i]);
-    if (input.noise) circle->readings.covariances.push_back(input.noise->covarianceAt(rows[i].point));
+    if (input.noise) circle->readings.covariances.push_back(input.noise->covarianceAt(rows[i].point, rows[i].from));
     circle->lines.push_back(rows[i].line);
   }
   return axes;

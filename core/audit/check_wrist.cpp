@@ -60,7 +60,7 @@ std::vector<Row> rowsOf(const AuditInput& input) {
     const Eigen::Vector3d seen = frames.arm.r0_from_points.linear().transpose() * radial;
     Row row;
     row.residual = from_centre.norm() - (modelled - centre).norm();
-    row.sd = std::sqrt(seen.dot(input.noise->covarianceAt(reading.point) * seen));
+    row.sd = std::sqrt(seen.dot(input.noise->covarianceAt(reading.point, reading.from) * seen));
     row.target = reading.target;
     row.by_centre = radial.transpose();
     // The wrist's axes do not move the centre.

@@ -59,7 +59,8 @@ Findings checkDeclaredNoise(const AuditInput& input);
 Findings checkRigidTool(const AuditInput& input);
 
 /// station_drift, nest_moved: the floor nests' motion as that of the station, and what is left as that of
-/// nests.
+/// nests. Of a day of several stations one station_drift a station, and stations_agree: whether the nests keep their
+/// shape from one to the other.
 Findings checkNests(const AuditInput& input);
 
 /// circle_arc (one an axis), circle_count: the sweeps of each axis.

@@ -77,6 +77,12 @@ enum class RemarkId {
   nests_left,            ///< in parts of the noise, more
   nest_moved,            ///< nest, m
   nests_not_mended,
+  of_station,          ///< name, remark
+  stations_left,       ///< in parts of the noise, more
+  station_at_arm,      ///< name, nests in common, largest standard uncertainty at the arm: m, rad
+  nest_read_apart,     ///< nest, station, m
+  reading_read_apart,  ///< row, nest, station, m
+  stations_not_mended,
 
   // circle_arc, circle_count, sweep_angles, circle_residual, axis_agreement, reflector_on_axis, link_lengths.
   arc_known,  ///< axis, arc rad, direction rad, place m, at the reach m, reach m, more
@@ -228,6 +234,7 @@ enum class MissingId {
   no_moments,
   forces_on_one_line,
   few_nests_or_rounds,
+  no_nest_to_spare,
   no_load_states,
   no_states_nor_loading,
   no_readings_of_states,

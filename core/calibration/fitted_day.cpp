@@ -12,10 +12,10 @@
 namespace stiffscope::calibration {
 
 FittedDay::FittedDay(const UnloadedDay& day, const ArmFit& fit)
-    : fit_(fit),
+    : day_(day),
+      fit_(fit),
       arm_(fit.start, fit.centre, fit.steps.head(fit.places().axes()),
-           fit.steps.segment<frames::ArmParameters::kBase>(fit.places().baseAt())),
-      station_(fit.place.base_from_points * day.station) {
+           fit.steps.segment<frames::ArmParameters::kBase>(fit.places().baseAt())) {
   for (const EffectPart& part : fit.parts) {
     for (const EffectTerm& term : part.terms) terms_.push_back(&term);
   }
@@ -33,7 +33,7 @@ ReflectorAt FittedDay::reflector(const frames::PlacedPosture& placed, const Read
   const auto target = static_cast<std::size_t>(reading.target);
   const Eigen::Vector3d at_zero =
       fit_.place.targets_at_zero[target] + fit_.steps.segment<3>(fit_.places().targetAt(target));
-  return {placed, reading.target, placed.position(at_zero), station_};
+  return {placed, reading.target, placed.position(at_zero), fit_.place.base_from_points * day_.stationOf(reading)};
 }
 
 Eigen::Vector3d FittedDay::residual(const Posture& posture, const Reading& reading, const ReflectorAt& at) const {
@@ -204,6 +204,7 @@ PostureEquations equationsOf(const FittedDay& fitted, const Posture& posture, st
     equations.targets.push_back(reading.target);
     equations.whitening.push_back(white);
     equations.positions.push_back(at.position);
+    equations.stations.push_back(at.station);
     row += 3;
   }
   equations.by_parameters.conservativeResize(row, Eigen::NoChange);
@@ -225,7 +226,7 @@ Eigen::MatrixXd columnsOf(const FittedDay& fitted, const Posture& posture, const
     }
     if (!placed) placed.emplace(fitted.arm(), fitted.anglesOf(posture));
     for (std::size_t r = 0; r < equations.targets.size(); ++r) {
-      const ReflectorAt at{*placed, equations.targets[r], equations.positions[r], fitted.station()};
+      const ReflectorAt at{*placed, equations.targets[r], equations.positions[r], equations.stations[r]};
       columns.col(column).segment<3>(3 * static_cast<Eigen::Index>(r)).noalias() =
           equations.whitening[r] * terms[k].offset(posture, at);
     }

@@ -20,7 +20,6 @@ class FittedDay {
 
   const ArmFit& fit() const { return fit_; }
   const frames::PlacedArm& arm() const { return arm_; }
-  const Eigen::Vector3d& station() const { return station_; }
   const std::vector<const EffectTerm*>& terms() const { return terms_; }
 
   /// What a unit of each term turns the joints by, whatever the fit; zero of terms that move reflectors instead.
@@ -37,9 +36,9 @@ class FittedDay {
   Eigen::Matrix3d whitening(const Reading& reading) const;
 
  private:
+  const UnloadedDay& day_;
   const ArmFit& fit_;
   frames::PlacedArm arm_;
-  Eigen::Vector3d station_;
   std::vector<const EffectTerm*> terms_;
 };
 
@@ -87,6 +86,7 @@ struct PostureEquations {
   std::vector<int> targets;                ///< of each reading
   std::vector<Eigen::Matrix3d> whitening;  ///< of each reading
   std::vector<Eigen::Vector3d> positions;  ///< of each reading, as modelled
+  std::vector<Eigen::Vector3d> stations;   ///< of each reading: from where it was read, in base_link
 };
 PostureEquations equationsOf(const UnloadedDay& day, const ArmFit& fit, std::size_t posture, std::size_t first_reading);
 PostureEquations equationsOf(const FittedDay& fitted, const Posture& posture, std::size_t first_reading);

@@ -32,7 +32,8 @@ std::vector<ReadingError> readingErrors(const Calibration& calibration) {
   none.fill(Eigen::Vector3d::Constant(std::nan("")));
   for (std::size_t p = 0; p < day.postures.size(); ++p) {
     for (const Reading& reading : day.postures[p].readings)
-      errors.push_back({p, reading.target, base_from_points * reading.point, base_from_points * day.station, none});
+      errors.push_back(
+          {p, reading.target, base_from_points * reading.point, base_from_points * day.stationOf(reading), none});
   }
   for (const ModelResult& model : calibration.models) {
     const std::vector<Eigen::Vector3d> left = leftBy(day, model);

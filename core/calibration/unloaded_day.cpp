@@ -224,8 +224,9 @@ UnloadedDay unloadedDay(const campaign::Campaign& campaign, JointAngles angles) 
     }
     posture.pulls = pullsOf(day, posture.q, campaign.gravity_in_base);
     for (const campaign::ReflectorMean& mean : points.reflectors) {
-      posture.readings.push_back({mean.target, mean.line, mean.point,
-                                  noise ? mean.covariance(*noise) : Eigen::Matrix3d(Eigen::Matrix3d::Zero())});
+      posture.readings.push_back(
+          {mean.target, mean.line, mean.point,
+           noise ? mean.absoluteCovariance(campaign, *noise) : Eigen::Matrix3d(Eigen::Matrix3d::Zero()), mean.from});
     }
     times.push_back(at->state->time_s);
     temperatures.push_back(at->state->temperature_c);

@@ -22,6 +22,8 @@ struct Reading {
   std::size_t line = 0;                                  ///< of its first reading in the table
   Eigen::Vector3d point = Eigen::Vector3d::Zero();       ///< m, in the frame of the table
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< by the declared tracker, m^2; zero: not declared
+  /// Where the instrument stood, in the frame of the table; not a number: at UnloadedDay::station.
+  Eigen::Vector3d from = campaign::kStationOfTracker;
 };
 
 struct Posture {
@@ -75,6 +77,9 @@ struct UnloadedDay {
   std::vector<Posture> postures;
 
   std::size_t readings() const;
+  const Eigen::Vector3d& stationOf(const Reading& reading) const {
+    return reading.from.allFinite() ? reading.from : station;
+  }
 };
 
 /// Postures of `loading` at step 0 that `states` has joint angles for. Empty `postures` without either table.

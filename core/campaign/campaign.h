@@ -26,6 +26,14 @@ inline constexpr double kNoTime = std::numeric_limits<double>::quiet_NaN();
 /// What a cell holds that an optional column leaves blank, or a row whose table lacks the column.
 inline constexpr double kNotGiven = std::numeric_limits<double>::quiet_NaN();
 
+/// Where the instrument stood that took a reading: not a number means at Tracker::station. Whoever joins several
+/// stations says it for each reading.
+inline const Eigen::Vector3d kStationOfTracker = Eigen::Vector3d::Constant(kNotGiven);
+
+// `station` of a reading is an index into Campaign::stations, 0 where a day has but one. `from` is where the instrument
+// stood when the reading was taken, in the frame of its point: its noise is that of the sight from there
+// (metrology::TrackerNoise::covarianceAt).
+
 struct CircleReading {
   int axis = 0;  ///< from 0, axis 1
   std::string index;
@@ -35,6 +43,8 @@ struct CircleReading {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   double time_s = kNoTime;
   std::size_t line = 0;
+  int station = 0;
+  Eigen::Vector3d from = kStationOfTracker;
 };
 
 struct WristReading {
@@ -45,6 +55,8 @@ struct WristReading {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   double time_s = kNoTime;
   std::size_t line = 0;
+  int station = 0;
+  Eigen::Vector3d from = kStationOfTracker;
 };
 
 /// While the carriage of a rail goes along and all joints stand still.
@@ -55,6 +67,8 @@ struct RailReading {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   double time_s = kNoTime;
   std::size_t line = 0;
+  int station = 0;
+  Eigen::Vector3d from = kStationOfTracker;
 };
 
 struct LoadingReading {
@@ -65,6 +79,8 @@ struct LoadingReading {
   double time_s = kNoTime;
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   std::size_t line = 0;
+  int station = 0;
+  Eigen::Vector3d from = kStationOfTracker;
 };
 
 /// Where a controller states its tool, in a base frame of its own: position (m), and turns about the fixed x, y and z
@@ -114,6 +130,7 @@ struct Displacement {
   int target = 0;
   Eigen::Vector3d displacement = Eigen::Vector3d::Zero();  ///< from step 0, m
   std::size_t line = 0;
+  int station = 0;  ///< of no use: a table that names one is refused
 };
 
 struct NestReading {
@@ -121,6 +138,8 @@ struct NestReading {
   int nest = 0;
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   std::size_t line = 0;
+  int station = 0;
+  Eigen::Vector3d from = kStationOfTracker;
 };
 
 /// A table with its frame and its file name (as in campaign.xml).
@@ -151,6 +170,21 @@ struct Tracker {
   double angle_per_m = 0.0;
   Eigen::Vector3d station = Eigen::Vector3d::Zero();  ///< in the frame of the file's points
   double scale_sigma = 0.0;  ///< standard uncertainty of its scale, common to all readings, a share; 0: not stated
+};
+
+/// A place at which the tracker stood during the day. Readings are in its own frame as they are read; joined to the
+/// first one's by the nests that stations have in common (core/preparation/join_stations.h), they are in that frame.
+struct StationPlace {
+  std::string id;  ///< as tables name it; empty: of the rows that name none
+  Eigen::Isometry3d first_from_station = Eigen::Isometry3d::Identity();
+  /// By the declared noise: of a small rotation (rad) after the pose, and of the displacement at `centre` (m), in the
+  /// first station's axes. Zero for the first station.
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+
+  /// What the pose's uncertainty does to a reading at this point of the first station's frame, m^2: common to all
+  /// readings of the station, so that it leaves the difference of two of them as it was but for the turn.
+  Eigen::Matrix3d covarianceAt(const Eigen::Vector3d& point_in_first) const;
 };
 
 /// A reflector on the tool, rigid with the flange.
@@ -261,8 +295,15 @@ struct Campaign {
 
   std::vector<std::string> pose_ids;  ///< poses in order of first appearance; tables refer to them by index
   std::vector<std::string> nest_ids;
+  std::vector<StationPlace> stations;  ///< none where no table names one: the day has one then
   std::vector<InputFile> inputs;
 };
+
+/// By what the pose of a reading's station is uncertain there, m^2; zero for the first station, and of a day of one.
+inline Eigen::Matrix3d stationCovariance(const Campaign& campaign, int station, const Eigen::Vector3d& point) {
+  if (campaign.stations.empty()) return Eigen::Matrix3d::Zero();
+  return campaign.stations[static_cast<std::size_t>(station)].covarianceAt(point);
+}
 
 /// A motor's angle over the gear ratio farther than this from its joint's is no wind-up, rad.
 inline constexpr double kMotorSideApart = 2.0 * io::kDegree;

@@ -310,6 +310,30 @@ void checkRail(const Campaign& campaign, std::vector<std::string>& warnings) {
   }
 }
 
+// Of one reflector in one posture all states have to be from one station: a displacement is else that of its pose, too.
+void checkPosesAreOfOneStation(const Campaign& campaign) {
+  if (campaign.stations.size() < 2) return;
+  if (!campaign.tracker) {
+    throw io::InputError({shown(campaign, "campaign.xml"), 0, "tracker"}, "",
+                         "expected a tracker with its noise: nests join stations by it");
+  }
+  if (!campaign.loading) return;
+  std::vector<const LoadingReading*> first(campaign.pose_ids.size() * campaign.targets.size(), nullptr);
+  for (const LoadingReading& row : campaign.loading->rows) {
+    const LoadingReading*& before =
+        first[static_cast<std::size_t>(row.pose) * campaign.targets.size() + static_cast<std::size_t>(row.target)];
+    if (before == nullptr) before = &row;
+    if (before->station == row.station) continue;
+    throw io::InputError(
+        {shown(campaign, campaign.loading->file), row.line, "station"},
+        campaign.stations[static_cast<std::size_t>(row.station)].id,
+        fmt::format("expected all readings of reflector {} in pose {} from one station; line {} has it from '{}'",
+                    campaign.targets[static_cast<std::size_t>(row.target)].id,
+                    campaign.pose_ids[static_cast<std::size_t>(row.pose)], before->line,
+                    campaign.stations[static_cast<std::size_t>(before->station)].id));
+  }
+}
+
 using Check = void (*)(const Campaign&, std::vector<std::string>&);
 
 // In the order of their errors and warnings.
@@ -332,7 +356,29 @@ constexpr Check kChecks[] = {
 
 }  // namespace
 
+void requireStationsWherePointsAre(const Campaign& campaign, const std::vector<std::string>& names) {
+  const auto refuse = [&](const auto& table, const char* expected) {
+    const auto named =
+        std::find_if(table.rows.begin(), table.rows.end(), [](const auto& row) { return row.station > 0; });
+    if (named == table.rows.end()) return;
+    throw io::InputError({shown(campaign, table.file), named->line, "station"},
+                         names[static_cast<std::size_t>(named->station)], expected);
+  };
+  const auto inTrackerFrame = [&](const auto& table) {
+    if (table && table->frame == PointFrame::base_link)
+      refuse(*table, "expected no station in a table whose frame is base_link: its points do not depend on one");
+  };
+  inTrackerFrame(campaign.circle_sweeps);
+  inTrackerFrame(campaign.wrist_sweep);
+  inTrackerFrame(campaign.loading);
+  inTrackerFrame(campaign.nests);
+  if (campaign.displacements)
+    refuse(*campaign.displacements,
+           "expected no station beside displacements: they are differences, which nests do not join");
+}
+
 void checkCampaign(const Campaign& campaign, std::vector<std::string>& warnings) {
+  checkPosesAreOfOneStation(campaign);
   checkStatesCoverReadings(campaign);
   checkToolPosesAreWhole(campaign);
   for (const Check& check : kChecks) check(campaign, warnings);

@@ -44,6 +44,7 @@ int readIndexCell(CellKind kind, std::string_view cell, const CellPlace& place, 
   if (kind == CellKind::target) return readTarget(cell, place, names);
   if (kind == CellKind::pose) return names.poses.add(cell);
   if (kind == CellKind::nest) return names.nests.add(cell);
+  if (kind == CellKind::station) return names.stations.add(cell);
   const std::optional<int> number = io::parseInteger(cell);
   if (kind == CellKind::axis) {
     if (!number || *number < 1 || *number > names.axes)

@@ -47,6 +47,12 @@ class NameList {
 
   const std::vector<std::string>& names() const { return names_; }
 
+  static NameList of(std::string_view first) {
+    NameList list;
+    list.add(first);
+    return list;
+  }
+
  private:
   struct Hash {
     using is_transparent = void;
@@ -62,7 +68,8 @@ class NameList {
 /// nests are listed as the tables bring them, in order of first appearance.
 struct CampaignNames {
   NameList targets, poses, nests;
-  int axes = 0;  ///< that the machine has, for columns that name one
+  int axes = 0;                          ///< that the machine has, for columns that name one
+  NameList stations = NameList::of("");  ///< as nests; the first is that of rows that name none
 };
 
 /// What a column holds. The first eight are numbers with the unit of their name, the others names and counts.
@@ -80,6 +87,7 @@ enum class CellKind {
   target,  ///< id of a declared target
   pose,
   nest,
+  station,  ///< of the tracker
   text
 };
 
@@ -223,6 +231,12 @@ std::vector<Column<Row>> poseAndStepColumns() {
 template <class Row>
 Column<Row> targetColumn() {
   return {"target", CellKind::target, [](Row& row) -> int& { return row.target; }};
+}
+
+/// station, of a row with this member. Not required, and a row may leave it blank.
+template <class Row>
+Column<Row> stationColumn() {
+  return {"station", CellKind::station, [](Row& row) -> int& { return row.station; }, false, true};
 }
 
 /// Several groups of columns as one list.

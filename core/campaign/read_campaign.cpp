@@ -9,6 +9,7 @@
 #include "core/campaign/columns.h"
 #include "core/campaign/joint_reading.h"
 #include "core/campaign/read_table.h"
+#include "core/campaign/row_names.h"
 #include "core/campaign/table_layouts.h"
 #include "core/io/input_error.h"
 #include "core/io/read_file.h"
@@ -154,6 +155,29 @@ class TableReader {
 
 }  // namespace
 
+namespace {
+
+/// The stations that tables name, in order of first appearance; before them that of the rows that name none, where
+/// there are such rows. None where no table names one.
+void takeStations(const NameList& names, Campaign& campaign) {
+  if (names.names().size() < 2) return;
+  bool unnamed = false;
+  forEachPointTable(campaign, [&](const auto& table) {
+    if (table.frame != PointFrame::tracker) return;
+    unnamed =
+        unnamed || std::any_of(table.rows.begin(), table.rows.end(), [](const auto& row) { return row.station == 0; });
+  });
+  for (const std::string& name : names.names()) {
+    if (!name.empty() || unnamed) campaign.stations.push_back({name});
+  }
+  if (unnamed) return;
+  forEachPointTable(campaign, [](auto& table) {
+    for (auto& row : table.rows) row.station = std::max(0, row.station - 1);
+  });
+}
+
+}  // namespace
+
 CampaignReading readCampaign(const std::filesystem::path& folder_or_xml, Hashes hashes) {
   CampaignReading reading;
   CampaignFiles files(folder_or_xml, hashes == Hashes::taken);
@@ -174,6 +198,8 @@ CampaignReading readCampaign(const std::filesystem::path& folder_or_xml, Hashes 
   tables.read(nestsLayout(), campaign.nests);
   campaign.pose_ids = tables.names().poses.names();
   campaign.nest_ids = tables.names().nests.names();
+  requireStationsWherePointsAre(campaign, tables.names().stations.names());
+  takeStations(tables.names().stations, campaign);
   files.requireUnchanged();
   campaign.inputs = files.takeInputs();
 

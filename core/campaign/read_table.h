@@ -195,7 +195,7 @@ inline constexpr std::size_t kPartBytes = std::size_t{1} << 20;
 template <class Row>
 struct TablePart {
   TableLines lines;
-  CampaignNames names;    ///< poses and nests by their first appearance in this part
+  CampaignNames names;    ///< poses, nests and stations by their first appearance in this part
   std::size_t from = 0;   ///< place among the rows of all parts where its own belong
   std::size_t room = 0;   ///< as many as there can be
   std::span<Row> rows{};  ///< those read
@@ -261,14 +261,24 @@ void readPart(const RowReader<Row>& reader, const KeyColumns<Row>& key, RowsInMa
   // The reading in one go says which error of the file is the first.
 }
 
-/// Refers the rows of a part to the names of all tables; `poses` and `nests`: the index there of each name of the part.
+/// The index in the names of all tables of each name of a part.
+struct PartIndices {
+  std::vector<int> poses, nests, stations;
+
+  const std::vector<int>* of(CellKind kind) const {
+    if (kind == CellKind::pose) return &poses;
+    if (kind == CellKind::nest) return &nests;
+    return kind == CellKind::station ? &stations : nullptr;
+  }
+};
+
+/// Refers the rows of a part to the names of all tables.
 template <class Row>
-void renumber(const TableLayout<Row>& layout, const std::vector<int>& poses, const std::vector<int>& nests,
-              TablePart<Row>& part) {
+void renumber(const TableLayout<Row>& layout, const PartIndices& names, TablePart<Row>& part) {
   for (std::size_t i = 0; i < layout.columns.size(); ++i) {
     const Column<Row>& column = layout.columns[i];
-    if ((column.kind != CellKind::pose && column.kind != CellKind::nest) || !part.lines.has(i)) continue;
-    const std::vector<int>& indices = column.kind == CellKind::pose ? poses : nests;
+    if (names.of(column.kind) == nullptr || !part.lines.has(i)) continue;
+    const std::vector<int>& indices = *names.of(column.kind);
     const auto member = std::get<typename Column<Row>::Index>(column.member);
     for (Row& row : part.rows) member(row) = indices[static_cast<std::size_t>(member(row))];
     // An order of keys by the part's own indices is one by all only if the two go up together.
@@ -317,12 +327,12 @@ std::optional<std::vector<Row>> readTableInParts(const TableSource& source, cons
   numerics::onAllCores(parts.size(), [&](std::size_t i) { readPart(reader, key, making, parts[i]); });
   if (!std::all_of(parts.begin(), parts.end(), [](const auto& part) { return part.done; })) return std::nullopt;
 
-  std::vector<std::vector<int>> poses, nests;
+  std::vector<PartIndices> indices;
   for (const TablePart<Row>& part : parts) {
-    poses.push_back(names.poses.addAll(part.names.poses));
-    nests.push_back(names.nests.addAll(part.names.nests));
+    indices.push_back({names.poses.addAll(part.names.poses), names.nests.addAll(part.names.nests),
+                       names.stations.addAll(part.names.stations)});
   }
-  numerics::onAllCores(parts.size(), [&](std::size_t i) { renumber(layout, poses[i], nests[i], parts[i]); });
+  numerics::onAllCores(parts.size(), [&](std::size_t i) { renumber(layout, indices[i], parts[i]); });
   const bool ascending = keysAscend(parts, key);
   std::vector<Row> rows = making.take();
   closeUp(parts, rows);

@@ -58,7 +58,8 @@ class Gatherer {
     for (ReflectorMean& one : reflectors) {
       if (one.target == row.target) return one;
     }
-    return reflectors.emplace_back(ReflectorMean{row.target, 0, Eigen::Vector3d::Zero(), row.line});
+    return reflectors.emplace_back(
+        ReflectorMean{row.target, 0, Eigen::Vector3d::Zero(), row.line, row.station, row.from});
   }
 
   static constexpr std::size_t kFew = 1000;  // it grows

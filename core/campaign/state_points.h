@@ -13,11 +13,17 @@ struct ReflectorMean {
   int target = 0;
   int readings = 0;
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
-  std::size_t line = 0;  ///< of its first reading
+  std::size_t line = 0;                      ///< of its first reading
+  int station = 0;                           ///< from which it was read, index into Campaign::stations
+  Eigen::Vector3d from = kStationOfTracker;  ///< where the instrument stood there
 
   /// Of the mean, m^2.
   Eigen::Matrix3d covariance(const metrology::TrackerNoise& noise) const {
-    return noise.covarianceAt(point) / readings;
+    return noise.covarianceAt(point, from) / readings;
+  }
+  /// With that of its station's pose, m^2: of an absolute position beside those of other stations.
+  Eigen::Matrix3d absoluteCovariance(const Campaign& campaign, const metrology::TrackerNoise& noise) const {
+    return covariance(noise) + stationCovariance(campaign, station, point);
   }
 };
 

@@ -17,7 +17,7 @@ inline TableLayout<CircleReading> circleSweepsLayout(int joints) {
                        jointColumns<Row>(joints),
                        {railColumn<Row>()},
                        pointColumns<Row>(),
-                       {timeColumn<Row>(false)}}),
+                       {timeColumn<Row>(false), stationColumn<Row>()}}),
           {"axis", "index", "target"},
           blankRow<Row>(joints)};
 }
@@ -32,7 +32,8 @@ inline const TableLayout<Displacement>& displacementsLayout() {
            {targetColumn<Row>(),
             {"dx_mm", CellKind::displacement_millimetre, [](Row& row) -> double& { return row.displacement.x(); }},
             {"dy_mm", CellKind::displacement_millimetre, [](Row& row) -> double& { return row.displacement.y(); }},
-            {"dz_mm", CellKind::displacement_millimetre, [](Row& row) -> double& { return row.displacement.z(); }}}}),
+            {"dz_mm", CellKind::displacement_millimetre, [](Row& row) -> double& { return row.displacement.z(); }},
+            stationColumn<Row>()}}),
       {"pose", "step", "target"}};
   return layout;
 }
@@ -46,7 +47,8 @@ inline const TableLayout<LoadingReading>& loadingLayout() {
                    {{"repeat", CellKind::text, [](Row& row) -> std::string& { return row.repeat; }, false},
                     targetColumn<Row>(),
                     timeColumn<Row>(false)},
-                   pointColumns<Row>()}),
+                   pointColumns<Row>(),
+                   {stationColumn<Row>()}}),
       {"pose", "step", "repeat", "target"}};
   return layout;
 }
@@ -57,7 +59,8 @@ inline const TableLayout<NestReading>& nestsLayout() {
   static const TableLayout<Row> layout{
       "nests",
       joined<Row>({{timeColumn<Row>(true), {"nest", CellKind::nest, [](Row& row) -> int& { return row.nest; }}},
-                   pointColumns<Row>()}),
+                   pointColumns<Row>(),
+                   {stationColumn<Row>()}}),
       {"time_s", "nest"}};
   return layout;
 }
@@ -107,7 +110,7 @@ inline TableLayout<WristReading> wristSweepLayout(int joints) {
                    jointColumns<Row>(joints),
                    {railColumn<Row>()},
                    pointColumns<Row>(),
-                   {timeColumn<Row>(false)}}),
+                   {timeColumn<Row>(false), stationColumn<Row>()}}),
       {"index", "target"},
       blankRow<Row>(joints)};
 }
@@ -120,7 +123,7 @@ inline const TableLayout<RailReading>& railSweepLayout() {
       joined<Row>({{{"index", CellKind::text, [](Row& row) -> std::string& { return row.index; }}, targetColumn<Row>()},
                    {railColumn<Row>(true)},
                    pointColumns<Row>(),
-                   {timeColumn<Row>(false)}}),
+                   {timeColumn<Row>(false), stationColumn<Row>()}}),
       {"index", "target"}};
   return layout;
 }

@@ -56,9 +56,11 @@ std::string writtenCell(const Column<Row>& column, Row& row, const RowWriting& w
   return writtenName(std::get<typename Column<Row>::Text>(column.member)(row), column.name);
 }
 
-/// Whether the rows have values for an optional column: all of them, or some where the others may be blank.
+/// Whether the rows have values for an optional column: all of them, or some where the others may be blank; stations
+/// where the day has several.
 template <class Row>
-bool isGiven(const Column<Row>& column, const std::vector<Row>& rows) {
+bool isGiven(const Column<Row>& column, const std::vector<Row>& rows, const RowWriting& writing) {
+  if (column.kind == CellKind::station) return writing.names.stations.names().size() > 1;
   if (const auto* text = std::get_if<typename Column<Row>::Text>(&column.member))
     return std::all_of(rows.begin(), rows.end(), [&](Row row) { return !(*text)(row).empty(); });
   const auto* number = std::get_if<typename Column<Row>::Number>(&column.member);
@@ -77,7 +79,7 @@ void writeTable(const TableLayout<Row>& layout, const std::vector<Row>& rows, co
   std::vector<const Column<Row>*> columns;
   std::string text;
   for (const Column<Row>& column : layout.columns) {
-    if (!column.required && !isGiven(column, rows)) continue;
+    if (!column.required && !isGiven(column, rows, writing)) continue;
     if (!columns.empty()) text += ',';
     text += column.name;
     columns.push_back(&column);
@@ -276,12 +278,15 @@ std::string writtenName(const std::string& name, const std::string& column) {
 std::string writtenIndex(CellKind kind, int index, const CampaignNames& names, const std::string& column) {
   if (kind == CellKind::axis) return fmt::format("{}", index + 1);
   if (kind == CellKind::step) return fmt::format("{}", index);
-  const std::vector<std::string>& known = kind == CellKind::target ? names.targets.names()
-                                          : kind == CellKind::pose ? names.poses.names()
-                                                                   : names.nests.names();
+  const std::vector<std::string>& known = kind == CellKind::target    ? names.targets.names()
+                                          : kind == CellKind::pose    ? names.poses.names()
+                                          : kind == CellKind::station ? names.stations.names()
+                                                                      : names.nests.names();
   if (index < 0 || static_cast<std::size_t>(index) >= known.size()) {
     fail(column, fmt::format("index {} has no name", index));
   }
+  // A row may name no station.
+  if (kind == CellKind::station && known[static_cast<std::size_t>(index)].empty()) return {};
   return writtenName(known[static_cast<std::size_t>(index)], column);
 }
 
@@ -291,8 +296,12 @@ template <class Row>
 void addTable(const TableLayout<Row>& layout, const std::optional<Table<Row>>& table, const RowWriting& writing,
               std::vector<io::FileToWrite>& files) {
   if (!table) return;
-  const io::ByteSource bytes = [layout, &rows = table->rows, &writing](const io::ByteSink& sink) {
-    writeTable(layout, rows, writing, sink);
+  const bool from_stations = table->frame == PointFrame::tracker && !std::is_same_v<Row, Displacement>;
+  const io::ByteSource bytes = [layout, &rows = table->rows, &writing, from_stations](const io::ByteSink& sink) {
+    if (from_stations) return writeTable(layout, rows, writing, sink);
+    RowWriting without_stations = writing;
+    without_stations.names.stations = {};
+    writeTable(layout, rows, without_stations, sink);
   };
   files.emplace_back(layout.element + ".csv", bytes);
 }
@@ -302,6 +311,8 @@ CampaignNames namesOf(const Campaign& campaign) {
   for (const Target& target : campaign.targets) names.targets.add(target.id);
   for (const std::string& pose : campaign.pose_ids) names.poses.add(pose);
   for (const std::string& nest : campaign.nest_ids) names.nests.add(nest);
+  names.stations = {};
+  for (const StationPlace& station : campaign.stations) names.stations.add(station.id);
   return names;
 }
 

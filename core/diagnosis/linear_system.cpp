@@ -52,10 +52,17 @@ Eigen::MatrixXd sweepNormal(const SystemInput& input, const SystemState& state, 
 namespace {
 
 /// Covariance of one tracker reading at a point of R0, in R0, m^2: that of the station's frame, turned.
+/// `from`: where the instrument stood, in R0.
 Eigen::Matrix3d readingCovariance(const metrology::TrackerNoise& noise, const Eigen::Isometry3d& r0_from_points,
-                                  const Eigen::Vector3d& point_in_r0) {
+                                  const Eigen::Vector3d& point_in_r0, const Eigen::Vector3d& from) {
   const Eigen::Matrix3d turn = r0_from_points.linear();
-  return turn * noise.covarianceAt(r0_from_points.inverse() * point_in_r0) * turn.transpose();
+  const Eigen::Isometry3d points_from_r0 = r0_from_points.inverse();
+  return turn * noise.covarianceAt(points_from_r0 * point_in_r0, points_from_r0 * from) * turn.transpose();
+}
+
+/// Of one of the readings; the default on a day of one station.
+ReadFrom readFrom(const std::vector<ReadFrom>& all, std::size_t reading) {
+  return all.empty() ? ReadFrom() : all[reading];
 }
 
 /// The station between two rounds of the nests, where it was interpolated: one rigid motion of all
@@ -133,11 +140,13 @@ GapCovariance gapCovariance(const SystemInput& input, const SystemState& state, 
   const Eigen::Isometry3d r0_from_points = state.geometry.r0_from_loading.value_or(state.at.r0_from_base_link);
   for (std::size_t t = 0; t < posture.states.front().points.size(); ++t) {
     const Eigen::Index row = 3 * static_cast<Eigen::Index>(t);
-    const Eigen::Matrix3d reading = readingCovariance(input.noise, r0_from_points, posture.states.front().points[t]);
+    const ReadFrom station = readFrom(posture.read_from, t);
+    const Eigen::Matrix3d reading =
+        readingCovariance(input.noise, r0_from_points, posture.states.front().points[t], station.from);
     const Eigen::Matrix3d rest = reading / posture.unloaded_readings, loaded = reading / posture.loaded_readings;
     result.displacement_trace += (rest + loaded).trace() * static_cast<double>(steps);
     result.displacements += 3.0 * static_cast<double>(steps);
-    if (at_rest > 0) covariance.block<3, 3>(row, row) = rest;
+    if (at_rest > 0) covariance.block<3, 3>(row, row) = rest + station.pose_covariance;
     for (Eigen::Index s = 0; s < steps; ++s) {
       const Eigen::Index i = at_rest + s * per_state + row;
       if (at_rest > 0) covariance.block<3, 3>(i, row) = covariance.block<3, 3>(row, i) = -rest;
@@ -381,6 +390,7 @@ void addPostureEquations(const SystemInput& input, const SystemState& state, con
     data.postures[i] = unwhitened(input, state, effects_now, data.layout, rows[i]);
     data.postures[i].states = std::move(rows[i].states);
     data.postures[i].by_wrench = std::move(rows[i].by_wrench);
+    data.postures[i].read_from = std::move(rows[i].read_from);
   });
   addGeometry(state, maker, rows, data);
   for (const GapPosture& posture : data.postures) data.loading_rows += posture.right.size();
@@ -430,6 +440,7 @@ void addSweepEquations(const SystemInput& input, const SystemState& state, const
     first.push_back(total);
     total += one.position.size();
     data.as_read.points.insert(data.as_read.points.end(), one.state.points.begin(), one.state.points.end());
+    data.as_read.read_from.insert(data.as_read.read_from.end(), one.read_from.begin(), one.read_from.end());
   }
   data.as_read.rows.setZero(total, data.layout.end + 1);
   numerics::onAllCores(rows.size(), [&](std::size_t i) {
@@ -441,9 +452,11 @@ void addSweepEquations(const SystemInput& input, const SystemState& state, const
 
 Eigen::MatrixXd sweepNormal(const SystemInput& input, const SystemState& state, SweepEquations equations) {
   Eigen::Index row = 0;
-  for (const Eigen::Vector3d& point : equations.points) {
-    const Eigen::Matrix3d covariance =
-        state.sweep_inflation * readingCovariance(input.noise, state.r0_from_sweeps, point);
+  for (std::size_t i = 0; i < equations.points.size(); ++i) {
+    const ReadFrom station = readFrom(equations.read_from, i);
+    const Eigen::Matrix3d covariance = state.sweep_inflation * readingCovariance(input.noise, state.r0_from_sweeps,
+                                                                                 equations.points[i], station.from) +
+                                       station.pose_covariance;
     equations.rows.middleRows<3>(row) = covariance.llt().matrixL().solve(equations.rows.middleRows<3>(row)).eval();
     row += 3;
   }

@@ -80,6 +80,7 @@ struct GapPosture {
   Eigen::Index position_rows = 0;
   int unloaded_readings = 0, loaded_readings = 0;  ///< as in SystemRows, with what its wrench does
   std::vector<Eigen::Matrix<double, Eigen::Dynamic, 6>> by_wrench;
+  std::vector<ReadFrom> read_from;
   /// Covariance of these rows by readings, wrench and a station between its rounds, within each state: its block of the
   /// diagonal, one state's under another's.
   Eigen::MatrixXd noise;
@@ -95,6 +96,7 @@ struct GapPosture {
 struct SweepEquations {
   Eigen::MatrixXd rows;
   std::vector<Eigen::Vector3d> points;  ///< of the readings, in R0
+  std::vector<ReadFrom> read_from;      ///< of the readings; empty on a day of one station
 };
 
 /// All equations of the gap at one point of linearisation.

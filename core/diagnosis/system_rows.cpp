@@ -54,6 +54,14 @@ robot::Wrench corrected(const robot::Wrench& read, const effects::ArmState& stat
   return wrench;
 }
 
+/// Of a reading of `point` from a station; both points in R0.
+ReadFrom standpoint(const campaign::Campaign& campaign, const Eigen::Isometry3d& r0_from_points, int station,
+                    const Eigen::Vector3d& from, const Eigen::Vector3d& point) {
+  const Eigen::Matrix3d turn = r0_from_points.linear();
+  return {from,
+          turn * campaign::stationCovariance(campaign, station, r0_from_points.inverse() * point) * turn.transpose()};
+}
+
 class LoadingRowMaker {
  public:
   LoadingRowMaker(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,
@@ -137,6 +145,13 @@ class LoadingRowMaker {
     }
     rows.states.front().cell_axes = rows.states[1].cell_axes;
     if (cases.front().absolute) addPosition(rest, rows);
+    if (!campaign_.stations.empty() && geometry_.r0_from_loading) {
+      for (const int target : targets) {
+        const identification::TargetMove& move = moveOf(cases.front(), target);
+        rows.read_from.push_back(
+            standpoint(campaign_, *geometry_.r0_from_loading, move.station, move.from, move.unloaded));
+      }
+    }
     return rows;
   }
 
@@ -243,6 +258,9 @@ std::vector<SweepRows> sweepRows(const campaign::Campaign& campaign, const frame
     rows.state.time_s = reading.time_s;
     rows.state.targets.push_back(reading.target);
     rows.state.points.push_back(r0_from_points * reading.point);
+    if (!campaign.stations.empty())
+      rows.read_from.push_back(standpoint(campaign, r0_from_points, reading.station, r0_from_points * reading.from,
+                                          rows.state.points.back()));
     rows.position.conservativeResize(rows.state.rows());
     rows.position.tail<3>() = rows.state.points.back() - rows.state.posture.motion.back() * *at_zero;
   };

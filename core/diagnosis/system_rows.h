@@ -38,6 +38,13 @@ class PositionByGeometry {
   std::vector<frames::LoadingGeometry> stepped_;  ///< by each step of an axis; empty where no effect moves bodies
 };
 
+/// Where the instrument stood that read a reflector, in R0, and by what its station's pose is uncertain at the
+/// reflector, m^2 (R0 axes).
+struct ReadFrom {
+  Eigen::Vector3d from = campaign::kStationOfTracker;
+  Eigen::Matrix3d pose_covariance = Eigen::Matrix3d::Zero();
+};
+
 /// The equations of one posture of the loading, unwhitened, in R0, m. Deflection rows: states after the
 /// first, three a reflector; absolute rows: the first state. y = A c + geometry + effects + noise.
 struct SystemRows {
@@ -49,7 +56,8 @@ struct SystemRows {
   JointRows sag_by_compliance;
   int unloaded_readings = 0, loaded_readings = 0;  ///< means over these, per reflector and state
   std::vector<Eigen::Matrix<double, Eigen::Dynamic, 6>>
-      by_wrench;  ///< of each loaded state: displacement by its wrench
+      by_wrench;                    ///< of each loaded state: displacement by its wrench
+  std::vector<ReadFrom> read_from;  ///< of each reflector; empty on a day of one station
 };
 
 /// One unloaded posture of a sweep.
@@ -57,6 +65,7 @@ struct SweepRows {
   effects::ArmState state;
   Eigen::VectorXd position;
   JointRows sag_by_compliance;
+  std::vector<ReadFrom> read_from;  ///< of each reflector; empty on a day of one station
 };
 
 /// Rows of the loading (or of `displacements`), in the order of poses. Reflectors that some step of a posture

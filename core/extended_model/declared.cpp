@@ -11,7 +11,10 @@ void stretchReadings(campaign::Campaign& campaign) {
   const Eigen::Vector3d station = campaign.tracker->station;
   const auto stretch = [&](auto& table) {
     if (!table) return;
-    for (auto& row : table->rows) row.point = station + factor * (row.point - station);
+    for (auto& row : table->rows) {
+      const Eigen::Vector3d& from = row.from.allFinite() ? row.from : station;
+      row.point = from + factor * (row.point - from);
+    }
   };
   stretch(campaign.circle_sweeps);
   stretch(campaign.wrist_sweep);

@@ -16,6 +16,8 @@ struct UnloadedPosition {
   JointVector q;
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   int readings = 0;
+  int station = 0;                                     ///< from which it was read, index into Campaign::stations
+  Eigen::Vector3d from = campaign::kStationOfTracker;  ///< where the instrument stood there
 };
 
 /// Where the base stands in the readings, and the reflectors on the flange, found from postures

@@ -42,7 +42,7 @@ class Gatherer {
       if (i == 0 || rows[i].q != rows[i - 1].q) all_.stops.push_back({rows[i].q, {}});
       all_.stops.back().readings.push_back(all_.positions.size());
       all_.positions.push_back({static_cast<int>(all_.stops.size()) - 1, rows[i].target, rows[i].q, rigid[i], 1});
-      if (noise_) all_.covariances.push_back(noise_->covarianceAt(rows[i].point));
+      if (noise_) all_.covariances.push_back(noise_->covarianceAt(rows[i].point, rows[i].from));
     }
   }
 

@@ -244,7 +244,8 @@ class Calibration {
   Eigen::Matrix3d whitening(const UnloadedPosition& position) const {
     if (!campaign_.tracker) return Eigen::Matrix3d::Identity();
     const Eigen::Matrix3d covariance =
-        trackerNoise(*campaign_.tracker).covarianceAt(position.point) / position.readings;
+        trackerNoise(*campaign_.tracker).covarianceAt(position.point, position.from) / position.readings +
+        campaign::stationCovariance(campaign_, position.station, position.point);
     const Eigen::Matrix3d in_loading = covariance.inverse().llt().matrixU();
     return in_loading * start_.r0_from_loading->linear().transpose();
   }

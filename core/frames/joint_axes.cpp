@@ -3,10 +3,12 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "core/frames/coupled_axes.h"
 #include "core/frames/remarks.h"
 #include "metrology/lines.h"
+#include "metrology/rigid_motion.h"
 
 namespace stiffscope::frames {
 
@@ -54,6 +56,7 @@ struct Sweep {
   std::vector<int> targets;
   JointVector q;  ///< of the first reading
   bool others_moved = false;
+  std::set<int> stations;  ///< from which it was read
 };
 
 Sweep collect(const campaign::Campaign& campaign, int axis, const RigidPoints& points) {
@@ -66,6 +69,7 @@ Sweep collect(const campaign::Campaign& campaign, int axis, const RigidPoints& p
     const campaign::CircleReading& reading = campaign.circle_sweeps->rows[row];
     if (reading.axis != axis) continue;
     if (first) sweep.q = reading.q, first = false;
+    sweep.stations.insert(reading.station);
     for (int joint = 0; joint < campaign.robot.joints(); ++joint) {
       if (joint != axis && std::abs(reading.q[joint] - sweep.q[joint]) > kStandsStill) sweep.others_moved = true;
     }
@@ -76,7 +80,7 @@ Sweep collect(const campaign::Campaign& campaign, int axis, const RigidPoints& p
       sweep.targets.push_back(reading.target);
     }
     sweep.circles[place->second].points.push_back(points.circle_sweeps[row]);
-    if (weighted) sweep.circles[place->second].covariances.push_back(noise.covarianceAt(reading.point));
+    if (weighted) sweep.circles[place->second].covariances.push_back(noise.covarianceAt(reading.point, reading.from));
     sweep.angles[place->second].push_back(reading.q[axis]);
   }
   return sweep;
@@ -97,6 +101,26 @@ double scatterTurnedBack(const Sweep& sweep, const metrology::Line& axis, double
     scatter += squares - sum.squaredNorm() / static_cast<double>(sweep.circles[k].points.size());
   }
   return scatter;
+}
+
+/// What the poses of the stations put into an axis that was read from them: the largest, where there are several.
+Eigen::Matrix4d byStations(const campaign::Campaign& campaign, const std::set<int>& stations,
+                           const metrology::MeasuredLine& axis) {
+  Eigen::Matrix4d largest = Eigen::Matrix4d::Zero();
+  if (campaign.stations.empty()) return largest;
+  Eigen::Matrix<double, 4, 3> by_shift, by_tilt;
+  by_shift << axis.across_u.transpose(), axis.across_v.transpose(), Eigen::Matrix<double, 2, 3>::Zero();
+  by_tilt << Eigen::Matrix<double, 2, 3>::Zero(), axis.across_u.transpose(), axis.across_v.transpose();
+  for (const int s : stations) {
+    const campaign::StationPlace& place = campaign.stations[static_cast<std::size_t>(s)];
+    Eigen::Matrix<double, 4, 6> by_pose;  // of a rotation vector, then a displacement at the place's centre
+    by_pose.leftCols<3>() = -by_shift * metrology::crossMatrix(axis.line.point - place.centre) -
+                            by_tilt * metrology::crossMatrix(axis.line.direction);
+    by_pose.rightCols<3>() = by_shift;
+    const Eigen::Matrix4d covariance = by_pose * place.covariance * by_pose.transpose();
+    if (covariance.trace() > largest.trace()) largest = covariance;
+  }
+  return largest;
 }
 
 /// Turns the measured axis back through the axes before it; false with the reason where one of those is unknown.
@@ -177,6 +201,7 @@ MeasuredAxes measureAxes(const campaign::Campaign& campaign, const RigidPoints& 
     }
     measured.swept_at = sweep.q;
     measured.as_swept = measured.fit.axis;
+    measured.as_swept.covariance += byStations(campaign, sweep.stations, measured.as_swept);
     const metrology::Line& line = measured.as_swept.line;
     if (scatterTurnedBack(sweep, line, -1.0) < scatterTurnedBack(sweep, line, 1.0)) {
       measured.as_swept = measured.as_swept.reversed();

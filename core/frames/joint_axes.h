@@ -41,6 +41,8 @@ using MeasuredAxes = PerJoint<MeasuredAxis>;
 /// the rigid arm, gives it the sense of the joint's turning, and turns it back to zero through the axes before it.
 /// An axis without sweeps, or whose sweep moves other joints too, is not measured and says why; of an arm with coupled
 /// joints all are found together (fitCoupledAxes), without circles of their own.
+/// Of a day of several stations the uncertainty of a station's pose is in that of the axes that were read from it; that
+/// axes of one station share it is left out, which makes what is said between them no smaller than it is.
 MeasuredAxes measureAxes(const campaign::Campaign& campaign, const RigidPoints& points);
 
 /// A line of the arm at joint angles q, where the joints before it, whose axes at zero are given, stand at zero.

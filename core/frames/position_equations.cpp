@@ -13,13 +13,14 @@ namespace {
 
 class RowMaker {
  public:
-  RowMaker(const Frames& frames, const LoadingGeometry& geometry, std::size_t targets)
-      : geometry_(geometry),
+  RowMaker(const campaign::Campaign& campaign, const Frames& frames, const LoadingGeometry& geometry)
+      : campaign_(campaign),
+        geometry_(geometry),
         axes_(sweptAxes(frames, geometry.arm.axes_in_base_at_zero)),
         arm_(axes_),
         places_(geometry.arm.axes()),
         joints_(geometry.arm.joints()),
-        steps_(places_.count(targets)) {}
+        steps_(places_.count(campaign.targets.size())) {}
 
   const ArmParameters& places() const { return places_; }
   Eigen::Index parameters() const { return steps_ + joints_; }
@@ -48,7 +49,7 @@ class RowMaker {
       const Eigen::Vector3d modelled = posture.position(*at_zero);
       row.point = r0_from_loading * mean.point;
       row.residual = row.point - modelled;
-      const Eigen::Matrix3d covariance = noise.covarianceAt(mean.point) / mean.readings;
+      const Eigen::Matrix3d covariance = mean.absoluteCovariance(campaign_, noise);
       row.weight = (r0_from_loading.linear() * covariance * r0_from_loading.linear().transpose()).inverse();
       row.by_angles = posture.byAngles(modelled);
       row.jacobian = Eigen::MatrixXd::Zero(3, parameters());
@@ -62,6 +63,7 @@ class RowMaker {
   }
 
  private:
+  const campaign::Campaign& campaign_;
   const LoadingGeometry& geometry_;
   AxesAtStart axes_;
   PlacedArm arm_;
@@ -88,7 +90,7 @@ AbsoluteRows absoluteRows(const campaign::Campaign& campaign, const Frames& fram
   AbsoluteRows result;
   result.reason = missing(campaign, frames, geometry, noise);
   if (!result.reason.empty()) return result;
-  const RowMaker maker(frames, geometry, campaign.targets.size());
+  const RowMaker maker(campaign, frames, geometry);
   std::vector<const campaign::State*> unloaded(campaign.pose_ids.size(), nullptr);
   for (const campaign::State& state : campaign.states->rows) {
     if (state.step == 0) unloaded[static_cast<std::size_t>(state.pose)] = &state;

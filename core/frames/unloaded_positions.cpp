@@ -14,6 +14,8 @@ std::vector<UnloadedPosition> unloadedPositions(const campaign::Campaign& campai
     sum.pose = reading.pose;
     sum.target = reading.target;
     sum.point += reading.point;
+    sum.station = reading.station;
+    sum.from = reading.from;
     ++sum.readings;
   }
   std::vector<const campaign::State*> states(campaign.pose_ids.size(), nullptr);

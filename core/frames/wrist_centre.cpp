@@ -33,7 +33,8 @@ SweepOfTargets collect(const campaign::Campaign& campaign, const ArmInR0& arm, c
     }
     metrology::SpherePoints& sphere = sweep.spheres[static_cast<std::size_t>(k)];
     sphere.points.push_back(arm.r0_from_points * points.wrist_sweep[row]);
-    if (weighted) sphere.covariances.push_back(turn * noise.covarianceAt(reading.point) * turn.transpose());
+    if (weighted)
+      sphere.covariances.push_back(turn * noise.covarianceAt(reading.point, reading.from) * turn.transpose());
   }
   // A reflector with fewer than four readings has no sphere of its own; the others give the centre.
   constexpr std::size_t kSphere = 4;
@@ -43,6 +44,20 @@ SweepOfTargets collect(const campaign::Campaign& campaign, const ArmInR0& arm, c
     sweep.targets.erase(sweep.targets.begin() + static_cast<std::ptrdiff_t>(k));
   }
   return sweep;
+}
+
+/// The pose of the station from which the wrist was read moves its centre as a whole: the largest, where there are
+/// several.
+void addStations(const campaign::Campaign& campaign, const ArmInR0& arm, metrology::SphereFit& spheres) {
+  if (campaign.stations.empty()) return;
+  const Eigen::Vector3d centre = arm.r0_from_points.inverse() * spheres.centre;
+  Eigen::Matrix3d largest = Eigen::Matrix3d::Zero();
+  for (const campaign::WristReading& reading : campaign.wrist_sweep->rows) {
+    const Eigen::Matrix3d own = campaign::stationCovariance(campaign, reading.station, centre);
+    if (own.trace() > largest.trace()) largest = own;
+  }
+  const Eigen::Matrix3d turn = arm.r0_from_points.linear();
+  spheres.covariance.topLeftCorner<3, 3>() += turn * largest * turn.transpose();
 }
 
 bool armStoodStill(const campaign::WristSweep& sweep) {
@@ -124,6 +139,7 @@ WristCentre measureWristCentre(const campaign::Campaign& campaign, const ArmInR0
     wrist.reason = wrist.spheres.reason;
     return wrist;
   }
+  addStations(campaign, arm, wrist.spheres);
   wrist.centre_in_r0 = wrist.spheres.centre;
   wrist.targets = sweep.targets;
   wrist.centre_at_zero_in_r0 =

@@ -197,6 +197,8 @@ std::vector<TargetMove> measuredMoves(const LoadReadings& readings, std::size_t 
     move.loaded = r0_from_loading * loaded.mean();
     move.unloaded_readings = unloaded.readings;
     move.loaded_readings = loaded.readings;
+    move.station = unloaded.station;
+    move.from = r0_from_loading * unloaded.from;
   }
   return moves;
 }

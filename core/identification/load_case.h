@@ -28,6 +28,8 @@ int bodyOfCellAxes(const campaign::LoadCell& cell, const frames::LoadingGeometry
 struct ReadingSum {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();  ///< in the table's frame, m
   int readings = 0;
+  int station = 0;  ///< of `loading`: from which they were read, index into Campaign::stations
+  Eigen::Vector3d from = campaign::kStationOfTracker;  ///< where the instrument stood there
 
   Eigen::Vector3d mean() const { return sum / readings; }
 };
@@ -68,6 +70,8 @@ struct TargetMove {
   Eigen::Vector3d loaded = Eigen::Vector3d::Zero();
   int unloaded_readings = 0;  ///< 0 where the campaign gives displacements only
   int loaded_readings = 0;
+  int station = 0;                                     ///< from which it was read, index into Campaign::stations
+  Eigen::Vector3d from = campaign::kStationOfTracker;  ///< where the instrument stood there, R0
 
   Eigen::Vector3d displacement() const { return loaded - unloaded; }
 };

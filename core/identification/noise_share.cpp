@@ -137,8 +137,8 @@ struct NoiseSums {
 
 Eigen::Matrix3d displacementCovariance(const campaign::Tracker& tracker, const Eigen::Isometry3d& r0_from_loading,
                                        const TargetMove& move) {
-  const metrology::TrackerNoise noise = frames::trackerNoise(tracker);
   const Eigen::Isometry3d loading_from_r0 = r0_from_loading.inverse();
+  const metrology::TrackerNoise noise = frames::trackerNoise(tracker).seenFrom(loading_from_r0 * move.from);
   const Eigen::Matrix3d covariance =
       noise.covarianceAt(loading_from_r0 * move.unloaded) / std::max(1, move.unloaded_readings) +
       noise.covarianceAt(loading_from_r0 * move.loaded) / std::max(1, move.loaded_readings);

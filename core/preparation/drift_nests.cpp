@@ -41,7 +41,7 @@ double scatterOf(const std::vector<Repeats>& states, const metrology::TrackerNoi
   for (const Repeats& repeats : states) {
     Eigen::Vector3d mean = Eigen::Vector3d::Zero();
     for (const campaign::LoadingReading* row : repeats) mean += place(*row) / static_cast<double>(repeats.size());
-    const Eigen::Matrix3d weight = noise.covarianceAt(mean).inverse();
+    const Eigen::Matrix3d weight = noise.covarianceAt(mean, repeats.front()->from).inverse();
     for (const campaign::LoadingReading* row : repeats) chi2 += (place(*row) - mean).dot(weight * (place(*row) - mean));
   }
   return chi2;
@@ -137,7 +137,8 @@ void describeMovedNest(const std::vector<NestRound>& rounds, const NestNetwork& 
     if (!first) first = place;
     const Eigen::Vector3d off = place - *first;
     result.moved_nest_by = std::max(result.moved_nest_by, off.norm());
-    const double significance = mahalanobisSquared(off, 2.0 * noise.covarianceAt(found->second->point));
+    const double significance =
+        mahalanobisSquared(off, 2.0 * noise.covarianceAt(found->second->point, found->second->from));
     if (significance > limit && result.moved_nest_line == 0) result.moved_nest_line = found->second->line;
   }
 }
@@ -215,13 +216,26 @@ StationMotion stationMotion(const campaign::Campaign& campaign, const std::optio
   return result;
 }
 
+StationMotion inFrame(StationMotion station, const Eigen::Isometry3d& other_from_own) {
+  const Eigen::Matrix3d turn = other_from_own.linear();
+  Matrix6d both = Matrix6d::Zero();
+  both.topLeftCorner<3, 3>() = both.bottomRightCorner<3, 3>() = turn;
+  station.centre = other_from_own * station.centre;
+  for (StationEpoch& epoch : station.epochs) {
+    epoch.motion = both * epoch.motion;
+    epoch.covariance = both * epoch.covariance * both.transpose();
+  }
+  return station;
+}
+
 namespace {
 
-template <class Move>
-void moveReadings(campaign::Campaign& campaign, const Move& motionAt) {
+/// `motionOf(row)` of every reading that states a time, in the tracker's frame.
+template <class Motion>
+void moveReadings(campaign::Campaign& campaign, const Motion& motionOf) {
   forEachDriftingTable(campaign, [&](auto& table) {
     for (auto& row : table.rows) {
-      if (std::isfinite(row.time_s)) row.point = motionAt(row.time_s) * row.point;
+      if (std::isfinite(row.time_s)) row.point = motionOf(row) * row.point;
     }
   });
 }
@@ -229,11 +243,22 @@ void moveReadings(campaign::Campaign& campaign, const Move& motionAt) {
 }  // namespace
 
 void applyDriftCorrection(const StationMotion& station, campaign::Campaign& campaign) {
-  moveReadings(campaign, [&](double time_s) { return station.firstFrom(time_s); });
+  moveReadings(campaign, [&](const auto& row) { return station.firstFrom(row.time_s); });
 }
 
 void putBackDrift(const StationMotion& station, campaign::Campaign& campaign) {
-  moveReadings(campaign, [&](double time_s) { return station.firstFrom(time_s).inverse(); });
+  moveReadings(campaign, [&](const auto& row) { return station.firstFrom(row.time_s).inverse(); });
+}
+
+void applyDriftCorrection(const std::vector<StationMotion>& stations, campaign::Campaign& campaign) {
+  moveReadings(campaign,
+               [&](const auto& row) { return stations[static_cast<std::size_t>(row.station)].firstFrom(row.time_s); });
+}
+
+void putBackDrift(const std::vector<StationMotion>& stations, campaign::Campaign& campaign) {
+  moveReadings(campaign, [&](const auto& row) {
+    return stations[static_cast<std::size_t>(row.station)].firstFrom(row.time_s).inverse();
+  });
 }
 
 }  // namespace stiffscope::preparation

@@ -59,11 +59,18 @@ void forEachDriftingTable(CampaignType& campaign, const Visit& visit) {
   inTrackerFrame(campaign.loading);
 }
 
+/// The same motion as another frame sees it, `other_from_own` of the frame of its readings.
+StationMotion inFrame(StationMotion station, const Eigen::Isometry3d& other_from_own);
+
 /// Takes the motion off the readings that state a time and are in the tracker's frame; the rest stays.
 void applyDriftCorrection(const StationMotion& station, campaign::Campaign& campaign);
 
 /// The contrary: the same readings as they were before.
 void putBackDrift(const StationMotion& station, campaign::Campaign& campaign);
+
+/// The same of several stations, by the index of each; a station whose entry has no rounds stood still.
+void applyDriftCorrection(const std::vector<StationMotion>& stations, campaign::Campaign& campaign);
+void putBackDrift(const std::vector<StationMotion>& stations, campaign::Campaign& campaign);
 
 /// When the station jumped that did so between round `round` of the nests and the one before, s: between two
 /// postures, where the unloaded positions then fit the arm best, or at the interval's start or end; its middle

@@ -100,6 +100,10 @@ constexpr int checksOf(bool on_rail) {
   return count;
 }
 
+/// A check of days of several stations alone, beside these; a day of one is held against the same limits with it or
+/// without. Its chance of a false finding is one limit's more.
+inline constexpr std::string_view kStationsAgree = "stations_agree";
+
 /// Limits that share the chance of a false finding; each divides its part again by the readings, postures or reflectors
 /// it tries (Bonferroni).
 constexpr int limitsByChance() {

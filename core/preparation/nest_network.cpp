@@ -15,20 +15,29 @@ namespace {
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
-std::vector<NestRound> usable(const std::vector<NestRound>& rounds, int left_out) {
-  std::vector<NestRound> result = rounds;
-  for (NestRound& round : result) round.readings.erase(left_out);
-  std::erase_if(result, [](const NestRound& round) { return round.readings.size() < 3; });
-  return result;
+/// The rounds of three nests or more, `left_out` taken out, with their nests in the order of their indices.
+std::vector<NestSet> usable(const std::vector<NestRound>& rounds, const metrology::TrackerNoise& noise, int left_out) {
+  std::vector<NestSet> sets;
+  for (const NestRound& round : rounds) {
+    NestSet set{round.time_s, {}, noise};
+    for (const auto& [nest, reading] : round.readings) {
+      if (nest != left_out) set.readings.push_back(reading);
+    }
+    if (set.readings.size() < 3) continue;
+    set.noise = noise.seenFrom(set.readings.front()->from);
+    sets.push_back(std::move(set));
+  }
+  return sets;
 }
 
-/// Starts at the rigid registration of each round onto the first.
-bool start(const std::vector<NestRound>& rounds, const Eigen::Vector3d& centre, NestNetwork& network) {
-  for (const auto& [nest, reading] : rounds.front().readings) network.places[nest] = reading->point;
-  for (const NestRound& round : rounds) {
+/// Starts at the rigid registration of each set onto the first.
+bool start(const std::vector<NestSet>& sets, const Eigen::Vector3d& centre, NestNetwork& network) {
+  for (const campaign::NestReading* reading : sets.front().readings)
+    network.places.try_emplace(reading->nest, reading->point);
+  for (const NestSet& set : sets) {
     std::vector<Eigen::Vector3d> now, first;
-    for (const auto& [nest, reading] : round.readings) {
-      const auto known = network.places.find(nest);
+    for (const campaign::NestReading* reading : set.readings) {
+      const auto known = network.places.find(reading->nest);
       if (known == network.places.end()) continue;
       now.push_back(reading->point);
       first.push_back(known->second);
@@ -36,13 +45,12 @@ bool start(const std::vector<NestRound>& rounds, const Eigen::Vector3d& centre, 
     const metrology::RigidRegistration fit = metrology::registerRigid(now, first);
     if (!fit.determined) return false;
     StationEpoch epoch;
-    epoch.time_s = round.time_s;
+    epoch.time_s = set.time_s;
     const Eigen::AngleAxisd turn(fit.to_from_source.linear());
     epoch.motion << turn.angle() * turn.axis(), fit.to_from_source * centre - centre;
     network.epochs.push_back(epoch);
-    for (const auto& [nest, reading] : round.readings) {
-      network.places.try_emplace(nest, fit.to_from_source * reading->point);
-    }
+    for (const campaign::NestReading* reading : set.readings)
+      network.places.try_emplace(reading->nest, fit.to_from_source * reading->point);
   }
   network.epochs.front().motion.setZero();
   return true;
@@ -131,21 +139,21 @@ struct NestEquation {
   Eigen::Matrix<double, 3, 6> by_motion;
 };
 
-std::vector<NestEquation> equationsOf(const std::vector<NestRound>& rounds, const metrology::TrackerNoise& noise,
-                                      const Eigen::Vector3d& centre, const NestNetwork& network) {
+std::vector<NestEquation> equationsOf(const std::vector<NestSet>& sets, const Eigen::Vector3d& centre,
+                                      const NestNetwork& network) {
   std::vector<NestEquation> equations;
-  for (std::size_t e = 0; e < rounds.size(); ++e) {
+  for (std::size_t e = 0; e < sets.size(); ++e) {
     const Eigen::Isometry3d first_from_now = metrology::motionAbout(centre, network.epochs[e].motion);
     const Eigen::Matrix3d turn = first_from_now.linear();
-    for (const auto& [nest, reading] : rounds[e].readings) {
-      const auto place = network.places.find(nest);
+    for (const campaign::NestReading* reading : sets[e].readings) {
+      const auto place = network.places.find(reading->nest);
       const Eigen::Vector3d moved = first_from_now * reading->point;
       NestEquation& one = equations.emplace_back();
       one.round = e;
       one.place = std::distance(network.places.begin(), place);
       one.reading = reading;
       one.residual = moved - place->second;
-      one.covariance = turn * noise.covarianceAt(reading->point) * turn.transpose();
+      one.covariance = turn * sets[e].noise.covarianceAt(reading->point) * turn.transpose();
       one.by_motion << -metrology::crossMatrix(moved - centre), Eigen::Matrix3d::Identity();
     }
   }
@@ -153,10 +161,9 @@ std::vector<NestEquation> equationsOf(const std::vector<NestRound>& rounds, cons
 }
 
 /// One step of Gauss-Newton; the covariance of the motions and of the residuals is that of the last.
-void improve(const std::vector<NestRound>& rounds, const metrology::TrackerNoise& noise, const Eigen::Vector3d& centre,
-             bool last, NestNetwork& network) {
-  const std::vector<NestEquation> equations = equationsOf(rounds, noise, centre, network);
-  NetworkStep step(rounds.size(), network.places.size());
+void improve(const std::vector<NestSet>& sets, const Eigen::Vector3d& centre, bool last, NestNetwork& network) {
+  const std::vector<NestEquation> equations = equationsOf(sets, centre, network);
+  NetworkStep step(sets.size(), network.places.size());
   network.chi2 = 0.0;
   for (const NestEquation& one : equations) {
     const Eigen::Matrix3d weight = one.covariance.inverse();
@@ -165,7 +172,7 @@ void improve(const std::vector<NestRound>& rounds, const metrology::TrackerNoise
     step.add(one.round, one.place, one.by_motion, weight, one.residual);
     if (last) network.residuals.push_back({one.reading, one.round, one.residual, one.covariance, chi2});
   }
-  network.dof = 3 * static_cast<int>(equations.size()) - 6 * static_cast<int>(rounds.size() - 1) -
+  network.dof = 3 * static_cast<int>(equations.size()) - 6 * static_cast<int>(sets.size() - 1) -
                 3 * static_cast<int>(network.places.size());
   step.apply(network);
   for (std::size_t i = 0; i < network.residuals.size(); ++i) {
@@ -183,27 +190,37 @@ std::vector<NestRound> nestRounds(const campaign::Nests& nests) {
     return a->time_s < b->time_s;
   });
   std::vector<NestRound> rounds;
+  std::map<int, std::size_t> latest;  // of each station: two trackers may read at the same time
   for (const campaign::NestReading* row : rows) {
-    if (rounds.empty() || rounds.back().readings.contains(row->nest)) rounds.emplace_back();
-    rounds.back().readings[row->nest] = row;
+    const auto [place, first] = latest.try_emplace(row->station, rounds.size());
+    if (first || rounds[place->second].readings.contains(row->nest))
+      place->second = rounds.size(), rounds.emplace_back();
+    rounds[place->second].readings[row->nest] = row;
   }
   for (NestRound& round : rounds) {
     for (const auto& [nest, row] : round.readings) {
       round.time_s += row->time_s / static_cast<double>(round.readings.size());
     }
   }
+  if (latest.size() > 1) {
+    std::stable_sort(rounds.begin(), rounds.end(),
+                     [](const NestRound& a, const NestRound& b) { return a.time_s < b.time_s; });
+  }
   return rounds;
+}
+
+NestNetwork fitNestNetwork(const std::vector<NestSet>& sets, const Eigen::Vector3d& centre) {
+  NestNetwork network;
+  if (sets.size() < 2 || !start(sets, centre, network)) return network;
+  constexpr int kSteps = 4;  // from a registration that is near the optimum already; the last gives chi2 there
+  for (int step = 0; step < kSteps; ++step) improve(sets, centre, step + 1 == kSteps, network);
+  network.determined = true;
+  return network;
 }
 
 NestNetwork fitNestNetwork(const std::vector<NestRound>& rounds, const metrology::TrackerNoise& noise,
                            const Eigen::Vector3d& centre, int left_out) {
-  NestNetwork network;
-  const std::vector<NestRound> used = usable(rounds, left_out);
-  if (used.size() < 2 || !start(used, centre, network)) return network;
-  constexpr int kSteps = 4;  // from a registration that is near the optimum already; the last gives chi2 there
-  for (int step = 0; step < kSteps; ++step) improve(used, noise, centre, step + 1 == kSteps, network);
-  network.determined = true;
-  return network;
+  return fitNestNetwork(usable(rounds, noise, left_out), centre);
 }
 
 Eigen::Vector3d whereTheArmWasRead(const campaign::Campaign& campaign) {

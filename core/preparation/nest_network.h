@@ -28,13 +28,20 @@ struct NestRound {
   std::map<int, const campaign::NestReading*> readings;
 };
 
-/// Rounds in the order of time; a nest that comes again starts the next one. They point into `nests`.
+/// Rounds in the order of time; a nest that comes again starts the next one of its station. They point into `nests`.
 std::vector<NestRound> nestRounds(const campaign::Nests& nests);
+
+/// Readings that one motion brings onto those of the first set; a nest may be among them more than once.
+struct NestSet {
+  double time_s = 0.0;
+  std::vector<const campaign::NestReading*> readings;
+  metrology::TrackerNoise noise;  ///< of these readings
+};
 
 /// What a reading of a nest leaves once places and motions are fitted.
 struct NestResidual {
   const campaign::NestReading* reading = nullptr;
-  std::size_t round = 0;                                 ///< index into NestNetwork::epochs
+  std::size_t round = 0;                                 ///< index into NestNetwork::epochs: its round, or its set
   Eigen::Vector3d off = Eigen::Vector3d::Zero();         ///< from its nest's place, in the first round's frame, m
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of `off`, by the declared noise; singular where the
                                                          ///< motion takes up what the reading is off
@@ -55,6 +62,11 @@ struct NestNetwork {
 /// are skipped. Undetermined: fewer than two such rounds, or nests on one line. `left_out` < 0: none is.
 NestNetwork fitNestNetwork(const std::vector<NestRound>& rounds, const metrology::TrackerNoise& noise,
                            const Eigen::Vector3d& centre, int left_out);
+
+/// The same of sets of readings, each with a noise of its own, whose readings are near those of the first set already:
+/// within a few degrees, as the rotation vectors are added up. Undetermined also where a set has fewer than three
+/// nests.
+NestNetwork fitNestNetwork(const std::vector<NestSet>& sets, const Eigen::Vector3d& centre);
 
 /// Mean of the loading's points; without a loading of the sweeps', else of the nests'. In the tracker's frame, m.
 Eigen::Vector3d whereTheArmWasRead(const campaign::Campaign& campaign);

@@ -10,6 +10,7 @@
 #include "core/numerics/distributions.h"
 #include "core/numerics/resampling.h"
 #include "core/preparation/drift_nests.h"
+#include "core/preparation/join_stations.h"
 #include "core/preparation/nest_network.h"
 #include "core/preparation/remarks.h"
 #include "core/preparation/repeatability.h"
@@ -37,7 +38,8 @@ class NestDistances {
           if (a >= b) continue;
           const Eigen::Vector3d between = second->point - first->point;
           const Eigen::Vector3d along = between.normalized();
-          const Eigen::Matrix3d covariance = noise.covarianceAt(first->point) + noise.covarianceAt(second->point);
+          const Eigen::Matrix3d covariance =
+              noise.covarianceAt(first->point, first->from) + noise.covarianceAt(second->point, second->from);
           // The median is of few readings: as uncertain as one of them at most.
           changes_[e][{a, b}] = {between.norm(), std::sqrt(2.0 * along.dot(covariance * along))};
           lengths[{a, b}].push_back(between.norm());
@@ -137,7 +139,7 @@ struct Apart {
 Apart apart(const NestResidual& one, const metrology::TrackerNoise& noise) {
   // What the fit leaves of a reading's variance in a direction that the motion takes up is rounding, and curvature.
   constexpr double kShown = 1e-3;
-  const double least = kShown * noise.covarianceAt(one.reading->point).trace() / 3.0;
+  const double least = kShown * noise.covarianceAt(one.reading->point, one.reading->from).trace() / 3.0;
   const SymmetricEigen parts = symmetricEigen(one.covariance);
   Apart result;
   for (Eigen::Index k = 0; k < 3; ++k) {
@@ -253,7 +255,28 @@ double distanceFrom(const NestNetwork& network, const Eigen::Vector3d& centre, c
 
 }  // namespace
 
+namespace {
+
+/// Each station's own, in one list.
+NestOutliers outliersByStation(const campaign::Campaign& campaign) {
+  NestOutliers all;
+  for (std::size_t s = 0; s < campaign.stations.size(); ++s) {
+    NestOutliers own = nestOutliers(ofStation(campaign, static_cast<int>(s)));
+    all.rounds += own.rounds;
+    all.rounds_of_three += own.rounds_of_three;
+    all.readings.insert(all.readings.end(), own.readings.begin(), own.readings.end());
+    if (!own.tested && all.reason.empty()) all.reason = own.reason;
+    all.tested = all.tested || own.tested;
+  }
+  std::sort(all.readings.begin(), all.readings.end(),
+            [](const RejectedReading& a, const RejectedReading& b) { return a.line < b.line; });
+  return all;
+}
+
+}  // namespace
+
 NestOutliers nestOutliers(const campaign::Campaign& campaign) {
+  if (hasStations(campaign)) return outliersByStation(campaign);
   NestOutliers found;
   if (!campaign.nests) {
     found.reason = Remark(RemarkId::no_floor_nests);

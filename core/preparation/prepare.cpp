@@ -10,6 +10,7 @@
 #include "core/campaign/repeated_keys.h"
 #include "core/campaign/row_names.h"
 #include "core/frames/joint_axes.h"
+#include "core/io/input_error.h"
 #include "core/numerics/parallel.h"
 #include "core/preparation/drift_nests.h"
 #include "core/preparation/nest_network.h"
@@ -182,17 +183,23 @@ void countReadings(const campaign::Campaign& campaign, DriftCorrection& drift) {
   });
 }
 
-DriftCorrection correctDrift(const DriftModel& station, campaign::Campaign& campaign) {
-  DriftCorrection drift;
-  drift.reason = whyNot(station);
-  if (!drift.reason.empty()) return drift;
+/// A motion that is taken off, beside those of other stations.
+void addTakenOff(const StationMotion& motion, DriftCorrection& drift) {
+  const double until_s = motion.epochs.back().time_s;
+  drift.until_s = drift.taken_off ? std::max(drift.until_s, until_s) : until_s;
   drift.taken_off = true;
-  for (const StationEpoch& epoch : station.motion.epochs) {
+  for (const StationEpoch& epoch : motion.epochs) {
     drift.displacement = std::max(drift.displacement, epoch.motion.tail<3>().norm());
     drift.turn = std::max(drift.turn, epoch.motion.head<3>().norm());
     if (epoch.jumped_at) drift.jumps_s.push_back(*epoch.jumped_at);
   }
-  drift.until_s = station.motion.epochs.back().time_s;
+}
+
+DriftCorrection correctDrift(const DriftModel& station, campaign::Campaign& campaign) {
+  DriftCorrection drift;
+  drift.reason = whyNot(station);
+  if (!drift.reason.empty()) return drift;
+  addTakenOff(station.motion, drift);
   if (station.course == StationCourse::drifted) drift.spread = spreadSweepTimes(station.motion, campaign);
   countReadings(campaign, drift);
   applyDriftCorrection(station.motion, campaign);
@@ -207,6 +214,62 @@ void standOnCarriage(PreparedCampaign& prepared) {
   referToCarriageAtZero(prepared.rail, prepared.campaign);
 }
 
+/// What each station did, as one.
+DriftCorrection driftOf(const JoinedStations& stations, const campaign::Campaign& campaign) {
+  DriftCorrection drift;
+  for (const DriftModel& course : stations.courses) {
+    if (!course.moved()) {
+      if (drift.reason.empty()) drift.reason = whyNot(course);
+      continue;
+    }
+    addTakenOff(course.motion, drift);
+  }
+  if (!drift.taken_off) return drift;
+  drift.reason = {};
+  forEachDriftingTable(campaign, [&](const auto& table) {
+    for (const auto& row : table.rows) {
+      if (!stations.courses[static_cast<std::size_t>(row.station)].moved()) continue;
+      ++(std::isfinite(row.time_s) ? drift.readings : drift.without_time);
+    }
+  });
+  return drift;
+}
+
+/// What is left of the stations' motion once each one's own is taken off and they are joined. More than noise is
+/// nests that moved between them, which no motion of a station takes off.
+DriftModel leftOfStations(const campaign::Campaign& joined, const metrology::TrackerNoise& noise) {
+  DriftModel left = stationCourse(joined, noise);
+  if (!left.moved()) return left;
+  left.course = StationCourse::not_tested;
+  left.remark = Remark(RemarkId::stations_disagree);
+  return left;
+}
+
+/// Throws InputError where the day has several stations and no noise that says how their nests weigh.
+metrology::TrackerNoise noiseForStations(const campaign::Campaign& campaign, const NoiseFactors& factors) {
+  if (!declaredNoise(campaign)) {
+    throw io::InputError({(campaign.folder / "campaign.xml").string(), 0, "tracker"}, "",
+                         "expected a tracker with its noise: nests join stations by it");
+  }
+  return frames::trackerNoise(asNoisyAs(*campaign.tracker, factors));
+}
+
+/// The stations joined and each one's motion taken off.
+void prepareStations(PreparedCampaign& prepared) {
+  const metrology::TrackerNoise noise = noiseForStations(prepared.campaign, noiseFactors(prepared.scatter));
+  constexpr bool kAsDrifted = false;
+  prepared.preparation.stations = joinStations(noise, kAsDrifted, prepared.campaign);
+  prepared.preparation.drift = driftOf(*prepared.preparation.stations, prepared.campaign);
+  prepared.drift = leftOfStations(prepared.campaign, noise);
+}
+
+/// The motions of stations that were taken off, by station.
+std::vector<StationMotion> takenOff(const JoinedStations& stations) {
+  std::vector<StationMotion> motions;
+  for (const DriftModel& course : stations.courses) motions.push_back(course.moved() ? course.motion : StationMotion());
+  return motions;
+}
+
 }  // namespace
 
 PreparedCampaign prepareCampaign(campaign::Campaign read) {
@@ -219,9 +282,13 @@ PreparedCampaign prepareCampaign(campaign::Campaign read) {
   const bool known = declaredNoise(prepared.campaign).has_value();
   prepared.scatter = screening.scatter ? *std::move(screening.scatter) : repeatScatter(prepared.campaign);
   const auto shown = [&] { return asNoisyAs(*declared, noiseFactors(prepared.scatter)); };
-  prepared.drift =
-      stationCourse(prepared.campaign, known ? std::optional(frames::trackerNoise(shown())) : std::nullopt);
-  prepared.preparation.drift = correctDrift(prepared.drift, prepared.campaign);
+  if (hasStations(prepared.campaign)) {
+    prepareStations(prepared);
+  } else {
+    prepared.drift =
+        stationCourse(prepared.campaign, known ? std::optional(frames::trackerNoise(shown())) : std::nullopt);
+    prepared.preparation.drift = correctDrift(prepared.drift, prepared.campaign);
+  }
   // A drift that goes on between repeats is no scatter of the instrument.
   if (prepared.preparation.drift.taken_off) prepared.scatter = repeatScatter(prepared.campaign);
   prepared.noise = noiseModel(prepared.campaign, prepared.scatter);
@@ -233,7 +300,11 @@ PreparedCampaign prepareCampaign(campaign::Campaign read) {
 
 PreparedCampaign asMeasured(PreparedCampaign prepared) {
   if (!prepared.preparation.drift.taken_off) return prepared;
-  putBackDrift(prepared.drift.motion, prepared.campaign);
+  if (prepared.preparation.stations) {
+    putBackDrift(takenOff(*prepared.preparation.stations), prepared.campaign);
+  } else {
+    putBackDrift(prepared.drift.motion, prepared.campaign);
+  }
   prepared.preparation.drift = {};
   prepared.preparation.drift.reason = Remark(RemarkId::as_measured_asked_for);
   return prepared;
@@ -244,6 +315,11 @@ PreparedCampaign leaveRaw(campaign::Campaign read) {
   prepared.campaign = std::move(read);
   prepared.preparation.raw = true;
   prepared.preparation.declared = prepared.campaign.tracker;
+  if (hasStations(prepared.campaign)) {
+    constexpr bool kAsDrifted = true;
+    prepared.preparation.stations =
+        joinStations(noiseForStations(prepared.campaign, {}), kAsDrifted, prepared.campaign);
+  }
   prepared.noise = noiseModel(prepared.campaign, repeatScatter(prepared.campaign));
   prepared.preparation.drift.reason = Remark(RemarkId::raw_asked_for);
   standOnCarriage(prepared);

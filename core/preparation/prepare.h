@@ -5,6 +5,7 @@
 
 #include "core/preparation/drift_nests.h"
 #include "core/preparation/finding.h"
+#include "core/preparation/join_stations.h"
 #include "core/preparation/rail.h"
 #include "core/preparation/repeatability.h"
 #include "core/preparation/station_course.h"
@@ -28,7 +29,8 @@ struct DriftCorrection {
 struct Preparation {
   bool raw = false;  ///< as it was read, because that was asked for
   std::vector<RejectedReading> rejected;
-  DriftCorrection drift;
+  DriftCorrection drift;                      ///< of all stations together
+  std::optional<JoinedStations> stations;     ///< of a day of several; its readings are in the first one's frame
   std::optional<campaign::Tracker> declared;  ///< the tracker as campaign.xml has it
 };
 
@@ -41,7 +43,7 @@ struct PreparedCampaign {
   std::vector<AuditCheck> screening;  ///< the checks that found the rejected readings
   RepeatScatter scatter;              ///< of the repeats that are left, against the declared noise
   NoiseModel noise;
-  DriftModel drift;                ///< by the nests
+  DriftModel drift;                ///< by the nests; of several stations what is left once each one's own is taken off
   std::optional<RailCourse> rail;  ///< by the rail sweep, of an arm on a rail
 };
 
@@ -52,13 +54,17 @@ struct PreparedCampaign {
 /// nests, one that moved left out, keep their shape: nests that do not are no reference. Sweeps that state no time are
 /// taken to have been read row by row, evenly, between the first round of the nests and the last one before the
 /// loading, where the station drifted. Of an arm on a rail everything is referred to its carriage at zero.
+///
+/// A day of several stations: each one's motion is found by its own rounds of the nests and taken off, to its own first
+/// round; then the stations are joined (core/preparation/join_stations.h), and all readings are in the first one's
+/// frame. Sweeps that state no time keep what a drift did to them. Throws InputError where a station cannot be joined.
 PreparedCampaign prepareCampaign(campaign::Campaign read);
 
 /// The same readings with the station's motion put back on them: as they were measured, but for rounding, and with the
 /// carriage of a rail where the preparation has it.
 PreparedCampaign asMeasured(PreparedCampaign prepared);
 
-/// The same campaign untouched, with a preparation that says so.
+/// The same campaign untouched, with a preparation that says so; several stations are joined, as read.
 PreparedCampaign leaveRaw(campaign::Campaign read);
 
 }  // namespace stiffscope::preparation

@@ -38,7 +38,7 @@ std::optional<RailCourse> fitRailCourse(const campaign::Campaign& campaign,
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(unknowns, unknowns);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(unknowns);
   for (const campaign::RailReading& row : rows) {
-    const Eigen::Matrix3d weight = noise ? Eigen::Matrix3d(noise->covarianceAt(row.point).inverse()) : one;
+    const Eigen::Matrix3d weight = noise ? Eigen::Matrix3d(noise->covarianceAt(row.point, row.from).inverse()) : one;
     const double r = row.rail - middle;
     const Eigen::Index at = place[row.target];
     normal.topLeftCorner<3, 3>() += r * r * weight;
@@ -66,10 +66,10 @@ std::optional<RailCourse> fitRailCourse(const campaign::Campaign& campaign,
   for (const campaign::RailReading& row : rows) {
     const Eigen::Vector3d left =
         row.point - solution.segment<3>(place[row.target]) - (row.rail - middle) * course.per_metre;
-    chi2 += noise ? left.dot(noise->covarianceAt(row.point).inverse() * left) : left.squaredNorm();
+    chi2 += noise ? left.dot(noise->covarianceAt(row.point, row.from).inverse() * left) : left.squaredNorm();
     Stop& stop = stops[row.index];
     stop.left += left;
-    if (noise) stop.noise += noise->covarianceAt(row.point);
+    if (noise) stop.noise += noise->covarianceAt(row.point, row.from);
     stop.readings += 1.0;
     const double by_travel = along.dot(left);
     along_sum += by_travel * by_travel;
@@ -100,10 +100,17 @@ void referToCarriageAtZero(const std::optional<RailCourse>& course, campaign::Ca
     if (frame == campaign::PointFrame::base_link) return campaign.robot.rail->direction_in_base;
     return course ? course->per_metre : Eigen::Vector3d(Eigen::Vector3d::Zero());
   };
+  const Eigen::Vector3d station =
+      campaign.tracker ? campaign.tracker->station : Eigen::Vector3d(Eigen::Vector3d::Zero());
+  // The instrument stays where it was: seen from the carriage it stands as much further back.
+  const auto carryBack = [&](auto& row, const Eigen::Vector3d& by) {
+    row.point -= by;
+    row.from = (row.from.allFinite() ? row.from : station) - by;
+  };
   const auto refer = [&](auto& table) {
     if (!table) return;
     const Eigen::Vector3d d = perMetre(table->frame);
-    for (auto& row : table->rows) row.point -= std::exchange(row.rail, 0.0) * d;
+    for (auto& row : table->rows) carryBack(row, std::exchange(row.rail, 0.0) * d);
   };
   refer(campaign.circle_sweeps);
   refer(campaign.wrist_sweep);
@@ -114,7 +121,7 @@ void referToCarriageAtZero(const std::optional<RailCourse>& course, campaign::Ca
     const Eigen::Vector3d d = perMetre(campaign.loading->frame);
     for (campaign::LoadingReading& row : campaign.loading->rows) {
       const auto position = at.find({row.pose, row.step});
-      if (position != at.end()) row.point -= position->second * d;
+      if (position != at.end()) carryBack(row, position->second * d);
     }
   }
   const auto [first, last] =

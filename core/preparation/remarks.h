@@ -38,6 +38,7 @@ enum class RemarkId {
   // The station's course by the nests, and why its motion is not taken off.
   station_stood_still,  ///< rounds of the nests
   nests_deform,
+  stations_disagree,
   station_jumped,    ///< m, where the arm was read
   station_wandered,  ///< m, where the arm was read
   no_motion_beyond_noise,

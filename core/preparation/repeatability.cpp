@@ -58,7 +58,7 @@ Eigen::Vector3d sumOf(const StateRepeats& repeats) {
 void addScatter(const metrology::TrackerNoise& noise, const StateRepeats& repeats, RepeatScatter& scatter) {
   const double n = static_cast<double>(repeats.size());
   const Eigen::Vector3d mean = sumOf(repeats) / n;
-  const Eigen::Vector3d sight = mean - noise.station;
+  const Eigen::Vector3d sight = mean - noise.seenFrom(repeats.front()->from).station;
   const double distance = sight.norm();
   const double along_sd = noise.range_fixed + noise.range_per_m * distance;
   const double across_sd = noise.angle_fixed + noise.angle_per_m * distance;
@@ -80,7 +80,7 @@ double distanceFromOthers(const metrology::TrackerNoise& noise, const StateRepea
                           const campaign::LoadingReading& row) {
   const double others = static_cast<double>(repeats.size()) - 1.0;
   const Eigen::Vector3d off = row.point - (sum - row.point) / others;
-  return mahalanobisSquared(off, (1.0 + 1.0 / others) * noise.covarianceAt(row.point));
+  return mahalanobisSquared(off, (1.0 + 1.0 / others) * noise.covarianceAt(row.point, row.from));
 }
 
 /// A repeat and its distance.

@@ -104,7 +104,7 @@ campaign::Campaign evenlySpread(const campaign::Campaign& campaign, std::size_t 
   // All of a Campaign by name: one more member does not compile until it is copied here.
   const auto& [folder, name, date, texts, robot, base_link, flange_link, double_encoder, gravity, mass_sigma, tracker,
                targets, load_cell, tool, known_stiffness, joint_readings, controller_model, circle_sweeps, wrist_sweep,
-               rail_sweep, loading, states, displacements, nests, pose_ids, nest_ids, inputs] = campaign;
+               rail_sweep, loading, states, displacements, nests, pose_ids, nest_ids, stations, inputs] = campaign;
   std::vector<int> now(pose_ids.size(), kNotKept);
   std::vector<std::string> kept_ids;
   for (const std::size_t posture : spreadPostures(campaign, most)) {
@@ -139,6 +139,7 @@ campaign::Campaign evenlySpread(const campaign::Campaign& campaign, std::size_t 
           nests,
           kept_ids,
           nest_ids,
+          stations,
           inputs};
 }
 

@@ -36,6 +36,9 @@ class Station {
   /// machine.
   explicit Station(const SimulationSpec& spec);
 
+  /// From now on it stands there.
+  void stand(const Eigen::Isometry3d& base_from_tracker) { tracker_from_base_ = base_from_tracker.inverse(); }
+
   void startLoading() { loading_ = true; }  ///< whatever was pushed before the loading has been pushed
 
   /// The reading of a point of the robot, or of one of the floor, given in the ground's base_link.

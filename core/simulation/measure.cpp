@@ -29,6 +29,7 @@ struct Session {
   Station station;
   double now_s = 0.0;
   double last_nests_s = 0.0;
+  int standing_at = 0;  ///< index of the tracker's station
   Arrival arrival{spec.nominal.joints()};
   Carriage carriage{spec};
 
@@ -59,6 +60,8 @@ void measureRailSweep(Session& session);
 void measureLoading(Session& session);
 
 namespace {
+
+constexpr double kCarried = 1800.0;  ///< s, from one station of the tracker to the next: it settles there
 
 const robot::LinkFrame& cellParent(const SimulationSpec& spec) {
   const std::string& name = spec.load_cell->declared.parent;
@@ -125,6 +128,7 @@ void readTargets(Session& session, PostureRun& run, const AppliedLoad& load, con
       reading.step = step;
       reading.repeat = std::to_string(repeat);
       reading.target = static_cast<int>(t);
+      reading.station = session.standing_at;
       reading.time_s = session.takeReading();
       state = stateNow(session, run, load, rest, late, session.now_s - changed_s);
       reading.point = session.read(reflectorPlace(session, state, run.seats, t));
@@ -167,6 +171,22 @@ void measureState(Session& session, PostureRun& run, int step) {
 
 }  // namespace
 
+namespace {
+
+/// To its next station where that begins with this posture; nests are read before and after.
+void carryTracker(Session& session, int posture) {
+  const std::vector<LaterStation>& later = session.spec.tracker.later;
+  const auto next = static_cast<std::size_t>(session.standing_at);
+  if (next >= later.size() || posture < later[next].before_posture) return;
+  measureNests(session);
+  session.station.stand(later[next].base_from_tracker);
+  ++session.standing_at;
+  session.now_s += kCarried;
+  measureNests(session);
+}
+
+}  // namespace
+
 void measureLoading(Session& session) {
   const SimulationSpec& spec = session.spec;
   if (!spec.loading && spec.postures.empty() && !spec.posture_draw) return;
@@ -177,6 +197,7 @@ void measureLoading(Session& session) {
   const std::vector<double> positions = carriagePositions(spec, postures.size());
   for (std::size_t p = 0; p < postures.size(); ++p) {
     session.campaign.pose_ids.push_back(std::to_string(p + 1));
+    carryTracker(session, static_cast<int>(p + 1));
     session.carriage.driveTo(positions[p]);
     session.moveTo(postures[p].q);
     PostureRun run{postures[p], static_cast<int>(p), ReflectorSeats(spec, static_cast<int>(p))};
@@ -277,6 +298,7 @@ void measureRailSweep(Session& session) {
       row.index = std::to_string(stop);
       row.target = static_cast<int>(t);
       row.rail = session.carriage.reported();
+      row.station = session.standing_at;
       row.time_s = session.takeReading();
       row.point = session.read(reflectorPlace(session, state, seats, t));
       table.rows.push_back(row);
@@ -355,6 +377,7 @@ void measureNests(Session& session) {
     campaign::NestReading reading;
     reading.time_s = session.takeReading();
     reading.nest = static_cast<int>(n);
+    reading.station = session.standing_at;
     reading.point = session.station.readFloor(session.spec.nests[n].position_in_base, session.now_s);
     session.campaign.nests->rows.push_back(reading);
   }
@@ -382,6 +405,8 @@ campaign::Campaign declared(const ElasticMachine& machine, const SimulationSpec&
   if (spec.load_cell) campaign.load_cell = spec.load_cell->declared;
   if (spec.machine.tool.mass_kg > 0.0) campaign.tool = spec.machine.tool;
   for (const auto& nest : spec.nests) campaign.nest_ids.push_back(nest.id);
+  if (!spec.tracker.later.empty()) campaign.stations.push_back({spec.tracker.station});
+  for (const LaterStation& later : spec.tracker.later) campaign.stations.push_back({later.id});
   return campaign;
 }
 

@@ -28,10 +28,40 @@ std::vector<TrueTarget> readTargets(const io::XmlNode& root) {
   return targets;
 }
 
+void readLaterStations(const io::XmlNode& tracker, TrackerSpec& spec) {
+  const auto nodes = tracker.children("later_station");
+  if (nodes.empty()) {
+    if (tracker.has("station"))
+      tracker.refuse("station", tracker.requiredAttribute("station"), "expected a later_station beside it");
+    return;
+  }
+  spec.station = tracker.requiredName("station");
+  int before = 1;
+  for (const io::XmlNode& node : nodes) {
+    refuseUnknown(node, {"station", "before_posture", "xyz_mm", "rpy_deg"});
+    LaterStation& later = spec.later.emplace_back();
+    later.id = node.requiredName("station");
+    const bool again = later.id == spec.station || std::any_of(spec.later.begin(), spec.later.end() - 1,
+                                                               [&](const auto& one) { return one.id == later.id; });
+    if (again) node.refuse("station", later.id, "expected every station once");
+    constexpr int kMost = 1000000;
+    later.before_posture = integer(node, "before_posture", 1, kMost);
+    if (later.before_posture <= before)
+      node.refuse("before_posture", node.requiredAttribute("before_posture"),
+                  "expected a posture after the first, and after that of the station before");
+    before = later.before_posture;
+    node.requiredAttribute("xyz_mm");
+    node.requiredAttribute("rpy_deg");
+    later.base_from_tracker = placement(node, "xyz_mm", "rpy_deg");
+  }
+}
+
 TrackerSpec readTracker(const io::XmlNode& root) {
   const io::XmlNode node = root.requiredChild("tracker");
-  refuseUnknown(node, {"model", "range_fixed_um", "range_per_m_um", "angle_fixed_um", "angle_per_m_um",
-                       "true_noise_factor", "xyz_mm", "rpy_deg"});
+  refuseUnknown(node,
+                {"model", "range_fixed_um", "range_per_m_um", "angle_fixed_um", "angle_per_m_um", "true_noise_factor",
+                 "xyz_mm", "rpy_deg", "station"},
+                {"later_station"});
   TrackerSpec tracker;
   tracker.declared.model = node.requiredName("model");
   tracker.declared.range_fixed = nonNegativeOr(node, "range_fixed_um", io::kMicrometre, 0.0);
@@ -45,6 +75,7 @@ TrackerSpec readTracker(const io::XmlNode& root) {
   node.requiredAttribute("xyz_mm");
   node.requiredAttribute("rpy_deg");
   tracker.base_from_tracker = placement(node, "xyz_mm", "rpy_deg");
+  readLaterStations(node, tracker);
   return tracker;
 }
 
@@ -361,6 +392,11 @@ SimulationSpec parseSimulationSpec(std::string_view bytes, const std::filesystem
   spec.circle_sweeps = readCircleSweeps(root, spec.nominal.joints());
   spec.wrist_sweep = readWristSweep(root, spec.nominal.joints(), spec.targets.size());
   readNestsAndTimes(root, spec);
+  constexpr std::size_t kFewestNests = 3;
+  if (!spec.tracker.later.empty() && spec.nests.size() < kFewestNests) {
+    root.refuse("nests", std::to_string(spec.nests.size()),
+                "expected at least three nests: they join the stations of the tracker");
+  }
   return spec;
 }
 

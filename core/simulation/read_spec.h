@@ -50,6 +50,9 @@ namespace stiffscope::simulation {
 ///           compliance_um_per_kn: the reflector leaves its nest under load
 ///   tracker: model xyz_mm rpy_deg (the true base_from_tracker) [true_noise_factor=1]
 ///       [range_fixed_um=0] [range_per_m_um=0] [angle_fixed_um=0] [angle_per_m_um=0] (one sigma)
+///       [station] (its name, where there are later ones)
+///     [later_station]...: station before_posture (number in the day, from 2) xyz_mm rpy_deg (where it is carried to
+///     then)
 ///   [load_cell]: parent [xyz_mm=0] [rpy_deg=0] force_sigma_n moment_sigma_nm
 ///       [true_misalignment_deg=0] (rotation vector) [true_bias_n=0] [true_bias_nm=0] [true_gain_error=0]
 ///       [true_place_error_mm=0] (true less declared place, cell axes)

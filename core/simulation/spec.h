@@ -290,10 +290,19 @@ struct StationSpec {
   double bending = 0.0, bending_per_m = 0.0;
 };
 
+/// Where the tracker is carried to during the loading. Its nests are read before it is taken away and once it stands.
+struct LaterStation {
+  std::string id;          ///< as tables name it
+  int before_posture = 0;  ///< number in the day, from 1: read from here on
+  Eigen::Isometry3d base_from_tracker = Eigen::Isometry3d::Identity();
+};
+
 struct TrackerSpec {
   campaign::Tracker declared;
   Eigen::Isometry3d base_from_tracker = Eigen::Isometry3d::Identity();
-  double true_noise_factor = 1.0;  ///< true sigma / declared sigma
+  std::string station;              ///< name of the first one where there are later ones
+  std::vector<LaterStation> later;  ///< in the order of the day
+  double true_noise_factor = 1.0;   ///< true sigma / declared sigma
 };
 
 struct LoadCellSpec {

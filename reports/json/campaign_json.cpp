@@ -19,6 +19,22 @@ Json driftJson(const preparation::DriftCorrection& drift) {
           {"readings_without_time", drift.without_time}};
 }
 
+Json stationsJson(const preparation::JoinedStations& stations) {
+  constexpr double kMicroradian = 1e-6;
+  Json list = Json::array();
+  for (std::size_t s = 0; s < stations.network.stations.size(); ++s) {
+    const preparation::StationPose& pose = stations.network.stations[s];
+    const preparation::PoseUncertainty at_arm = preparation::poseUncertainty(pose);
+    list.push_back({{"station", pose.id},
+                    {"readings", stations.readings[s]},
+                    {"common_nests", s == 0 ? Json(nullptr) : Json(pose.common_nests)},
+                    {"first_from_station", matrix(pose.first_from_station)},
+                    {"sd_at_arm_um", at_arm.position / io::kMicrometre},
+                    {"sd_turn_urad", at_arm.turn / kMicroradian}});
+  }
+  return list;
+}
+
 }  // namespace
 
 Json rejectedJson(const std::vector<preparation::RejectedReading>& rejected) {
@@ -30,9 +46,11 @@ Json rejectedJson(const std::vector<preparation::RejectedReading>& rejected) {
 }
 
 Json preparationJson(const preparation::Preparation& preparation) {
-  return {{"raw", preparation.raw},
-          {"rejected", rejectedJson(preparation.rejected)},
-          {"drift", driftJson(preparation.drift)}};
+  Json json{{"raw", preparation.raw},
+            {"rejected", rejectedJson(preparation.rejected)},
+            {"drift", driftJson(preparation.drift)}};
+  if (preparation.stations) json["stations"] = stationsJson(*preparation.stations);
+  return json;
 }
 
 Json withPreparation(Json result, const preparation::Preparation& preparation) {

@@ -59,6 +59,8 @@ constexpr std::array kPrinted{
     PrintedUnit{"controller_poses", "mm", 1.0, io::kMillimetre},
 };
 
+constexpr PrintedUnit kPrintedOfStations{preparation::kStationsAgree, "of noise sd"};
+
 consteval bool printsAllChecks() {
   return std::equal(
       kPrinted.begin(), kPrinted.end(), preparation::kAuditCheckIds.begin(), preparation::kAuditCheckIds.end(),
@@ -70,9 +72,11 @@ static_assert(printsAllChecks(), "every check needs its unit, in the order of pr
 
 AuditFigures figuresOf(const preparation::AuditCheck& check) {
   if (!check.value && !check.limit) return {};
-  const auto unit =
+  const auto listed =
       std::find_if(kPrinted.begin(), kPrinted.end(), [&check](const PrintedUnit& one) { return one.id == check.id; });
-  if (unit == kPrinted.end()) throw std::logic_error("no unit for the check " + check.id);
+  const PrintedUnit* unit = listed != kPrinted.end() ? &*listed : nullptr;
+  if (check.id == kPrintedOfStations.id) unit = &kPrintedOfStations;
+  if (unit == nullptr) throw std::logic_error("no unit for the check " + check.id);
   const auto printed = [unit](const std::optional<double>& figure) {
     return figure ? std::optional(*figure * unit->times / unit->by) : std::nullopt;
   };

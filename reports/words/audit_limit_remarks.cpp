@@ -156,6 +156,8 @@ std::string auditMissingWords(audit::MissingId id, const RemarkValues& values) {
       return "the forces lie along one line in the tool: turn the flange between postures";
     case audit::MissingId::few_nests_or_rounds:
       return "too few nests or rounds to tell a moving nest from the station: measure four";
+    case audit::MissingId::no_nest_to_spare:
+      return "no more nests in common than the stations' poses take: measure four, better five";
     case audit::MissingId::no_load_states:
       return "no load states: measure `states` with `loading`";
     case audit::MissingId::no_states_nor_loading:

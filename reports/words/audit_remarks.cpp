@@ -236,6 +236,30 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
           values.name(0), 1e6 * values.number(1));
     case audit::RemarkId::nests_not_mended:
       return "; leaving out any one nest does not mend it: more than one moved, or the readings are wrong";
+    case audit::RemarkId::of_station:
+      return values.name(0) + ": " + words(values.remark(1));
+    case audit::RemarkId::stations_left:
+      return fmt::format("what the stations' nests leave of each other is {:.2f} of the noise{}", values.number(0),
+                         more(values, 1));
+    case audit::RemarkId::station_at_arm:
+      return fmt::format(
+          "{}, by {} nests in common: where the arm was read its frame is known to {:.1f} um and {:.1f} urad (one "
+          "sigma, "
+          "the largest of all directions), common to all that was read from it",
+          values.name(0), values.count(1), 1e6 * values.number(2), 1e6 * values.number(3));
+    case audit::RemarkId::nest_read_apart:
+      return fmt::format(
+          "; nest {} as {} read it stands {:.0f} um from where the others put it, and is left out: it moved between "
+          "the "
+          "stations",
+          values.name(0), values.name(1), 1e6 * values.number(2));
+    case audit::RemarkId::reading_read_apart:
+      return fmt::format("; the reading of nest {} from {} in line {} is {:.0f} um off the others, and is left out",
+                         values.name(1), values.name(2), values.count(0), 1e6 * values.number(3));
+    case audit::RemarkId::stations_not_mended:
+      return "; leaving out single nests does not mend it: several moved between the stations, or a station drifted "
+             "while "
+             "its nests were read";
     case audit::RemarkId::arc_known:
       return fmt::format(
           "axis {}: arc of {:.1f} deg; known to {:.1f} urad in direction and {:.1f} um in place (one sigma), "

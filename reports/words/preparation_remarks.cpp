@@ -68,6 +68,8 @@ std::string preparationWords(preparation::RemarkId id, const RemarkValues& value
       return fmt::format("{} rounds, the tracker stood still", values.count(0));
     case preparation::RemarkId::nests_deform:
       return "the nests themselves moved against each other, more than one of them: they are no reference";
+    case preparation::RemarkId::stations_disagree:
+      return "nests moved between the stations: they are no reference";
     case preparation::RemarkId::station_jumped:
       return fmt::format("the tracker moved once, by {:.3f} mm where the arm was read", 1e3 * values.number(0));
     case preparation::RemarkId::station_wandered:

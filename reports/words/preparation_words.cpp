@@ -33,6 +33,25 @@ std::string driftWords(const preparation::DriftCorrection& drift) {
   return text;
 }
 
+/// How the stations were joined; empty of a day of one.
+std::string stationsWords(const std::optional<preparation::JoinedStations>& stations) {
+  if (!stations) return {};
+  std::vector<std::string> known;
+  for (std::size_t s = 1; s < stations->network.stations.size(); ++s) {
+    const preparation::StationPose& pose = stations->network.stations[s];
+    const preparation::PoseUncertainty at_arm = preparation::poseUncertainty(pose);
+    known.push_back(fmt::format("{} ({} readings) to {:.1f} um and {:.1f} urad by {} nests",
+                                preparation::shownStation(pose), stations->readings[s], 1e6 * at_arm.position,
+                                1e6 * at_arm.turn, pose.common_nests));
+  }
+  return fmt::format(
+      "; {} stations joined, known at the arm in the frame of the first, {} (one sigma, common to the readings of "
+      "each): "
+      "{}",
+      stations->network.stations.size(), preparation::shownStation(stations->network.stations.front()),
+      fmt::join(known, ", "));
+}
+
 }  // namespace
 
 std::string rejectedWords(const preparation::RejectedReading& reading) {
@@ -40,9 +59,11 @@ std::string rejectedWords(const preparation::RejectedReading& reading) {
 }
 
 std::string preparationWords(const preparation::Preparation& preparation) {
-  if (preparation.raw) return "raw: nothing left out, no drift taken off";
+  const std::string stations = stationsWords(preparation.stations);
+  if (preparation.raw) return "raw: nothing left out, no drift taken off" + stations;
   const std::size_t count = preparation.rejected.size();
-  return fmt::format("{} left out; {}", count == 0 ? "none" : std::to_string(count), driftWords(preparation.drift));
+  return fmt::format("{} left out; {}{}", count == 0 ? "none" : std::to_string(count), driftWords(preparation.drift),
+                     stations);
 }
 
 std::string preparationText(const preparation::Preparation& preparation) {
