@@ -106,7 +106,8 @@ preparation::PreparedCampaign spreadForDiagnosis(const preparation::PreparedCamp
           {},
           prepared.scatter,
           prepared.noise,
-          prepared.drift};
+          prepared.drift,
+          prepared.rail};
 }
 
 }  // namespace stiffscope::diagnosis

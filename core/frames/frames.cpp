@@ -124,8 +124,15 @@ void stateUncertainties(const FramesCovariance& covariance, const MeasuredAxes& 
   if (!arm.points_placed) return;
   const FramesLayout at(static_cast<int>(axes.size()));
   const Eigen::MatrixXd total = covariance.total();
+  // Where a joint turns several axes one of them stands where the others leave it, by what the covariance lacks
+  // (fitCoupledAxes).
+  const robot::ArmAxes& turned = arm.arm.axes_in_base_at_zero;
+  const auto standsAlone = [&](std::size_t axis) {
+    const int joint = turned.jointOf(static_cast<int>(axis));
+    return axes[axis].measured && joint >= 0 && turned.turnsAlone(joint);
+  };
   for (std::size_t i = 0; i < links.size(); ++i) {
-    if (!axes[i].measured || !axes[i + 1].measured) continue;
+    if (!standsAlone(i) || !standsAlone(i + 1)) continue;
     const auto row = static_cast<Eigen::Index>(i), distance = FramesLayout::kDistances + row, angle = at.angles + row;
     links[i].distance_sd = std::sqrt(total(distance, distance));
     links[i].angle_sd = std::sqrt(total(angle, angle));

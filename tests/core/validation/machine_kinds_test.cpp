@@ -4,6 +4,7 @@
 #include <string>
 #include "core/extended_model/extend_model.h"
 #include "core/identification/estimate.h"
+#include "core/identification/identify.h"
 #include "core/preparation/prepare.h"
 #include "core/simulation/measure.h"
 #include "core/validation/machine_kinds.h"
@@ -84,6 +85,15 @@ TEST(MachineKinds, AParallelogramIsIdentified) {
   const Held held = heldOn(MachineKind::parallelogram, 6, true);
   EXPECT_GE(held.intervals, 30);
   EXPECT_GE(held.hold, held.intervals - 4);
+}
+
+// Joint 2 turns axis 2 and the rods': what their errors have in common is not known, so nothing is stated of links there.
+TEST(MachineKinds, LinksBetweenAxesThatOneJointTurnsHaveNoUncertainty) {
+  const validation::MachineDraw draw = drawn(MachineKind::parallelogram, 34);
+  const preparation::PreparedCampaign prepared = preparation::prepareCampaign(simulation::simulate(draw.spec));
+  const frames::Links links = identification::identify(prepared.campaign).frames.links;
+  ASSERT_EQ(links.size(), 6u);
+  for (std::size_t i = 0; i < links.size(); ++i) EXPECT_EQ(links[i].distance_sd.has_value(), i >= 3) << i;
 }
 
 TEST(MachineKinds, AnArmOnARailIsIdentified) {
