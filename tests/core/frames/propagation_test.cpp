@@ -44,7 +44,8 @@ campaign::Campaign sweptOver(const SimulatedLab& lab, double arc_deg) {
       JointVector q = axis == 0 ? JointVector(JointVector::Zero(6)) : degrees(-14, axis > 2 ? 8 : 0, 0, 0, 0, 0);
       q[axis] += radians(arc_deg * (static_cast<double>(stop) / kStops - 0.5));
       for (std::size_t k = 0; k < 3; ++k) {
-        campaign.circle_sweeps->rows.push_back({axis, std::to_string(stop), static_cast<int>(k), q, lab.seen(q, k)});
+        campaign.circle_sweeps->rows.push_back(
+            {axis, std::to_string(stop), static_cast<int>(k), q, campaign::kNotGiven, lab.seen(q, k)});
       }
     }
   }

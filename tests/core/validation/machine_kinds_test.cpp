@@ -87,7 +87,8 @@ TEST(MachineKinds, AParallelogramIsIdentified) {
   EXPECT_GE(held.hold, held.intervals - 4);
 }
 
-// Joint 2 turns axis 2 and the rods': what their errors have in common is not known, so nothing is stated of links there.
+// Joint 2 turns axis 2 and the rods': what their errors have in common is not known, so nothing is stated of links
+// there.
 TEST(MachineKinds, LinksBetweenAxesThatOneJointTurnsHaveNoUncertainty) {
   const validation::MachineDraw draw = drawn(MachineKind::parallelogram, 34);
   const preparation::PreparedCampaign prepared = preparation::prepareCampaign(simulation::simulate(draw.spec));
