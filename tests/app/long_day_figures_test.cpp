@@ -104,6 +104,7 @@ TEST(LongDay, EachReflectorOfAWristSweepIsDrawnWhereTheyTakeTurns) {
     sweep.rows.push_back({std::to_string(i / 3),
                           i % 3,
                           JointVector::Zero(6),
+                          campaign::kNotGiven,
                           {std::cos(azimuth), std::sin(azimuth), 0.0},
                           campaign::kNoTime,
                           0});
