@@ -450,17 +450,42 @@ void addSweepEquations(const SystemInput& input, const SystemState& state, const
   data.sweep_rows += total;
 }
 
+namespace {
+
+/// Takes out of the normal equations what one shift of all readings, unknown to `covariance` S, could explain:
+/// N - (A' E) (E' E + 1)^-1 (E' A), A the whitened rows, E = whitened ones times S^1/2. The sweeps are read at one stop
+/// of the carriage, which misses its place by as much as those of the postures do.
+void freeOneShift(const Eigen::MatrixXd& whitened, const Eigen::MatrixXd& whitened_shift,
+                  const Eigen::Matrix3d& covariance, Eigen::MatrixXd& normal) {
+  const Eigen::MatrixXd shift =
+      whitened_shift * Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).operatorSqrt();
+  const Eigen::MatrixXd across = shift.transpose() * whitened;
+  const Eigen::Matrix3d own = shift.transpose() * shift + Eigen::Matrix3d::Identity();
+  normal -= across.transpose() * own.ldlt().solve(across);
+}
+
+}  // namespace
+
 Eigen::MatrixXd sweepNormal(const SystemInput& input, const SystemState& state, SweepEquations equations) {
+  const bool on_rail = !input.carriage.isZero(0.0);
+  Eigen::MatrixXd shift(on_rail ? equations.rows.rows() : 0, 3);
   Eigen::Index row = 0;
   for (std::size_t i = 0; i < equations.points.size(); ++i) {
     const ReadFrom station = readFrom(equations.read_from, i);
     const Eigen::Matrix3d covariance = state.sweep_inflation * readingCovariance(input.noise, state.r0_from_sweeps,
                                                                                  equations.points[i], station.from) +
                                        station.pose_covariance;
-    equations.rows.middleRows<3>(row) = covariance.llt().matrixL().solve(equations.rows.middleRows<3>(row)).eval();
+    const Eigen::LLT<Eigen::Matrix3d> root(covariance);
+    equations.rows.middleRows<3>(row) = root.matrixL().solve(equations.rows.middleRows<3>(row)).eval();
+    if (on_rail) shift.middleRows<3>(row) = root.matrixL().solve(Eigen::Matrix3d::Identity());
     row += 3;
   }
-  return numerics::normalMatrix(equations.rows);
+  Eigen::MatrixXd normal = numerics::normalMatrix(equations.rows);
+  if (on_rail) {
+    const Eigen::Matrix3d turn = state.r0_from_sweeps.linear();
+    freeOneShift(equations.rows, shift, turn * input.carriage * turn.transpose(), normal);
+  }
+  return normal;
 }
 
 }  // namespace stiffscope::diagnosis
