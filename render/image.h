@@ -14,6 +14,8 @@ struct Size {
   /// Two pixels instead of each in both directions, for print and dense screens: the picture as it is rendered anyway,
   /// not averaged down.
   bool doubled = false;
+  /// Letters, lines and dots this many times as large: for a picture that is shown smaller than it is.
+  double letters = 1;
 };
 
 /// Where something stands that has a value: a bar's end, a point, a box. For what is laid over a picture.

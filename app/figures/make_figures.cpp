@@ -16,8 +16,11 @@ namespace stiffscope::app {
 
 namespace {
 
-constexpr render::Size kChart{1200, 700};
-constexpr render::Size kScene{1200, 800};
+// Two stand beside each other on a page of 1140 pixels, the opening one beside the result: there, and on paper, letters
+// of 17 pixels in 1200 would be too small.
+constexpr render::Size kChart{960, 560, false, 1.25};
+constexpr render::Size kScene{960, 640, false, 1.25};
+constexpr render::Size kOpening{840, 560, false, 1.4};
 constexpr std::size_t kMostGhosts = 60;  // more postures in one picture hide each other
 
 /// The figures of one campaign, each put into the section of the page that it belongs to.
@@ -45,7 +48,7 @@ class FigureList {
 
   void addDeflection() {
     const render::ArmScene scene = deflectionScene(one_);
-    add("opening", describeDeflectionScene(one_, render::automaticMagnification(scene)), scene, kScene);
+    add("opening", describeDeflectionScene(one_, render::automaticMagnification(scene)), scene, kOpening);
     if (one_.identification.cases.size() <= kMostGhosts) {
       const render::ArmScene all = allPosturesScene(one_);
       add("compensation", describeAllPostures(one_, render::automaticMagnification(all)), all, kScene);
@@ -74,7 +77,7 @@ class FigureList {
     add("accuracy", describeAccuracyCurves(one_), accuracyCurves(one_));
     add("accuracy", describeAccuracyMap(one_), accuracyMap(one_), kScene);
     if (const auto scenes = accuracyScenes(one_)) {
-      add("opening", describeAccuracyBefore(one_, *scenes), scenes->before, kScene);
+      add("opening", describeAccuracyBefore(one_, *scenes), scenes->before, kOpening);
       if (!one_.accuracy->calibration.best().fit.parts.empty())
         add("accuracy-gap", describeAccuracyAfter(one_, *scenes), scenes->after, kScene);
     }
@@ -108,7 +111,7 @@ class FigureList {
     figure.caption = fmt::format("The arm in the middle of the sweep of axis {}, and the readings of all sweeps.",
                                  sweeps.frames.front().posture + 1);
     figure.alt = "The arm with the tracker's readings of every axis' sweep as dots around it.";
-    add("opening", figure, scene, kScene);
+    add("opening", figure, scene, kOpening);
   }
 
   std::vector<reports::Figure> take() { return std::move(figures_); }

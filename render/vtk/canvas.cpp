@@ -223,7 +223,8 @@ Canvas::Canvas(vtkContext2D& context, const Surface& surface, Fonts fonts)
     : context_(context),
       surface_(surface),
       fonts_(std::move(fonts)),
-      unit_(std::clamp(std::min(surface.size.width / 1200.0, surface.size.height / 700.0), 0.7, 4.0)) {
+      unit_(surface.size.letters *
+            std::clamp(std::min(surface.size.width / 1200.0, surface.size.height / 700.0), 0.7, 4.0)) {
   keepGlyphs();
   context_.GetPen()->SetLineType(vtkPen::NO_PEN);
 }

@@ -66,7 +66,8 @@ void writeTable(Html& html, const reports::Table& table) {
                                    [](const reports::RowGroup& group) { return !group.header.empty(); });
   std::size_t rows = 0;
   for (const reports::RowGroup& group : table.groups) rows += group.rows.size();
-  constexpr std::size_t kMostOnAPage = 14;  // a longer table is broken between groups, its head repeated
+  // A third of a printed page; a longer table is broken between groups, its head repeated.
+  constexpr std::size_t kMostOnAPage = 20;
   std::string kind = table.words ? "words" : grouped ? "grouped" : "numeric";
   if (rows > kMostOnAPage || table.words) kind += " long";     // rows of words are high
   if (!grouped && !table.words && rows > 2) kind += " sorts";  // a group's header spans its rows in their order

@@ -72,7 +72,7 @@ void writeWorkspace(Html& html, const reports::ReportContent& content) {
                  constexpr bool kPostures = true, kSlice = true;
                  html.keepTable("stiffness-slice",
                                 reports::csvTable(reports::stiffnessPlaces(found, joints, !kPostures, kSlice)));
-                 html.paragraph(fmt::format("By {}; the slice is in {}.", reports::longName(found.method),
+                 html.paragraph(fmt::format("By {}; the slice is in the {}.", reports::longName(found.method),
                                             reports::asIs(reports::sliceWords(found.slice))),
                                 "faint");
                });

@@ -227,9 +227,9 @@ void writeLinks(Html& html, const reports::ReportContent& content) {
     }
     Notes notes;
     writeTable(html, linkTable(frames, notes));
+    writeTable(html, axisTable(frames));
     html.paragraph("± is the expanded uncertainty U, coverage about 95\u00a0%.", "faint");
     notes.write(html);
-    writeTable(html, axisTable(frames));
     html.list(unmeasured);
   });
 }

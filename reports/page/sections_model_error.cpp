@@ -141,7 +141,6 @@ void writeDiagnosis(Html& html, const diagnosis::Diagnosis& diagnosis) {
   const std::vector<std::string> actions = diagnosisActions(diagnosis);
   if (!actions.empty()) html.paragraph("What to do:");
   html.list(actions);
-  html.paragraph(reports::withMicro(reports::reasonWords(diagnosis.verdict)), "faint");
   writeTable(html, classesTable(diagnosis.classes, &fallOf));
   if (!reports::namedWords(diagnosis.verdict).empty()) {
     writeTable(html, stiffnessTable(diagnosis));
@@ -152,6 +151,7 @@ void writeDiagnosis(Html& html, const diagnosis::Diagnosis& diagnosis) {
           "faint");
     }
   }
+  html.paragraph(reports::withMicro(reports::reasonWords(diagnosis.verdict)), "faint");
   writeTable(html, gapTable(diagnosis));
   writeOverlaps(html, diagnosis.where);
   writeNotTestable(html, diagnosis.not_testable);

@@ -269,10 +269,10 @@ void writeStiffness(Html& html, const reports::ReportContent& content) {
   writeForEach(html, content, "stiffness", "Joint stiffness", isLoaded, [&](const reports::ReportCampaign& one) {
     Notes notes;
     writeTable(html, stiffnessTable(one.identification, notes));
+    writeTable(html, complianceTable(one.identification));
     html.paragraph(uncertaintyWords(one.identification), "faint");
     if (const std::string wide = wideIntervals(one.identification); !wide.empty()) html.paragraph(wide);
     notes.write(html);
-    writeTable(html, complianceTable(one.identification));
     writeTable(html, fitTable(one.identification));
     if (reports::shownMethod(one.identification)) {
       html.paragraph(

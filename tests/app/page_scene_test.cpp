@@ -110,7 +110,7 @@ TEST_F(PageScene, MarksOfAChartAreItsValuesAtTheirPlaces) {
   const auto rows = rowsOf(out() / "figure-compensation.csv");
   ASSERT_EQ(rows.size(), chart["marks"].size());
   const cv::Mat picture = cv::imread((out() / "compensation.png").string());
-  ASSERT_EQ(picture.cols, 2400);
+  ASSERT_EQ(picture.cols, 1920);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const nlohmann::json& mark = chart["marks"][i];
     EXPECT_NEAR(mark[4].get<double>(), std::stod(rows[i].at("value")), 1e-4 * std::abs(std::stod(rows[i].at("value"))));

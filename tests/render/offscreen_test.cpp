@@ -83,6 +83,21 @@ TEST(Offscreen, TwiceTheSizeIsTheSamePicture) {
   EXPECT_LT(cv::mean(difference)[0], 1.0);
 }
 
+TEST(Offscreen, LettersGrowWithoutThePicture) {
+  // 960 x 560 are 0.8 of 1200 x 700, so that letters 1.25 times as large are those of the larger picture.
+  const render::Image small = render::render(titled("H"), {960, 560, false, 1.25});
+  EXPECT_EQ(small.width, 960);
+  const cv::Rect place(10, 8, 40, 40);
+  const auto heightOf = [&](const render::Image& image) {
+    const auto letters = piecesOf(inkOf(decoded(image)(place)), 10);
+    return letters.empty() ? 0 : letters.front().height;
+  };
+  const int large = heightOf(render::render(titled("H"), {1200, 700}));
+  EXPECT_GT(large, 14);
+  EXPECT_NEAR(heightOf(small), large, 1);  // edges are rounded to pixels
+  EXPECT_LT(heightOf(render::render(titled("H"), {960, 560})), large - 2);
+}
+
 TEST(Offscreen, MissingFontIsSaid) {
   setenv("STIFFSCOPE_FONTS", "/nonexistent/fonts", 1);
   try {
