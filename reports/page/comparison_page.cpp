@@ -27,7 +27,7 @@ void writeComparisonHead(Html& html, const std::string& title) {
   html.voidElement("meta", {{"name", "viewport"}, {"content", "width=device-width, initial-scale=1"}});
   html.voidElement("meta", {{"name", "color-scheme"}, {"content", "light dark"}});
   html.leaf("title", title);
-  html.leaf("style", pageStyle("of a comparison"));
+  html.style(pageStyle("of a comparison"));
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ void writeFleetHead(Html& html, const std::string& id) {
   html.voidElement("meta", {{"name", "viewport"}, {"content", "width=device-width, initial-scale=1"}});
   html.voidElement("meta", {{"name", "color-scheme"}, {"content", "light dark"}});
   html.leaf("title", "stiffscope: fleet");
-  html.leaf("style", pageStyle(id));
+  html.style(pageStyle(id));
 }
 
 void writeCount(Html& html, std::size_t count, const char* one, const char* more) {

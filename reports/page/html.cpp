@@ -169,6 +169,16 @@ void Html::script(std::string_view code, const Attributes& attributes) {
   printer_->PushText(fmt::format("\n{}\n//", code).c_str(), true);
 }
 
+void Html::style(std::string_view rules) {
+  if (rules.find("</style") != std::string_view::npos || rules.find("]]>") != std::string_view::npos)
+    throw std::invalid_argument("a style that would end its element");
+  const Element style = element("style");
+  // HTML reads no entities here, so that a child selector must stand as it is; the marks of CDATA are in comments.
+  printer_->PushText("/*");
+  printer_->PushText(fmt::format("*/{}/*", rules).c_str(), true);
+  printer_->PushText("*/");
+}
+
 std::string Html::bytes() const { return printer_->CStr(); }
 
 void Html::keepTable(const std::string& id, std::string csv) {

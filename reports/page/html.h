@@ -60,6 +60,9 @@ class Html {
   /// std::invalid_argument where it holds "</script" or "]]>".
   void script(std::string_view code, const Attributes& attributes = {});
 
+  /// A <style> with this text to the letter. Throws std::invalid_argument where it holds "</style" or "]]>".
+  void style(std::string_view rules);
+
   std::string bytes() const;
 
   /// What tables written from now on are of, for the names of their files: "-2" for the second campaign.

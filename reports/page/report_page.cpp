@@ -21,7 +21,7 @@ void writeHead(Html& html, const reports::ReportContent& content) {
   html.voidElement("meta", {{"name", "viewport"}, {"content", "width=device-width, initial-scale=1"}});
   html.voidElement("meta", {{"name", "color-scheme"}, {"content", "light dark"}});
   html.leaf("title", reports::plain(content.title));
-  html.leaf("style", pageStyle(reports::reportId(content)));
+  html.style(pageStyle(reports::reportId(content)));
 }
 
 /// A section of the page with its entry in the contents.

@@ -72,7 +72,7 @@ void writeHead(Html& html, const std::string& seal) {
   html.voidElement("meta", {{"name", "viewport"}, {"content", "width=device-width, initial-scale=1"}});
   html.voidElement("meta", {{"name", "color-scheme"}, {"content", "light dark"}});
   html.leaf("title", "stiffscope: the diagnosis on machines whose effect was withheld");
-  html.leaf("style", pageStyle(seal.substr(0, 12)));
+  html.style(pageStyle(seal.substr(0, 12)));
 }
 
 void writeNumber(Html& html, const numerics::Rate& rate, const char* words) {
