@@ -444,8 +444,9 @@ TEST_F(PageScene, ChartsAnswerAndThePictureStandsWithoutWebGlOrScript) {
   cv::Rect place;
   for (const nlohmann::json& picture : answers.said["pictures"]) {
     if (picture[0] == "deflection")
-      place = cv::Rect(static_cast<int>(picture[1].get<double>()), static_cast<int>(picture[2].get<double>()),
-                       static_cast<int>(picture[3].get<double>()), static_cast<int>(picture[4].get<double>()));
+      // Within its border of a pixel; a browser sets pictures on whole pixels.
+      place = cv::Rect(cv::Point(cvRound(picture[1].get<double>() + 1), cvRound(picture[2].get<double>() + 1)),
+                       cv::Size(cvRound(picture[3].get<double>() - 2), cvRound(picture[4].get<double>() - 2)));
   }
   ASSERT_GT(place.width, 400);
   std::string silent = page_;  // the browser runs no script of it
