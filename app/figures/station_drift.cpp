@@ -61,7 +61,7 @@ render::PointPanel nestPanel(const campaign::Campaign& campaign, double unit) {
     }
     panel.series.push_back(std::move(series));
   }
-  panel.title = "Each nest from its first reading";
+  panel.title = "Each nest from its start";
   panel.x_title = "Time (h)";
   panel.y_title = unit == io::kMillimetre ? "Distance (mm)" : "Distance (µm)";
   return panel;
