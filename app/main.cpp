@@ -55,7 +55,7 @@ int onWideStack(const std::function<int()>& work) {
 }
 
 /// Memory that is given back to the system comes again as zeroed pages, one fault each: matrices and pictures, which
-/// are made and dropped by the hundred, cost an eighth of a report's time that way. The process keeps what it had.
+/// are made and dropped by the hundred, cost a sixth of a report's time that way. The process keeps what it had.
 void keepFreedMemory() {
 #ifdef __GLIBC__
   constexpr int kMany = 1 << 30, kStep = 16 << 20;      // bytes

@@ -8,7 +8,8 @@
 
 #include "core/robot/read_urdf.h"
 
-// Axes of an arm whose rods hold the forearm, found from sweeps of a machine that is turned here by rotations of its own.
+// Axes of an arm whose rods hold the forearm, found from sweeps of a machine that is turned here by rotations of its
+// own.
 
 namespace stiffscope {
 namespace coupled_axes_test {
