@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <set>
 #include <sstream>
+#include <string>
 
 #include "app/figures/arm_scenes.h"
 #include "core/campaign/read_campaign.h"
@@ -100,6 +103,26 @@ TEST_F(PageScene, VectorsAreThoseOfTheResults) {
     }
   }
   EXPECT_GE(compared, 3 * 19 * 4 * 2);  // coordinates, postures, points, two methods at least
+}
+
+TEST_F(PageScene, AValueIsNamedByTheAxisOfItsOwnPanel) {
+  const std::map<std::string, std::string> axis{{"Displacement at the arm", "Displacement (µm)"},
+                                                {"Rotation", "Rotation (µrad)"},
+                                                {"Each nest from its start", "Distance (µm)"}};
+  std::set<std::string> panels;
+  for (const auto& row : rowsOf(out() / "figure-station.csv")) {
+    const std::string panel = row.at("series").substr(0, row.at("series").find(':'));
+    ASSERT_TRUE(axis.count(panel)) << panel;
+    EXPECT_EQ(row.at("quantity"), axis.at(panel));
+    panels.insert(panel);
+  }
+  EXPECT_EQ(panels.size(), axis.size());
+  const nlohmann::json chart = dataOf("marks", "station");
+  ASSERT_EQ(chart["quantities"].size(), chart["series"].size());
+  for (std::size_t i = 0; i < chart["series"].size(); ++i) {
+    const auto series = chart["series"][i].get<std::string>();
+    EXPECT_EQ(chart["quantities"][i], axis.at(series.substr(0, series.find(':'))));
+  }
 }
 
 TEST_F(PageScene, MarksOfAChartAreItsValuesAtTheirPlaces) {
