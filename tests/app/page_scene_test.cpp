@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <set>
 #include <sstream>
 #include <string>
 
@@ -106,23 +105,20 @@ TEST_F(PageScene, VectorsAreThoseOfTheResults) {
 }
 
 TEST_F(PageScene, AValueIsNamedByTheAxisOfItsOwnPanel) {
-  const std::map<std::string, std::string> axis{{"Displacement at the arm", "Displacement (µm)"},
-                                                {"Rotation", "Rotation (µrad)"},
-                                                {"Each nest from its start", "Distance (µm)"}};
-  std::set<std::string> panels;
-  for (const auto& row : rowsOf(out() / "figure-station.csv")) {
-    const std::string panel = row.at("series").substr(0, row.at("series").find(':'));
-    ASSERT_TRUE(axis.count(panel)) << panel;
-    EXPECT_EQ(row.at("quantity"), axis.at(panel));
-    panels.insert(panel);
-  }
-  EXPECT_EQ(panels.size(), axis.size());
-  const nlohmann::json chart = dataOf("marks", "station");
+  // Three panels of residuals along and across the beam, and one of their norms over the noise.
+  const auto rows = rowsOf(out() / "figure-residuals.csv");
+  const nlohmann::json chart = dataOf("marks", "residuals");
+  ASSERT_FALSE(chart.is_null());
   ASSERT_EQ(chart["quantities"].size(), chart["series"].size());
-  for (std::size_t i = 0; i < chart["series"].size(); ++i) {
-    const auto series = chart["series"][i].get<std::string>();
-    EXPECT_EQ(chart["quantities"][i], axis.at(series.substr(0, series.find(':'))));
+  ASSERT_EQ(chart["marks"].size(), rows.size());
+  std::map<std::string, int> found;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const bool by_component = rows[i].at("series").find(':') != std::string::npos;
+    EXPECT_EQ(rows[i].at("quantity"), by_component ? "Residual (µm)" : "Residual / noise sd");
+    EXPECT_EQ(chart["quantities"][chart["marks"][i][2].get<std::size_t>()], rows[i].at("quantity"));
+    ++found[rows[i].at("quantity")];
   }
+  EXPECT_EQ(found["Residual (µm)"], 3 * found["Residual / noise sd"]);
 }
 
 TEST_F(PageScene, MarksOfAChartAreItsValuesAtTheirPlaces) {
