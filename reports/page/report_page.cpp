@@ -104,12 +104,10 @@ std::string marksJson(const reports::Figure& figure) {
   for (std::size_t i = 0; i < figure.marks.size(); i += every) {
     const reports::FigureMark& mark = figure.marks[i];
     const double digits = std::pow(10.0, 5.0 - std::ceil(std::log10(std::max(std::abs(mark.value), 1e-12))));
-    const int of_series = indexOf(series, mark.series);
-    quantities.resize(series.size());
-    quantities[static_cast<std::size_t>(of_series)] = mark.quantity.empty() ? figure.value_name : mark.quantity;
-    marks.push_back({rounded(mark.x, 1e4), rounded(mark.y, 1e4), of_series,
+    marks.push_back({rounded(mark.x, 1e4), rounded(mark.y, 1e4), indexOf(series, mark.series),
                      mark.category.empty() ? -1 : indexOf(categories, mark.category), rounded(mark.value, digits),
-                     rounded(mark.at, 1e4)});
+                     rounded(mark.at, 1e4),
+                     indexOf(quantities, mark.quantity.empty() ? figure.value_name : mark.quantity)});
   }
   return reports::Json{{"quantities", quantities},
                        {"category", figure.category_name},
