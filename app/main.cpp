@@ -2,12 +2,15 @@
 #include <glog/logging.h>
 #ifdef __GLIBC__
 #include <malloc.h>
+#include <sys/mman.h>
 #endif
 #include <pthread.h>
 #include <sys/resource.h>
 #include <unistd.h>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <functional>
@@ -54,6 +57,29 @@ int onWideStack(const std::function<int()>& work) {
   return task.status;
 }
 
+#ifdef __GLIBC__
+/// Asks for the first of the heap in pages of 2 MiB where the system gives them to those who ask: one fault then in
+/// place of 512, a tenth of a report's time. Reserved addresses cost nothing until they are written to.
+void takeLargePages() {
+#ifdef MADV_HUGEPAGE
+  constexpr int kReserved = 256 << 20;  // bytes: what a report of two campaigns needs
+  ::rlimit limit{};
+  if (::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur != RLIM_INFINITY)
+    return;  // addresses themselves are scarce
+  if (::mallopt(M_TOP_PAD, kReserved) == 0) return;
+  constexpr std::size_t kMore = 1 << 20;  // more than the heap has left: it grows
+  void* const first = std::malloc(kMore);
+  if (first == nullptr) return;
+  constexpr std::uintptr_t kLarge = std::uintptr_t{2} << 20;
+  const std::uintptr_t from = (reinterpret_cast<std::uintptr_t>(first) + kLarge - 1) / kLarge * kLarge;
+  const auto end = reinterpret_cast<std::uintptr_t>(::sbrk(0));
+  // Where the block is no part of the heap it lies beyond its end.
+  if (end > from) ::madvise(reinterpret_cast<void*>(from), end - from, MADV_HUGEPAGE);
+  std::free(first);
+#endif
+}
+#endif
+
 /// Memory that is given back to the system comes again as zeroed pages, one fault each: matrices and pictures, which
 /// are made and dropped by the hundred, cost a sixth of a report's time that way. The process keeps what it had.
 void keepFreedMemory() {
@@ -61,6 +87,7 @@ void keepFreedMemory() {
   constexpr int kMany = 1 << 30, kStep = 16 << 20;      // bytes
   if (::mallopt(M_MMAP_THRESHOLD, kMany) == 0) return;  // the others alone would map every matrix anew
   ::mallopt(M_TRIM_THRESHOLD, kMany);
+  takeLargePages();
   ::mallopt(M_TOP_PAD, kStep);
 #endif
 }

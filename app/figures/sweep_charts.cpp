@@ -20,10 +20,7 @@ frames::RigidPoints rigidSweeps(const reports::ReportCampaign& one) {
   const frames::Frames& frames = one.identification.frames;
   const auto shown = reports::shownMethod(one.identification);
   if (!frames.sag_removed || !shown) return frames::rigidPoints(one.campaign, {});
-  const JointVector& compliance = one.identification.of(*shown).geometry.compliance;
-  return frames::rigidPoints(one.campaign,
-                             frames::SagModel(frames.arm.arm, frames.weight, compliance, frames.targets_in_r0_at_zero,
-                                              frames.arm.r0_from_points.inverse()));
+  return frames::rigidPoints(one.campaign, frames::sagOf(frames, one.identification.of(*shown).geometry.compliance));
 }
 
 namespace {

@@ -7,17 +7,6 @@
 
 namespace stiffscope::audit {
 
-namespace {
-
-frames::SagModel sagOf(const AuditInput& input) {
-  const frames::Frames& frames = input.frames;
-  if (!frames.sag_removed) return {};
-  return frames::SagModel(frames.arm.arm, frames.weight, input.arm.geometry.compliance, frames.targets_in_r0_at_zero,
-                          frames.arm.r0_from_points.inverse());
-}
-
-}  // namespace
-
 AuditInput auditInput(const preparation::PreparedCampaign& prepared) {
   AuditInput input{prepared.campaign};
   input.drift = prepared.preparation.drift;
@@ -32,7 +21,9 @@ AuditInput auditInput(const preparation::PreparedCampaign& prepared) {
     input.step = day.step;
     input.frames = std::move(day.frames);
     input.arm = std::move(day.arm);
-    input.rigid = frames::rigidPoints(input.campaign, sagOf(input));
+    const frames::SagModel sag =
+        input.frames.sag_removed ? frames::sagOf(input.frames, input.arm.geometry.compliance) : frames::SagModel();
+    input.rigid = frames::rigidPoints(input.campaign, sag);
     input.absolute = fitAbsolutePositions(input.campaign, input.frames, input.arm.geometry, input.states, input.noise);
   };
   // Neither asks what the other finds.

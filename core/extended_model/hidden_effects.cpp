@@ -19,36 +19,26 @@ namespace {
 using identification::Method;
 using identification::StiffnessEstimate;
 
-/// What the sweeps read, and nothing else of the day.
-campaign::Campaign sweepsOf(const campaign::Campaign& campaign) {
-  campaign::Campaign sweeps = campaign;
-  sweeps.loading.reset();
-  sweeps.states.reset();
-  sweeps.displacements.reset();
-  sweeps.nests.reset();
-  return sweeps;
-}
-
-/// Calls visit(point) for every reading of the sweeps, in their order.
+/// Calls visit(q, target, time, point) for every reading of the sweeps, in their order.
 template <class Visit>
-void forEachReading(campaign::Campaign& sweeps, const Visit& visit) {
-  if (sweeps.circle_sweeps) {
-    for (campaign::CircleReading& row : sweeps.circle_sweeps->rows) visit(row.q, row.target, row.time_s, row.point);
-  }
-  if (sweeps.wrist_sweep) {
-    for (campaign::WristReading& row : sweeps.wrist_sweep->rows) visit(row.q, row.target, row.time_s, row.point);
-  }
+void forEachReading(const campaign::Campaign& campaign, const Visit& visit) {
+  const auto ofTable = [&](const auto& table) {
+    if (!table) return;
+    for (const auto& row : table->rows) visit(row.q, row.target, row.time_s, row.point);
+  };
+  ofTable(campaign.circle_sweeps);
+  ofTable(campaign.wrist_sweep);
 }
 
 /// Columns of the effects at the sweeps' readings, three rows a reading, in the sweeps' frame; m per unit.
 Eigen::MatrixXd columnsAtSweeps(const diagnosis::GapStudy& study, const EffectColumns& columns,
-                                campaign::Campaign& sweeps) {
+                                const campaign::Campaign& campaign) {
   const diagnosis::SystemState& state = study.fit.state;
   const diagnosis::GapLayout& layout = study.fit.data.layout;
   const Eigen::Matrix3d sweeps_from_r0 = state.r0_from_sweeps.linear().transpose();
   std::vector<Eigen::MatrixXd> rows;
   effects::ArmState rest;
-  forEachReading(sweeps, [&](const JointVector& q, int target, double time_s, const Eigen::Vector3d& point) {
+  forEachReading(campaign, [&](const JointVector& q, int target, double time_s, const Eigen::Vector3d& point) {
     if (rows.empty() || rest.q != q) rest = effects::gravityEquilibrium(state.geometry, state.at, q);
     rest.pose = -1;
     rest.time_s = time_s;
@@ -81,27 +71,31 @@ Eigen::MatrixXd framesByEffects(const diagnosis::GapStudy& study, const EffectCo
                                 const campaign::Campaign& campaign, const frames::Frames& frames,
                                 const JointVector& compliance) {
   if (!frames.sag_removed || !frames.arm.points_placed || !study.input->sweeps) return {};
-  campaign::Campaign sweeps = sweepsOf(campaign);
-  const Eigen::MatrixXd at_sweeps = columnsAtSweeps(study, columns, sweeps);
-  const Eigen::VectorXd here = frames::framesChange(sweeps, frames, compliance);
+  const Eigen::MatrixXd at_sweeps = columnsAtSweeps(study, columns, campaign);
+  const frames::RigidPoints rigid = frames::rigidPoints(campaign, frames::sagOf(frames, compliance));
+  const Eigen::VectorXd here = frames::framesChange(campaign, rigid, frames);
   Eigen::MatrixXd moved = Eigen::MatrixXd::Zero(here.size(), off.cols());
   for (Eigen::Index k = 0; k < off.rows(); ++k) {
     const double size = std::sqrt(off.row(k).squaredNorm() / static_cast<double>(off.cols()));
     if (size == 0.0 || at_sweeps.col(k).isZero(0.0)) continue;
-    campaign::Campaign shifted = sweeps;
+    // The sag is that of the joint angles, whatever was read there.
+    frames::RigidPoints shifted = rigid;
     Eigen::Index row = 0;
-    forEachReading(shifted, [&](const JointVector&, int, double, Eigen::Vector3d& point) {
-      point -= size * at_sweeps.col(k).segment<3>(row);
-      row += 3;
-    });
-    moved += (frames::framesChange(shifted, frames, compliance) - here) * (off.row(k) / size);
+    for (std::vector<Eigen::Vector3d>* points : {&shifted.circle_sweeps, &shifted.wrist_sweep}) {
+      for (Eigen::Vector3d& point : *points) {
+        point -= size * at_sweeps.col(k).segment<3>(row);
+        row += 3;
+      }
+    }
+    moved += (frames::framesChange(campaign, shifted, frames) - here) * (off.row(k) / size);
   }
   for (Eigen::Index j = 0; j < compliance.size(); ++j) {
     const double size = std::sqrt(compliance_off.row(j).squaredNorm() / static_cast<double>(compliance_off.cols()));
     if (size == 0.0) continue;
     JointVector more = compliance;
     more[j] += size;
-    const Eigen::VectorXd change = frames::framesChange(sweeps, frames, more) - here;
+    const frames::RigidPoints points = frames::rigidPoints(campaign, frames::sagOf(frames, more));
+    const Eigen::VectorXd change = frames::framesChange(campaign, points, frames) - here;
     moved += change * (compliance_off.row(j) / size);
   }
   return moved;

@@ -195,8 +195,7 @@ Eigen::Vector3d tcpInFlange(const robot::Robot& arm) {
   return point - point.z() / direction.z() * direction;
 }
 
-Frames measureOnce(const campaign::Campaign& campaign, const SagModel& sag) {
-  const RigidPoints points = rigidPoints(campaign, sag);
+Frames measureOnce(const campaign::Campaign& campaign, const RigidPoints& points) {
   Frames frames;
   frames.largest_sag = points.largest_sag;
   if (campaign.circle_sweeps) frames.points_frame = campaign.circle_sweeps->frame;
@@ -234,6 +233,11 @@ Eigen::VectorXd framesDifference(const Frames& from, const Frames& to) {
 
 namespace {
 
+SagModel sagOf(const Frames& frames, const robot::GravityLoad& weight, const JointVector& compliance) {
+  return SagModel(frames.arm.arm, weight, compliance, frames.targets_in_r0_at_zero,
+                  frames.arm.r0_from_points.inverse());
+}
+
 /// The part of the covariance that comes from the compliances, by differences of the whole measurement.
 std::optional<Eigen::MatrixXd> sagPart(const Frames& frames, const JointVector& compliance,
                                        const JointMatrix& covariance,
@@ -266,7 +270,7 @@ void propagate(const campaign::Campaign& campaign, Frames& frames,
 }  // namespace
 
 Frames measureFrames(const campaign::Campaign& campaign) {
-  Frames frames = measureOnce(campaign, SagModel());
+  Frames frames = measureOnce(campaign, rigidPoints(campaign, SagModel()));
   propagate(campaign, frames);
   frames.sag_note = Remark(frames.weight.links_known ? RemarkId::sag_without_stiffness : RemarkId::sag_without_masses);
   return frames;
@@ -276,8 +280,7 @@ Frames refineFrames(const campaign::Campaign& campaign, const Frames& so_far, co
                     const std::optional<JointMatrix>& covariance) {
   if (!so_far.weight.links_known) return so_far;
   const auto measuredUnder = [&](const robot::GravityLoad& weight, const JointVector& c) {
-    return measureOnce(campaign, SagModel(so_far.arm.arm, weight, c, so_far.targets_in_r0_at_zero,
-                                          so_far.arm.r0_from_points.inverse()));
+    return measureOnce(campaign, rigidPoints(campaign, sagOf(so_far, weight, c)));
   };
   const auto measuredWith = [&](const JointVector& c) { return measuredUnder(so_far.weight, c); };
   Frames frames = measuredWith(compliance);
@@ -304,11 +307,10 @@ Frames refineFrames(const campaign::Campaign& campaign, const Frames& so_far, co
   return frames;
 }
 
-Eigen::VectorXd framesChange(const campaign::Campaign& campaign, const Frames& frames, const JointVector& compliance) {
-  const Frames other =
-      measureOnce(campaign, SagModel(frames.arm.arm, frames.weight, compliance, frames.targets_in_r0_at_zero,
-                                     frames.arm.r0_from_points.inverse()));
-  return framesDifference(frames, other);
+SagModel sagOf(const Frames& frames, const JointVector& compliance) { return sagOf(frames, frames.weight, compliance); }
+
+Eigen::VectorXd framesChange(const campaign::Campaign& campaign, const RigidPoints& points, const Frames& frames) {
+  return framesDifference(frames, measureOnce(campaign, points));
 }
 
 std::optional<Eigen::Isometry3d> r0FromTable(const Frames& frames, campaign::PointFrame table_frame) {

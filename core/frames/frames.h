@@ -173,9 +173,12 @@ Frames refineFrames(const campaign::Campaign& campaign, const Frames& so_far, co
 /// How the numbers of FramesLayout differ between two measurements of the same sweeps, in their order.
 Eigen::VectorXd framesDifference(const Frames& from, const Frames& to);
 
-/// The frames by these sweeps, corrected for the sag of `frames` by these compliances, less `frames`: the numbers of
-/// FramesLayout in their order. The campaign has the tables and targets that `frames` was measured from.
-Eigen::VectorXd framesChange(const campaign::Campaign& campaign, const Frames& frames, const JointVector& compliance);
+/// The sag of the arm as `frames` have it, by these joint compliances (rad/Nm).
+SagModel sagOf(const Frames& frames, const JointVector& compliance);
+
+/// The frames by these sweeps, already referred to the rigid arm, less `frames`: the numbers of FramesLayout in their
+/// order. The campaign has the tables and targets that `frames` was measured from.
+Eigen::VectorXd framesChange(const campaign::Campaign& campaign, const RigidPoints& points, const Frames& frames);
 
 /// r0_from_points for a table: the measured frame for readings in the sweeps' frame; for readings in base_link with
 /// sweeps by the tracker, or none, the URDF's. Empty where the frame of the table is not known in R0.
