@@ -25,6 +25,7 @@ struct Mark {
   std::string category;    ///< the posture, the joint, the row; empty where the axis is one of numbers
   double value = 0;        ///< in the unit of the axis
   double category_at = 0;  ///< where there is no category: on the horizontal axis
+  std::string quantity{};  ///< title of the axis that the value stands on, where panels have axes of their own
 };
 
 /// A picture: rows from top to bottom, three bytes (red, green, blue) a pixel, no padding.

@@ -37,6 +37,23 @@ class Judge(unittest.TestCase):
         self.assertEqual(verdict("a.json", b'{"left_mm": 3.8106e-10}', b'{"left_mm": 3.8111e-10}'), "within")
         self.assertEqual(verdict("a.json", b'{"left_mm": 3.8e-07}', b'{"left_mm": 3.9e-07}'), "differs")
 
+    def test_shares_are_relative_to_the_whole(self):
+        share = b'{"shrink": {"value": %s, "low": -0.1}, "explained": %s, "k": {"value": %s}}'
+        old = share % (b"0.00048008", b"0.00096486", b"2.5")
+        self.assertEqual(verdict("a.json", old, share % (b"0.00047998", b"0.00096464", b"2.5"), 1e-4), "within")
+        self.assertEqual(verdict("a.json", old, share % (b"0.00068008", b"0.00096486", b"2.5"), 1e-4), "differs")
+        self.assertEqual(verdict("a.json", old, share % (b"0.00048008", b"0.00096486", b"2.501"), 1e-4), "differs")
+        rows = b'effects,k,explained_percent\n"bearing, tilt",%s,%s\n'
+        old = rows % (b"0.0480088836", b"0.09648614796")
+        self.assertEqual(verdict("a.csv", old, rows % (b"0.0480088836", b"0.09646427574"), 1e-4), "within")
+        self.assertEqual(verdict("a.csv", old, rows % (b"0.0480088836", b"0.11648614796"), 1e-4), "differs")
+        self.assertEqual(verdict("a.csv", old, rows % (b"0.0479979797", b"0.09648614796"), 1e-4), "differs")
+
+    def test_components_near_zero_in_columns(self):
+        self.assertEqual(verdict("a.csv", b"left_x_mm\n-6.452773317e-06\n", b"left_x_mm\n-6.451602991e-06\n", 1e-4), "within")
+        self.assertEqual(verdict("a.csv", b"left_x_mm\n-6.452773317e-06\n", b"left_x_mm\n-6.352773317e-06\n", 1e-4), "differs")
+        self.assertEqual(verdict("a.csv", b"k\n-6.452773317e-06\n", b"k\n-6.451602991e-06\n", 1e-4), "differs")
+
     def test_one_rounded_number_may_be_its_neighbour(self):
         self.assertEqual(verdict("a.txt", b"  k2   9.9999 +-0.1", b"  k2  10.0000 +-0.1"), "within")
         self.assertEqual(verdict("a.txt", b"9.9999 +-0.11 9.8", b"10.0000 +-0.12 9.7"), "differs")

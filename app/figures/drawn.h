@@ -42,9 +42,11 @@ reports::Figure drawn(reports::Figure figure, const Picture& picture, render::Si
   render::Image image = render::render(picture, size);
   nameAxes(picture, figure);
   if constexpr (!std::is_same_v<Picture, render::ArmScene>) {  // that has no values
-    for (render::Mark& mark : image.marks)
-      figure.marks.push_back(
-          {mark.x, mark.y, std::move(mark.series), std::move(mark.category), mark.value, mark.category_at});
+    for (render::Mark& mark : image.marks) {
+      if (mark.quantity == figure.value_name) mark.quantity.clear();
+      figure.marks.push_back({mark.x, mark.y, std::move(mark.series), std::move(mark.category), mark.value,
+                              mark.category_at, std::move(mark.quantity)});
+    }
   }
   figure.png = render::encodeSmallPng(image);
   figure.width = image.width;

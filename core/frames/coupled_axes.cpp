@@ -81,6 +81,11 @@ class CoupledFit {
       position.point = base_from_points_ * position.point;
       centre_ += position.point / static_cast<double>(count);
     }
+    // Where no tracker is declared: as one reads. Its size only says what counts beside the priors; the residuals say
+    // how well the axes are known.
+    constexpr double kUsual = 2e-5;  // m
+    declared_ = !readings_.covariances.empty();
+    if (!declared_) weights_.assign(count, Eigen::Matrix3d::Identity() / (kUsual * kUsual));
     for (const Eigen::Matrix3d& own : readings_.covariances) {
       weights_.push_back((base_from_points_.linear() * own * base_from_points_.linear().transpose()).inverse());
     }
@@ -155,7 +160,7 @@ class CoupledFit {
         rows.leftCols(parameters_.axes()) = posture.byAxes(modelled);
         rows.middleCols<6>(parameters_.baseAt()) = posture.byBase(modelled);
         rows.rightCols<3>() = posture.byTarget();
-        const Eigen::Matrix3d weight = weights_.empty() ? Eigen::Matrix3d(Eigen::Matrix3d::Identity()) : weights_[i];
+        const Eigen::Matrix3d& weight = weights_[i];
         const Eigen::MatrixXd weighted = rows.transpose() * weight;
         const Eigen::MatrixXd products = weighted * rows;
         all.matrix.topLeftCorner(common, common) += products.topLeftCorner(common, common);
@@ -184,8 +189,8 @@ class CoupledFit {
     result.rms = std::sqrt(normal.plain / rows);
     const double dof = std::max(1.0, rows - static_cast<double>(x_.size()));
     const double per_dof = normal.weighted / dof;
-    result.chi2_per_dof = weights_.empty() ? 1.0 : per_dof;
-    const double factor = weights_.empty() ? per_dof : std::max(1.0, per_dof);
+    result.chi2_per_dof = declared_ ? per_dof : 1.0;
+    const double factor = declared_ ? std::max(1.0, per_dof) : per_dof;
     const Eigen::MatrixXd covariance =
         factor * solveSymmetric(normal.matrix, Eigen::MatrixXd::Identity(x_.size(), x_.size()));
     const PlacedArm arm = placed();
@@ -224,6 +229,7 @@ class CoupledFit {
   Eigen::Isometry3d base_from_points_;
   Eigen::Vector3d centre_ = Eigen::Vector3d::Zero();
   std::vector<Eigen::Matrix3d> weights_;
+  bool declared_ = false;  ///< whether the tracker's noise is
   Eigen::VectorXd x_;
   Eigen::MatrixXd prior_;
 };

@@ -287,9 +287,11 @@ void Canvas::disc(Spot centre, double radius, Colour colour) {
   polygon(corners, colour);
 }
 
-void Canvas::mark(Spot at, const std::string& series, const std::string& category, double value, double category_at) {
+void Canvas::mark(Spot at, const std::string& series, const std::string& category, double value, double category_at,
+                  const std::string& quantity) {
   if (!std::isfinite(at.x) || !std::isfinite(at.y)) return;
-  marks_.push_back({at.x / surface_.size.width, at.y / surface_.size.height, series, category, value, category_at});
+  marks_.push_back(
+      {at.x / surface_.size.width, at.y / surface_.size.height, series, category, value, category_at, quantity});
 }
 
 }  // namespace stiffscope::render

@@ -98,7 +98,8 @@ class Canvas {
   std::vector<std::string> wrapped(const std::string& text, double width, const TextStyle& style) const;
 
   /// Notes that a value stands there; draws nothing. Spots that are not finite are left out.
-  void mark(Spot at, const std::string& series, const std::string& category, double value, double category_at = 0);
+  void mark(Spot at, const std::string& series, const std::string& category, double value, double category_at = 0,
+            const std::string& quantity = "");
   std::vector<Mark> takeMarks() { return std::move(marks_); }
 
  private:

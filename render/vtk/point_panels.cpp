@@ -106,7 +106,7 @@ void drawSeries(Canvas& canvas, const Box& plot, const Range& x_range, const YAx
     const auto category = static_cast<std::size_t>(std::lround(std::max(x, 0.0)));
     const bool named = !panel.categories.empty() && category < panel.categories.size();
     const std::string what = panel.title.empty() ? series.name : panel.title + ": " + series.name;
-    canvas.mark(spots[i], what, named ? panel.categories[category] : "", series.points[i].y, x);
+    canvas.mark(spots[i], what, named ? panel.categories[category] : "", series.points[i].y, x, panel.y_title);
   }
 }
 

@@ -40,14 +40,15 @@
       figure.querySelector('figcaption').append(' ', button);
     }
 
-    // [x, y, series, category, value, at]
-    words([, , series, category, value, at]) {
+    // [x, y, series, category, value, at, quantity]
+    words([, , series, category, value, at, of]) {
       const { data } = this;
       const parts = [];
       if (this.series[series]) parts.push(this.series[series]);
       if (category >= 0) parts.push((data.category ? plain(data.category) + ' ' : '') + this.categories[category]);
       else if (data.category) parts.push(plain(data.category) + ': ' + at);
-      parts.push((data.value ? plain(data.value) + ': ' : '') + value);
+      const quantity = data.quantities[of];
+      parts.push((quantity ? plain(quantity) + ': ' : '') + value);
       return parts.join('\n');
     }
 
@@ -105,7 +106,7 @@
       const field = (text) => (/[",\n]/.test(text) ? '"' + text.replace(/"/g, '""') + '"' : text);
       const lines = ['series,category,at,value,quantity'];
       for (const mark of this.data.marks)
-        lines.push([field(this.series[mark[2]] || ''), field(mark[3] >= 0 ? this.categories[mark[3]] : ''), mark[3] >= 0 ? '' : mark[5], mark[4], field(this.data.value || '')].join(','));
+        lines.push([field(this.series[mark[2]] || ''), field(mark[3] >= 0 ? this.categories[mark[3]] : ''), mark[3] >= 0 ? '' : mark[5], mark[4], field(this.data.quantities[mark[6]] || '')].join(','));
       const link = element('a', { download: 'figure-' + this.figure.id + '.csv',
         href: URL.createObjectURL(new Blob([lines.join('\r\n') + '\r\n'], { type: 'text/csv' })) });
       link.click();

@@ -92,7 +92,7 @@ std::string withoutMarkup(const std::string& json) {
 std::string marksJson(const reports::Figure& figure) {
   constexpr std::size_t kMostMarks = 3000;
   const std::size_t every = (figure.marks.size() + kMostMarks - 1) / kMostMarks;
-  std::vector<std::string> series, categories;
+  std::vector<std::string> series, categories, quantities;
   const auto indexOf = [](std::vector<std::string>& names, const std::string& name) {
     const auto found = std::find(names.begin(), names.end(), name);
     if (found != names.end()) return static_cast<int>(found - names.begin());
@@ -106,9 +106,10 @@ std::string marksJson(const reports::Figure& figure) {
     const double digits = std::pow(10.0, 5.0 - std::ceil(std::log10(std::max(std::abs(mark.value), 1e-12))));
     marks.push_back({rounded(mark.x, 1e4), rounded(mark.y, 1e4), indexOf(series, mark.series),
                      mark.category.empty() ? -1 : indexOf(categories, mark.category), rounded(mark.value, digits),
-                     rounded(mark.at, 1e4)});
+                     rounded(mark.at, 1e4),
+                     indexOf(quantities, mark.quantity.empty() ? figure.value_name : mark.quantity)});
   }
-  return reports::Json{{"value", figure.value_name},
+  return reports::Json{{"quantities", quantities},
                        {"category", figure.category_name},
                        {"series", series},
                        {"categories", categories},
@@ -116,14 +117,14 @@ std::string marksJson(const reports::Figure& figure) {
       .dump(-1, ' ', false, reports::Json::error_handler_t::replace);
 }
 
-/// The values of a figure as a file beside the page; `quantity` is the axis's title, which has the unit.
+/// The values of a figure as a file beside the page; `quantity` is the title of the value's axis, which has the unit.
 void keepMarks(Html& html, const reports::Figure& figure) {
   if (figure.marks.empty()) return;
   reports::DataTable data{{"series", "category", "at", "value", "quantity"}, {}};
   for (const reports::FigureMark& mark : figure.marks)
     data.rows.push_back({reports::plain(mark.series), reports::plain(mark.category),
                          mark.category.empty() ? reports::DataCell(mark.at) : reports::DataCell(), mark.value,
-                         reports::plain(figure.value_name)});
+                         reports::plain(mark.quantity.empty() ? figure.value_name : mark.quantity)});
   html.keepTable("figure-" + figure.id, reports::csvTable(data));
 }
 

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <sstream>
+#include <string>
 
 #include "app/figures/arm_scenes.h"
 #include "core/campaign/read_campaign.h"
@@ -100,6 +102,27 @@ TEST_F(PageScene, VectorsAreThoseOfTheResults) {
     }
   }
   EXPECT_GE(compared, 3 * 19 * 4 * 2);  // coordinates, postures, points, two methods at least
+}
+
+TEST_F(PageScene, AValueIsNamedByTheAxisOfItsOwnPanel) {
+  // Residuals in several panels, and one of their norms over the noise. Names may have commas in them, the last column
+  // has none.
+  std::istringstream file(contentsOf(out() / "figure-residuals.csv"));
+  std::string line;
+  std::getline(file, line);
+  const nlohmann::json chart = dataOf("marks", "residuals");
+  ASSERT_FALSE(chart.is_null());
+  std::map<std::string, int> found;
+  for (std::size_t i = 0; std::getline(file, line); ++i) {
+    while (!line.empty() && line.back() == '\r') line.pop_back();
+    const std::string quantity = line.substr(line.rfind(',') + 1);
+    ASSERT_LT(i, chart["marks"].size());
+    EXPECT_EQ(chart["quantities"][chart["marks"][i][6].get<std::size_t>()], quantity);
+    ++found[quantity];
+  }
+  EXPECT_EQ(found.size(), 2u);
+  EXPECT_EQ(found["Residual / noise sd"], 3 * 19);  // reflectors, postures
+  EXPECT_GE(found["Residual (µm)"], 3 * 3 * 19);
 }
 
 TEST_F(PageScene, MarksOfAChartAreItsValuesAtTheirPlaces) {
