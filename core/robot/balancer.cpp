@@ -18,37 +18,42 @@ double gasVolume(const GasLaw& law, double length) {
 }
 
 Tension tensionOf(const GasLaw& law, double length) {
-  const double volume = gasVolume(law, length);
+  // No arm stands where less is left; whoever asks for such a posture gets a number all the same.
+  constexpr double kLeastShare = 1e-3;
+  const double volume = std::max(gasVolume(law, length), kLeastShare * law.volume_m3);
   const double absolute = (law.pressure_pa + kAtmospherePa) * std::pow(law.volume_m3 / volume, law.exponent);
   const double force = (absolute - kAtmospherePa) * law.area_m2;
   return {law.pushes ? -force : force, law.exponent * absolute * law.area_m2 * law.area_m2 / volume};
 }
 
-/// Axes from `first` to before `end` turn one end against the other; `velocity` of the outer end by each.
-struct Stretch {
-  int first = 0, end = 0;
-  double length = 0.0;
-  Eigen::Vector3d direction;  ///< from the inner end to the outer, unit
-  PerJoint<Eigen::Vector3d> velocity;
-};
+constexpr double kApart = 1e-3;  // m: ends that are closer have no direction
 
 Eigen::Vector3d placeOf(const BalancerEnd& end, const ArmPosture& posture) {
   return posture.motion[static_cast<std::size_t>(end.body)] * end.in_base_at_zero;
 }
 
-Stretch stretchAt(const ArmAxes& axes, const ArmPosture& posture, const Balancer& balancer) {
-  const auto [inner, outer] = std::minmax(balancer.from, balancer.to,
-                                          [](const BalancerEnd& a, const BalancerEnd& b) { return a.body < b.body; });
-  const Eigen::Vector3d place = placeOf(outer, posture), apart = place - placeOf(inner, posture);
-  Stretch stretch{inner.body, outer.body, apart.norm(), apart.normalized(), {}};
-  for (const metrology::Line& axis : axes) stretch.velocity.push_back(axis.direction.cross(place - axis.point));
-  return stretch;
+/// Of the outer end, by an axis.
+Eigen::Vector3d velocityBy(const metrology::Line& axis, const PlacedBalancer& at) {
+  return axis.direction.cross(at.outer_end - axis.point);
 }
 
 }  // namespace
 
 Tension tensionAt(const Balancer& balancer, double length_m) {
   return std::visit([&](const auto& law) { return tensionOf(law, length_m); }, balancer.law);
+}
+
+PlacedBalancer placedAt(const Balancer& balancer, const ArmPosture& posture) {
+  const auto [inner, outer] = std::minmax(balancer.from, balancer.to,
+                                          [](const BalancerEnd& a, const BalancerEnd& b) { return a.body < b.body; });
+  PlacedBalancer at;
+  at.inner = inner.body, at.outer = outer.body;
+  at.inner_end = placeOf(inner, posture), at.outer_end = placeOf(outer, posture);
+  const Eigen::Vector3d apart = at.outer_end - at.inner_end;
+  at.length = std::max(apart.norm(), kApart);
+  at.direction = apart / at.length;
+  at.tension = tensionAt(balancer, at.length);
+  return at;
 }
 
 double lengthAt(const Balancer& balancer, const ArmPosture& posture) {
@@ -59,31 +64,40 @@ bool withinStroke(const Balancer& balancer, double length_m) {
   if (balancer.shortest_m && length_m < *balancer.shortest_m) return false;
   if (balancer.longest_m && length_m > *balancer.longest_m) return false;
   const auto* gas = std::get_if<GasLaw>(&balancer.law);
-  return length_m > 0.0 && (gas == nullptr || gasVolume(*gas, length_m) > 0.0);
+  return length_m >= kApart && (gas == nullptr || gasVolume(*gas, length_m) > 0.0);
 }
 
 JointVector balancerTorque(const ArmAxes& axes, const ArmPosture& posture, const Balancer& balancer) {
-  const Stretch stretch = stretchAt(axes, posture, balancer);
-  const double tension = tensionAt(balancer, stretch.length).force_n;
+  const PlacedBalancer at = placedAt(balancer, posture);
   JointVector torque = JointVector::Zero(static_cast<Eigen::Index>(axes.size()));
-  for (int i = stretch.first; i < stretch.end; ++i)
-    torque[i] = -tension * stretch.direction.dot(stretch.velocity[static_cast<std::size_t>(i)]);
+  for (int i = at.inner; i < at.outer; ++i)
+    torque[i] = at.onOuter().dot(velocityBy(axes[static_cast<std::size_t>(i)], at));
   return torque;
 }
 
+void addBalancerForces(const Balancer& balancer, const ArmPosture& posture, PerBody<Wrench>& from_body) {
+  const PlacedBalancer at = placedAt(balancer, posture);
+  const Eigen::Vector3d force = at.onOuter(), moment = at.outer_end.cross(force);
+  for (int body = at.inner + 1; body <= at.outer; ++body) {
+    from_body[static_cast<std::size_t>(body)].force += force;
+    from_body[static_cast<std::size_t>(body)].moment += moment;
+  }
+}
+
 JointMatrix balancerStiffness(const ArmAxes& axes, const ArmPosture& posture, const Balancer& balancer) {
-  const Stretch stretch = stretchAt(axes, posture, balancer);
-  const Tension tension = tensionAt(balancer, stretch.length);
+  const PlacedBalancer at = placedAt(balancer, posture);
   const auto count = static_cast<Eigen::Index>(axes.size());
   JointMatrix stiffness = JointMatrix::Zero(count, count);
-  for (int far = stretch.first; far < stretch.end; ++far) {
-    const Eigen::Vector3d& by_far = stretch.velocity[static_cast<std::size_t>(far)];
-    for (int near = stretch.first; near <= far; ++near) {
-      const Eigen::Vector3d& by_near = stretch.velocity[static_cast<std::size_t>(near)];
-      const double along = stretch.direction.dot(by_near) * stretch.direction.dot(by_far);
-      const double curved = (by_near.dot(by_far) - along) / stretch.length +
-                            stretch.direction.dot(axes[static_cast<std::size_t>(near)].direction.cross(by_far));
-      stiffness(near, far) = stiffness(far, near) = -(tension.slope_n_per_m * along + tension.force_n * curved);
+  for (int far = at.inner; far < at.outer; ++far) {
+    const Eigen::Vector3d by_far = velocityBy(axes[static_cast<std::size_t>(far)], at);
+    for (int near = at.inner; near <= far; ++near) {
+      const metrology::Line& axis = axes[static_cast<std::size_t>(near)];
+      const Eigen::Vector3d by_near = velocityBy(axis, at);
+      const double along = at.direction.dot(by_near) * at.direction.dot(by_far);
+      const double curved =
+          (by_near.dot(by_far) - along) / at.length + at.direction.dot(axis.direction.cross(by_far));
+      stiffness(near, far) = stiffness(far, near) =
+          -(at.tension.slope_n_per_m * along + at.tension.force_n * curved);
     }
   }
   return stiffness;

@@ -1,7 +1,10 @@
 #include "core/robot/kinematics.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+
+#include "core/robot/balancer.h"
 
 namespace stiffscope::robot {
 
@@ -97,7 +100,11 @@ bool withinAxisLimits(const Robot& robot, const JointVector& q) {
     const double angle = angles[static_cast<Eigen::Index>(axis)];
     if (angle < limits.lower || angle > limits.upper) return false;
   }
-  return true;
+  if (robot.balancers.empty()) return true;
+  const ArmPosture posture = postureAt(robot, q);
+  return std::all_of(robot.balancers.begin(), robot.balancers.end(), [&](const Balancer& balancer) {
+    return withinStroke(balancer, lengthAt(balancer, posture));
+  });
 }
 
 }  // namespace stiffscope::robot
