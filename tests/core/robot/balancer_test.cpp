@@ -5,6 +5,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/robot/geometric_stiffness.h"
+#include "core/robot/gravity_load.h"
+
 namespace stiffscope::robot {
 namespace {
 
@@ -149,6 +152,109 @@ TEST(Balancer, StrokeHasTwoEnds) {
   EXPECT_FALSE(withinStroke(spring, 0.59));
   EXPECT_TRUE(withinStroke(spring, 0.75));
   EXPECT_FALSE(withinStroke(spring, 0.91));
+}
+
+/// Three joints turn the four skew axes: the third one's turn goes back along the second's, as by a parallelogram's rods.
+Robot coupledArm() {
+  Robot robot;
+  robot.axes_in_base_at_zero = skewAxes();
+  Couplings couplings;
+  couplings.turns = JointMatrix::Zero(4, 3);
+  couplings.turns(0, 0) = couplings.turns(1, 1) = couplings.turns(2, 2) = 1.0;
+  couplings.turns(2, 1) = -1.0;
+  couplings.turns(3, 2) = 0.5;
+  couplings.own_axis = {0, 1, 2};
+  couplings.own_joint = {0, 1, 2, -1};
+  robot.axes_in_base_at_zero.couplings = std::make_shared<const Couplings>(couplings);
+  robot.bodies.resize(5);
+  robot.balancers = balancers();
+  return robot;
+}
+
+GravityLoad loadOf(const Robot& robot) {
+  return gravityLoad(robot, std::nullopt, Vector3d(0, 0, -9.81), robot, Eigen::Isometry3d::Identity());
+}
+
+TEST(Balancer, OfCoupledJointsIsTheSlopeByTheJoints) {
+  const Robot robot = coupledArm();
+  const GravityLoad weight = loadOf(robot);
+  ASSERT_TRUE(weight.any());
+  EXPECT_FALSE(weight.links_known);  // no balancer stands in for masses
+  const JointVector q = (JointVector(3) << 0.4, 0.7, -0.5).finished();
+  const double step = 1e-5;
+  const auto energy = [&](const JointVector& at) {
+    double sum = 0.0;
+    for (const Balancer& one : robot.balancers) sum += energyOf(one, lengthAt(one, postureAt(robot, at)));
+    return sum;
+  };
+  const auto torqueAt = [&](const JointVector& at) { return weightTorque(robot, postureAt(robot, at), weight); };
+  const ArmPosture posture = postureAt(robot, q);
+  const JointVector torque = torqueAt(q);
+  const JointMatrix stiffness = geometricStiffness(axesAt(robot, posture), posture, weight);
+  ASSERT_EQ(torque.size(), 3);
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const JointVector by = step * JointVector::Unit(3, i);
+    // Energies of some 1e5 J are rounded to 1e-11, over 2e-5.
+    EXPECT_NEAR(torque[i], -(energy(q + by) - energy(q - by)) / (2 * step), 1e-2) << i;
+    EXPECT_LT((stiffness.col(i) - (torqueAt(q + by) - torqueAt(q - by)) / (2 * step)).norm(), 1e-3) << i;
+    EXPECT_GT(stiffness.col(i).norm(), 100.0);
+  }
+}
+
+/// What a body carries from there outwards turns its axis as the torque has it; beyond both ends nothing is carried.
+TEST(Balancer, BodiesCarryWhatTheJointsHold) {
+  const ArmAxes axes = skewAxes();
+  const ArmPosture posture = postureOf(axes, someAngles());
+  const ArmAxes placed = placedAt(axes, posture);
+  for (const Balancer& one : balancers()) {
+    PerBody<Wrench> from_body(5);
+    addBalancerForces(one, posture, from_body);
+    const JointVector torque = balancerTorque(placed, posture, one);
+    for (std::size_t axis = 0; axis < 4; ++axis) {
+      const double moment = placed[axis].direction.dot(from_body[axis + 1].about(placed[axis].point).moment);
+      EXPECT_NEAR(moment, torque[static_cast<Eigen::Index>(axis)], 1e-9);
+    }
+    const int inner = std::min(one.from.body, one.to.body), outer = std::max(one.from.body, one.to.body);
+    for (int body = 0; body <= 4; ++body) {
+      const bool between = body > inner && body <= outer;
+      EXPECT_EQ(from_body[static_cast<std::size_t>(body)].force.norm() > 0.0, between) << body;
+    }
+  }
+}
+
+TEST(Balancer, StandsInTheFrameOfTheWeight) {
+  const Robot robot = coupledArm();
+  const Eigen::Isometry3d moved(Eigen::Translation3d(0.3, -0.2, 0.1) *
+                                Eigen::AngleAxisd(0.7, Vector3d(1, 2, -1).normalized()));
+  const GravityLoad weight = gravityLoad(robot, std::nullopt, Vector3d(0, 0, -9.81), robot, moved);
+  const JointVector q = (JointVector(3) << 0.4, 0.7, -0.5).finished();
+  Robot there = robot;
+  for (metrology::Line& axis : there.axes_in_base_at_zero)
+    axis = {moved * axis.point, moved.linear() * axis.direction};
+  const JointVector here = weightTorque(robot, postureAt(robot, q), loadOf(robot));
+  EXPECT_LT((weightTorque(there, postureAt(there, q), weight) - here).norm(), 1e-9 * here.norm());
+}
+
+TEST(Balancer, IsNoMassThatCouldBeScaled) {
+  Robot robot = coupledArm();
+  for (std::size_t body = 1; body < 5; ++body) robot.bodies[body] = {50.0, {0.3 * static_cast<double>(body), 0, 1.0}};
+  const JointVector q = (JointVector(3) << 0.4, 0.7, -0.5).finished();
+  const auto torqueOf = [&](const Robot& of) { return weightTorque(of, postureAt(of, q), loadOf(of)); };
+  Robot alone = robot, heavier = robot;
+  alone.balancers.clear();
+  scaleMasses(1.1, heavier);
+  EXPECT_TRUE(loadOf(robot).links_known);
+  EXPECT_LT((torqueOf(heavier) - torqueOf(robot) - 0.1 * torqueOf(alone)).norm(), 1e-9 * torqueOf(robot).norm());
+}
+
+TEST(Balancer, EndsTheRangeOfTheAxesByItsStroke) {
+  Robot robot;
+  robot.axes_in_base_at_zero.push_back(line({0, 0, 0}, {0, 0, 1}));
+  const double a = 0.4, b = 0.9;
+  robot.balancers = {{SpringLaw{20e3, 5e3, 0.7}, {0, {a, 0, 0}}, {1, {b, 0, 0}}, {}, 1.0}};
+  // At 90 deg its length is sqrt(a^2 + b^2) = 0.985 m, at 100 deg 1.045 m.
+  EXPECT_TRUE(withinAxisLimits(robot, JointVector::Constant(1, kPi / 2)));
+  EXPECT_FALSE(withinAxisLimits(robot, JointVector::Constant(1, kPi / 1.8)));
 }
 
 }  // namespace
