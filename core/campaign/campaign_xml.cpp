@@ -233,8 +233,8 @@ TableReference readTableReference(const io::XmlNode& node, std::vector<std::stri
 namespace {
 
 std::vector<std::string> knownElements(const std::vector<std::string>& also) {
-  std::vector<std::string> known{"robot", "tracker",         "targets",       "load_cell",
-                                 "tool",  "known_stiffness", "joint_reading", "balancer",  "certificate"};
+  std::vector<std::string> known{"robot",           "tracker",       "targets",  "load_cell",  "tool",
+                                 "known_stiffness", "joint_reading", "balancer", "certificate"};
   known.insert(known.end(), also.begin(), also.end());
   for (const NamedCampaignText& one : kCampaignTexts) known.emplace_back(one.element);
   return known;

@@ -36,8 +36,7 @@ constexpr double kShortest = 1.0, kLongest = 20'000.0;  // mm; beyond the larges
 // No balancer of an arm is stronger than the arm is heavy by a factor of ten.
 robot::SpringLaw readSpringLaw(const io::XmlNode& node) {
   constexpr double kStiffest = 1e7, kStrongest = 1e6;  // N/m and N
-  return {within(node, "rate_n_per_m", 0.0, kStiffest, 1.0),
-          within(node, "tension_n", -kStrongest, kStrongest, 1.0),
+  return {within(node, "rate_n_per_m", 0.0, kStiffest, 1.0), within(node, "tension_n", -kStrongest, kStrongest, 1.0),
           within(node, "length_mm", kShortest, kLongest, io::kMillimetre)};
 }
 
@@ -92,11 +91,12 @@ const robot::LinkFrame& linkNamed(const StatedBalancer& stated, std::size_t end,
 }  // namespace
 
 StatedBalancer readBalancer(const io::XmlNode& node, std::vector<std::string>& warnings) {
-  std::vector<std::string> known{"kind",    "from_link", "from_mm",     "to_link",
-                                 "to_mm",   "length_mm", "shortest_mm", "longest_mm"};
+  std::vector<std::string> known{"kind",  "from_link", "from_mm",     "to_link",
+                                 "to_mm", "length_mm", "shortest_mm", "longest_mm"};
   const bool gas = eitherOf(node, "kind", "spring", false, "gas", true);
-  const std::vector<std::string> own = gas ? std::vector<std::string>{"pressure_bar", "area_cm2", "volume_l", "acts", "exponent"}
-                                           : std::vector<std::string>{"rate_n_per_m", "tension_n"};
+  const std::vector<std::string> own =
+      gas ? std::vector<std::string>{"pressure_bar", "area_cm2", "volume_l", "acts", "exponent"}
+          : std::vector<std::string>{"rate_n_per_m", "tension_n"};
   known.insert(known.end(), own.begin(), own.end());
   io::warnOfUnknown(node, known, {}, warnings);
   StatedBalancer stated;
@@ -129,7 +129,8 @@ void placeBalancers(const std::vector<StatedBalancer>& stated, robot::Robot& rob
     constexpr double kApart = 1e-3;  // m
     const double apart = (balancer.to.in_base_at_zero - balancer.from.in_base_at_zero).norm();
     if (apart < kApart)
-      throw io::InputError({one.file, one.line, "to_mm"}, fmt::format("{:.3f} mm from from_mm", apart / io::kMillimetre),
+      throw io::InputError({one.file, one.line, "to_mm"},
+                           fmt::format("{:.3f} mm from from_mm", apart / io::kMillimetre),
                            "expected ends that are apart: with all joints at zero these coincide");
     robot.balancers.push_back(std::move(balancer));
   }

@@ -25,8 +25,8 @@ StatedBalancer readBalancer(const io::XmlNode& node, std::vector<std::string>& w
 /// each other, and ends that coincide.
 void placeBalancers(const std::vector<StatedBalancer>& stated, robot::Robot& robot);
 
-/// Throws InputError for a row at whose angles a balancer cannot be: its gas has no volume left, or its ends meet. Warns
-/// of those outside its stroke, and of balancers of an arm whose masses are not known.
+/// Throws InputError for a row at whose angles a balancer cannot be: its gas has no volume left, or its ends meet.
+/// Warns of those outside its stroke, and of balancers of an arm whose masses are not known.
 void checkBalancers(const Campaign& campaign, std::vector<std::string>& warnings);
 
 /// The link that an end is written with: the first of its body. Its place is to be divided out of `in_base_at_zero`.

@@ -121,7 +121,9 @@ bool sameBalancer(const robot::Balancer& one, const robot::Balancer& other) {
   if (differ(one.from, other.from) || differ(one.to, other.to)) return false;
   const double length = (one.to.in_base_at_zero - one.from.in_base_at_zero).norm();
   const robot::Tension a = robot::tensionAt(one, length), b = robot::tensionAt(other, length);
-  const auto apart = [](double x, double y) { return std::abs(x - y) > kSameForce * std::max(std::abs(x), std::abs(y)); };
+  const auto apart = [](double x, double y) {
+    return std::abs(x - y) > kSameForce * std::max(std::abs(x), std::abs(y));
+  };
   return !apart(a.force_n, b.force_n) && !apart(a.slope_n_per_m, b.slope_n_per_m);
 }
 

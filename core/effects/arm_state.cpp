@@ -92,7 +92,8 @@ void placeByPosture(const frames::LoadingGeometry& geometry, ArmState& state) {
     const metrology::Line& axis = state.axes[b - 1];
     about_axes[static_cast<Eigen::Index>(b) - 1] = axis.direction.dot(sum.moment - axis.point.cross(sum.force));
   }
-  if (!geometry.weight.balancers.empty()) state.balancers_from_body.assign(state.posture.motion.size(), robot::Wrench());
+  if (!geometry.weight.balancers.empty())
+    state.balancers_from_body.assign(state.posture.motion.size(), robot::Wrench());
   for (const robot::Balancer& balancer : geometry.weight.balancers) {
     about_axes += robot::balancerTorque(state.axes, state.posture, balancer);
     robot::addBalancerForces(balancer, state.posture, state.balancers_from_body);

@@ -94,10 +94,8 @@ JointMatrix balancerStiffness(const ArmAxes& axes, const ArmPosture& posture, co
       const metrology::Line& axis = axes[static_cast<std::size_t>(near)];
       const Eigen::Vector3d by_near = velocityBy(axis, at);
       const double along = at.direction.dot(by_near) * at.direction.dot(by_far);
-      const double curved =
-          (by_near.dot(by_far) - along) / at.length + at.direction.dot(axis.direction.cross(by_far));
-      stiffness(near, far) = stiffness(far, near) =
-          -(at.tension.slope_n_per_m * along + at.tension.force_n * curved);
+      const double curved = (by_near.dot(by_far) - along) / at.length + at.direction.dot(axis.direction.cross(by_far));
+      stiffness(near, far) = stiffness(far, near) = -(at.tension.slope_n_per_m * along + at.tension.force_n * curved);
     }
   }
   return stiffness;

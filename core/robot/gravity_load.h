@@ -26,8 +26,8 @@ struct GravityLoad {
 };
 
 /// Masses of `nominal`'s links (the URDF's, in base_link), its balancers, and the mass of the tool, which the flange of
-/// `arm` carries, brought to `base_from_base_link` axes (R0 or base_link). Link masses are known when every body beyond joint 2 states one
-/// (of coupled joints those that a joint of its own turns).
+/// `arm` carries, brought to `base_from_base_link` axes (R0 or base_link). Link masses are known when every body beyond
+/// joint 2 states one (of coupled joints those that a joint of its own turns).
 GravityLoad gravityLoad(const Robot& nominal, const std::optional<Tool>& tool,
                         const Eigen::Vector3d& gravity_in_base_link, const Robot& arm,
                         const Eigen::Isometry3d& base_from_base_link);

@@ -102,9 +102,8 @@ bool withinAxisLimits(const Robot& robot, const JointVector& q) {
   }
   if (robot.balancers.empty()) return true;
   const ArmPosture posture = postureAt(robot, q);
-  return std::all_of(robot.balancers.begin(), robot.balancers.end(), [&](const Balancer& balancer) {
-    return withinStroke(balancer, lengthAt(balancer, posture));
-  });
+  return std::all_of(robot.balancers.begin(), robot.balancers.end(),
+                     [&](const Balancer& balancer) { return withinStroke(balancer, lengthAt(balancer, posture)); });
 }
 
 }  // namespace stiffscope::robot

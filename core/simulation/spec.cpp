@@ -17,9 +17,9 @@ Pull pullOf(const CylinderGas& gas, double longer) {
   const double swept = (gas.pushes ? 1.0 : -1.0) * gas.area * longer;
   const double ratio = gas.volume / (gas.volume + swept), start = gas.pressure + kAir;
   const double now = start * std::pow(ratio, gas.exponent);
-  const double compressed = gas.exponent == 1.0
-                                ? start * gas.volume * std::log(ratio)
-                                : start * gas.volume * (std::pow(ratio, gas.exponent - 1.0) - 1.0) / (gas.exponent - 1.0);
+  const double compressed =
+      gas.exponent == 1.0 ? start * gas.volume * std::log(ratio)
+                          : start * gas.volume * (std::pow(ratio, gas.exponent - 1.0) - 1.0) / (gas.exponent - 1.0);
   return {(gas.pushes ? -1.0 : 1.0) * gas.area * (now - kAir), compressed + kAir * swept};
 }
 

@@ -11,8 +11,9 @@
 #include "tests/fixtures/clean_day.h"
 #include "tests/fixtures/small_campaign.h"
 
-// Days of a machine on a gas cylinder whose maker's data the campaign states: written, read, audited and identified; and
-// the same days without the statement. The simulator's gas and its equilibrium share nothing with the identification.
+// Days of a machine on a gas cylinder whose maker's data the campaign states: written, read, audited and identified;
+// and the same days without the statement. The simulator's gas and its equilibrium share nothing with the
+// identification.
 
 namespace stiffscope {
 namespace balancer_day_test {
@@ -20,8 +21,8 @@ namespace balancer_day_test {
 /// Behind the column and on a lug of the upper arm: 25 kN, near 6 kNm on joint 2, some 40 % of what the arm weighs
 /// there.
 simulation::LinkSpring cylinder() {
-  return {1,   2,   {-0.5, 0, 0.94}, {0.25, 0, 1.13}, 0.0,
-          0.0, simulation::CylinderGas{150e5, 17e-4, 6e-3, 1.0, false}, true};
+  return {1,   2, {-0.5, 0, 0.94}, {0.25, 0, 1.13}, 0.0, 0.0, simulation::CylinderGas{150e5, 17e-4, 6e-3, 1.0, false},
+          true};
 }
 
 /// Through the files, as a user has it.

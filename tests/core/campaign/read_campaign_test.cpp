@@ -283,8 +283,9 @@ TEST(ReadCampaign, RefusesStiffnessesThatCannotBeKnown) {
   }
 }
 
-std::string gasBalancer(const std::string& of_gas, const std::string& ends = "from_link=\"link_1\" from_mm=\"-300 0 100\" "
-                                                                            "to_link=\"link_2\" to_mm=\"50 0 250\"") {
+std::string gasBalancer(const std::string& of_gas, const std::string& ends =
+                                                       "from_link=\"link_1\" from_mm=\"-300 0 100\" "
+                                                       "to_link=\"link_2\" to_mm=\"50 0 250\"") {
   return "<balancer kind=\"gas\" " + ends + " " + of_gas + "/><tool mass_kg";
 }
 

@@ -159,7 +159,11 @@ TEST(WriteCampaign, ReadsBackBalancersAsTheyWere) {
   campaign::Campaign campaign = campaign::readCampaign(files.folder()).campaign;
   campaign.robot.balancers = {
       {robot::SpringLaw{41234.5, -6789.0, 0.8125}, {1, {-0.31, 0.05, 0.52}}, {2, {0.32, 0.11, 1.23}}, 0.05, 4.5},
-      {robot::GasLaw{143.5e5, 17.3e-4, 16.1e-3, 0.912, 1.25, true}, {2, {0.3, 0.1, 1.2}}, {0, {-0.4, 0.1, 0.3}}, {}, {}}};
+      {robot::GasLaw{143.5e5, 17.3e-4, 16.1e-3, 0.912, 1.25, true},
+       {2, {0.3, 0.1, 1.2}},
+       {0, {-0.4, 0.1, 0.3}},
+       {},
+       {}}};
   expectRoundTrip(campaign, files.folder() / "robot.urdf");
 }
 

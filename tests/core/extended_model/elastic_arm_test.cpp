@@ -71,8 +71,14 @@ TEST_P(AgainstTheSimulator, IsMovedByBalancersTheSame) {
   GetParam().build(spec, parameters);
   simulation::SimulationSpec balanced = spec;
   // A cylinder behind the column, a spring from the foot, one along the forearm.
-  balanced.machine.link_springs = {{1, 2, {-0.5, 0, 0.94}, {0.25, 0.1, 1.13}, 0.0, 0.0,
-                                    simulation::CylinderGas{150e5, 17e-4, 6e-3, 1.2, false}, true},
+  balanced.machine.link_springs = {{1,
+                                    2,
+                                    {-0.5, 0, 0.94},
+                                    {0.25, 0.1, 1.13},
+                                    0.0,
+                                    0.0,
+                                    simulation::CylinderGas{150e5, 17e-4, 6e-3, 1.2, false},
+                                    true},
                                    {0, 2, {-0.2, 0.3, 0.4}, {0.41, 0.2, 1.6}, 5e3, 4e3, std::nullopt, true},
                                    {3, 5, {0.3, 0.2, 2.3}, {1.8, 0.1, 2.4}, 2e3, 1e3, std::nullopt, true}};
   const simulation::ElasticMachine bare = simulation::buildMachine(spec), machine = simulation::buildMachine(balanced);

@@ -154,7 +154,8 @@ TEST(Balancer, StrokeHasTwoEnds) {
   EXPECT_FALSE(withinStroke(spring, 0.91));
 }
 
-/// Three joints turn the four skew axes: the third one's turn goes back along the second's, as by a parallelogram's rods.
+/// Three joints turn the four skew axes: the third one's turn goes back along the second's, as by a parallelogram's
+/// rods.
 Robot coupledArm() {
   Robot robot;
   robot.axes_in_base_at_zero = skewAxes();
@@ -229,8 +230,7 @@ TEST(Balancer, StandsInTheFrameOfTheWeight) {
   const GravityLoad weight = gravityLoad(robot, std::nullopt, Vector3d(0, 0, -9.81), robot, moved);
   const JointVector q = (JointVector(3) << 0.4, 0.7, -0.5).finished();
   Robot there = robot;
-  for (metrology::Line& axis : there.axes_in_base_at_zero)
-    axis = {moved * axis.point, moved.linear() * axis.direction};
+  for (metrology::Line& axis : there.axes_in_base_at_zero) axis = {moved * axis.point, moved.linear() * axis.direction};
   const JointVector here = weightTorque(robot, postureAt(robot, q), loadOf(robot));
   EXPECT_LT((weightTorque(there, postureAt(there, q), weight) - here).norm(), 1e-9 * here.norm());
 }

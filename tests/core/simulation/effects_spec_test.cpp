@@ -93,8 +93,9 @@ TEST_F(SimulationEffectsSpec, readsWhatAJointHas) {
 TEST_F(SimulationEffectsSpec, readsGasAndWhatIsDeclared) {
   const std::string ends = "<spring from_body='1' to_body='2' from_mm='0 0 900' to_mm='300 0 1400' ";
   const simulation::SimulationSpec spec =
-      read(ends + "gas_pressure_bar='150' gas_area_cm2='17' gas_volume_l='6' gas_exponent='1.2' gas_acts='pull' "
-                  "declared='true'/>" +
+      read(ends +
+           "gas_pressure_bar='150' gas_area_cm2='17' gas_volume_l='6' gas_exponent='1.2' gas_acts='pull' "
+           "declared='true'/>" +
            ends + "tension_n='1e4'/>");
   const simulation::LinkSpring& spring = spec.machine.link_springs.at(0);
   EXPECT_NEAR(spring.gas->pressure, 150e5, 1e-6);

@@ -155,8 +155,8 @@ TEST(SimulationSprings, gasByHand) {
 TEST(SimulationSprings, gasPullsByTheSlopeOfItsEnergy) {
   for (const bool pushes : {false, true}) {
     for (const double exponent : {1.0, 1.25}) {
-      const LinkSpring spring{1,   2,   {0, 0, 0}, {0.6, 0, 0}, 0.0,
-                              0.0, CylinderGas{100e5, 20e-4, 2e-3, exponent, pushes}};
+      const LinkSpring spring{
+          1, 2, {0, 0, 0}, {0.6, 0, 0}, 0.0, 0.0, CylinderGas{100e5, 20e-4, 2e-3, exponent, pushes}};
       const auto at = [&](double x) {
         PerBody<Eigen::Isometry3d> motions(3, Eigen::Isometry3d::Identity());
         motions[2].translation().x() = x;
@@ -173,9 +173,10 @@ TEST(SimulationSprings, gasPullsByTheSlopeOfItsEnergy) {
 
 TEST(SimulationSprings, aDeclaredOneStandsInTheCampaign) {
   SimulationSpec spec = armSpec();
-  spec.machine.link_springs = {{1, 2, {-0.2, 0.3, 0.7}, {0.3, 0.3, 1.6}, 3e4, 1.2e4},
-                               {1, 2, {-0.4, 0.1, 0.9}, {0.3, 0.2, 1.1}, 0, 0, CylinderGas{40e5, 1e-3, 2e-3, 1.3, true}},
-                               {0, 3, {-0.3, 0, 0.4}, {0.5, 0.1, 1.9}, 2e3, 500.0}};
+  spec.machine.link_springs = {
+      {1, 2, {-0.2, 0.3, 0.7}, {0.3, 0.3, 1.6}, 3e4, 1.2e4},
+      {1, 2, {-0.4, 0.1, 0.9}, {0.3, 0.2, 1.1}, 0, 0, CylinderGas{40e5, 1e-3, 2e-3, 1.3, true}},
+      {0, 3, {-0.3, 0, 0.4}, {0.5, 0.1, 1.9}, 2e3, 500.0}};
   EXPECT_TRUE(measureWithoutNoise(buildMachine(spec), spec).robot.balancers.empty());
   spec.machine.link_springs[1].declared = spec.machine.link_springs[2].declared = true;
   const auto balancers = measureWithoutNoise(buildMachine(spec), spec).robot.balancers;
