@@ -30,9 +30,8 @@ std::string elasticModelWords(elastic_model::RemarkId id, const RemarkValues& va
     case no_masses:
       return "arm and tool have no weight: the URDF states no masses of the links";
     case no_balancers:
-      return fmt::format(
-          "{} not in the file: its force has to be added where the file is used, as the arm sags without it",
-          values.count(0) == 1 ? "the balancer is" : fmt::format("{} balancers are", values.count(0)));
+      return fmt::format("no balancer is in the file ({} stated): the arm in it sags as it would without",
+                         values.count(0));
     case no_inertia:
       return fmt::format(
           "the URDF states no inertia that a rigid body has for {}: {:g} kg m^2 about every axis stand in, without "
