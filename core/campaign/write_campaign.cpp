@@ -206,8 +206,10 @@ void writeLaw(const robot::GasLaw& law, Element& element) {
 void writeBalancers(tinyxml2::XMLPrinter& printer, const robot::Robot& robot) {
   const auto setEnd = [&](Element& element, const robot::BalancerEnd& end, const char* link, const char* mm) {
     const robot::LinkFrame& frame = linkOf(end, robot);
-    const Eigen::Vector3d in_link = frame.base_from_link_at_zero.inverse() * end.in_base_at_zero;
-    element.set(link, frame.name).set(mm, Eigen::Vector3d(in_link / io::kMillimetre));
+    const Eigen::Vector3d in_link = frame.base_from_link_at_zero.inverse() * end.in_base_at_zero / io::kMillimetre;
+    // A zero comes back from the turn into the link's axes as 1e-13.
+    const Eigen::Vector3d shown = in_link.unaryExpr([](double x) { return std::abs(x) < 1e-9 ? 0.0 : x; });
+    element.set(link, frame.name).set(mm, shown);
   };
   for (const robot::Balancer& balancer : robot.balancers) {
     Element element(printer, "balancer");
