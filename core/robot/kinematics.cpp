@@ -1,10 +1,7 @@
 #include "core/robot/kinematics.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <cmath>
-
-#include "core/robot/balancer.h"
 
 namespace stiffscope::robot {
 
@@ -91,19 +88,6 @@ bool Robot::wristStandsApart() const {
   if (!coupled()) return true;
   const int arm = armJointsOf(joints());
   return axes_in_base_at_zero.couplings->turns.topRightCorner(armAxes(), joints() - arm).isZero(0.0);
-}
-
-bool withinAxisLimits(const Robot& robot, const JointVector& q) {
-  const JointVector angles = robot.axes_in_base_at_zero.angles(q);
-  for (std::size_t axis = 0; axis < robot.axis_limits.size(); ++axis) {  // a robot that states none has none
-    const JointLimits& limits = robot.axis_limits[axis];
-    const double angle = angles[static_cast<Eigen::Index>(axis)];
-    if (angle < limits.lower || angle > limits.upper) return false;
-  }
-  if (robot.balancers.empty()) return true;
-  const ArmPosture posture = postureAt(robot, q);
-  return std::all_of(robot.balancers.begin(), robot.balancers.end(),
-                     [&](const Balancer& balancer) { return withinStroke(balancer, lengthAt(balancer, posture)); });
 }
 
 }  // namespace stiffscope::robot
