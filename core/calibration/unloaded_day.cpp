@@ -53,7 +53,7 @@ class Bending {
         motions.push_back({twist.rotation, twist.shift - twist.rotation.cross(twist.pivot)});
       }
     }
-    const robot::Wrench carried = effects::carried(states[0], 1, Eigen::Vector3d::Zero());
+    const robot::Wrench carried = effects::carried(states[0], 0, Eigen::Vector3d::Zero());
     motions.push_back({{carried.moment.y(), carried.moment.x(), 0.0}, Eigen::Vector3d::Zero()});
     return motions;
   }

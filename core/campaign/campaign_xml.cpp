@@ -233,8 +233,8 @@ TableReference readTableReference(const io::XmlNode& node, std::vector<std::stri
 namespace {
 
 std::vector<std::string> knownElements(const std::vector<std::string>& also) {
-  std::vector<std::string> known{"robot", "tracker",         "targets",       "load_cell",
-                                 "tool",  "known_stiffness", "joint_reading", "certificate"};
+  std::vector<std::string> known{"robot",           "tracker",       "targets",  "load_cell",  "tool",
+                                 "known_stiffness", "joint_reading", "balancer", "certificate"};
   known.insert(known.end(), also.begin(), also.end());
   for (const NamedCampaignText& one : kCampaignTexts) known.emplace_back(one.element);
   return known;
@@ -318,6 +318,7 @@ void readSections(const io::XmlNode& root, CampaignXml& xml, std::vector<std::st
                       [&](const KnownStiffness& one) { return one.joint == joint; }) > 1)
       node.refuse("joint", node.requiredAttribute("joint"), "expected a joint that does not repeat");
   }
+  for (const io::XmlNode& node : root.children("balancer")) xml.balancers.push_back(readBalancer(node, warnings));
   readJointReadings(root, campaign, warnings);
   for (const char* element : {"known_stiffness", "joint_reading"}) {
     for (const io::XmlNode& node : root.children(element)) {

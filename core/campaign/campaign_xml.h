@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/campaign/campaign.h"
+#include "core/campaign/stated_balancer.h"
 #include "core/io/xml.h"
 
 namespace stiffscope::campaign {
@@ -37,6 +38,7 @@ struct CampaignXml {
   std::map<std::string, TableReference> tables;  ///< by element name
   std::size_t load_cell_line = 0;
   std::vector<JointNumber> joint_numbers;
+  std::vector<StatedBalancer> balancers;
 };
 
 /// Throws InputError for the first that names a joint which a machine of so many has not.

@@ -7,6 +7,7 @@
 #include <limits>
 #include <set>
 
+#include "core/campaign/stated_balancer.h"
 #include "core/io/input_error.h"
 #include "core/io/units.h"
 #include "core/numerics/parallel.h"
@@ -382,6 +383,7 @@ void checkCampaign(const Campaign& campaign, std::vector<std::string>& warnings)
   checkStatesCoverReadings(campaign);
   checkToolPosesAreWhole(campaign);
   for (const Check& check : kChecks) check(campaign, warnings);
+  checkBalancers(campaign, warnings);
 }
 
 }  // namespace stiffscope::campaign

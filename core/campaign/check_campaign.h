@@ -14,8 +14,8 @@ namespace stiffscope::campaign {
 /// rail for a `rail_sweep` and for positions that differ. Warns of poses of `loading` without
 /// a step 0, of joint angles more than 5 degrees outside the URDF's limits (one warning a joint), of tables
 /// whose angles look like radians, and of states without a load cell.
-/// Of several stations: throws InputError where there is no tracker, and for a reflector that one posture has from two
-/// of them.
+/// Of balancers, see checkBalancers. Of several stations: throws InputError where there is no tracker, and for a
+/// reflector that one posture has from two of them.
 void checkCampaign(const Campaign& campaign, std::vector<std::string>& warnings);
 
 /// Throws InputError where a station is named that means nothing: in `displacements`, or in a table whose points are in

@@ -118,6 +118,7 @@ void readRobot(CampaignFiles& files, const CampaignXml& xml, Campaign& campaign)
   const io::TextFile file = files.read(xml.urdf, io::kLargestXml);
   campaign.robot = robot::parseUrdf(file.text(), files.shown(xml.urdf), campaign.base_link, campaign.flange_link);
   requireJoints(xml.joint_numbers, campaign.robot.joints());
+  placeBalancers(xml.balancers, campaign.robot);
   if (!campaign.load_cell) return;
   requireLink(files, campaign.robot, xml.load_cell_line, "parent", campaign.load_cell->parent);
   if (campaign.load_cell->axes_link) {

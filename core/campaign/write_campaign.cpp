@@ -12,6 +12,7 @@
 #include "core/campaign/campaign_xml.h"
 #include "core/campaign/columns.h"
 #include "core/campaign/joint_reading.h"
+#include "core/campaign/stated_balancer.h"
 #include "core/campaign/table_layouts.h"
 #include "core/io/read_file.h"
 #include "core/io/units.h"
@@ -190,6 +191,37 @@ void writeLoadCell(tinyxml2::XMLPrinter& printer, const LoadCell& cell) {
   if (cell.point_sigma > 0.0) element.set("xyz_sigma_mm", cell.point_sigma / io::kMillimetre);
 }
 
+void writeLaw(const robot::SpringLaw& law, Element& element) {
+  element.set("rate_n_per_m", law.rate_n_per_m).set("tension_n", law.tension_n);
+  element.set("length_mm", law.length_m / io::kMillimetre);
+}
+
+void writeLaw(const robot::GasLaw& law, Element& element) {
+  element.set("acts", law.pushes ? "push" : "pull").set("pressure_bar", law.pressure_pa * 1e-5);
+  element.set("area_cm2", law.area_m2 * 1e4).set("volume_l", law.volume_m3 * 1e3);
+  element.set("length_mm", law.length_m / io::kMillimetre);
+  if (law.exponent != 1.0) element.set("exponent", law.exponent);
+}
+
+void writeBalancers(tinyxml2::XMLPrinter& printer, const robot::Robot& robot) {
+  const auto setEnd = [&](Element& element, const robot::BalancerEnd& end, const char* link, const char* mm) {
+    const robot::LinkFrame& frame = linkOf(end, robot);
+    const Eigen::Vector3d in_link = frame.base_from_link_at_zero.inverse() * end.in_base_at_zero / io::kMillimetre;
+    // A zero comes back from the turn into the link's axes as 1e-13.
+    const Eigen::Vector3d shown = in_link.unaryExpr([](double x) { return std::abs(x) < 1e-9 ? 0.0 : x; });
+    element.set(link, frame.name).set(mm, shown);
+  };
+  for (const robot::Balancer& balancer : robot.balancers) {
+    Element element(printer, "balancer");
+    element.set("kind", std::holds_alternative<robot::GasLaw>(balancer.law) ? "gas" : "spring");
+    setEnd(element, balancer.from, "from_link", "from_mm");
+    setEnd(element, balancer.to, "to_link", "to_mm");
+    std::visit([&](const auto& law) { writeLaw(law, element); }, balancer.law);
+    if (balancer.shortest_m) element.set("shortest_mm", *balancer.shortest_m / io::kMillimetre);
+    if (balancer.longest_m) element.set("longest_mm", *balancer.longest_m / io::kMillimetre);
+  }
+}
+
 void writeJointReadings(tinyxml2::XMLPrinter& printer, const std::vector<JointReading>& readings) {
   for (const JointReading& reading : readings) {
     Element element(printer, "joint_reading");
@@ -233,6 +265,7 @@ std::string writtenCampaignXml(const Campaign& campaign) {
           .set("sd_nm_per_rad", known.sd)
           .set("source", known.source);
     }
+    writeBalancers(printer, campaign.robot);
     writeJointReadings(printer, campaign.joint_readings);
     writeTableReference(printer, "circle_sweeps", campaign.circle_sweeps);
     writeTableReference(printer, "wrist_sweep", campaign.wrist_sweep);

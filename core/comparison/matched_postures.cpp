@@ -5,6 +5,8 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "core/robot/balancer.h"
+
 namespace stiffscope::comparison {
 
 namespace {
@@ -110,6 +112,21 @@ Remark differenceOfMachines(const robot::Robot& before, const robot::Robot& afte
   return {};
 }
 
+/// By what it does where it stands with all joints at zero: there are several ways to state one.
+bool sameBalancer(const robot::Balancer& one, const robot::Balancer& other) {
+  constexpr double kSameForce = 0.01;  // of the force: a gauge reads no better
+  const auto differ = [](const robot::BalancerEnd& a, const robot::BalancerEnd& b) {
+    return a.body != b.body || (a.in_base_at_zero - b.in_base_at_zero).norm() > kSamePlace;
+  };
+  if (differ(one.from, other.from) || differ(one.to, other.to)) return false;
+  const double length = (one.to.in_base_at_zero - one.from.in_base_at_zero).norm();
+  const robot::Tension a = robot::tensionAt(one, length), b = robot::tensionAt(other, length);
+  const auto apart = [](double x, double y) {
+    return std::abs(x - y) > kSameForce * std::max(std::abs(x), std::abs(y));
+  };
+  return !apart(a.force_n, b.force_n) && !apart(a.slope_n_per_m, b.slope_n_per_m);
+}
+
 std::vector<Remark> doubtsOfOneMachine(const robot::Robot& before, const robot::Robot& after) {
   std::vector<Remark> doubts;
   if (before.name != after.name) doubts.emplace_back(RemarkId::other_name, before.name, after.name);
@@ -124,6 +141,10 @@ std::vector<Remark> doubtsOfOneMachine(const robot::Robot& before, const robot::
   }
   if (difference > kSameMass * std::max(mass_before, mass_after))
     doubts.emplace_back(RemarkId::other_masses, mass_before, mass_after);
+  if (!std::equal(before.balancers.begin(), before.balancers.end(), after.balancers.begin(), after.balancers.end(),
+                  sameBalancer))
+    doubts.emplace_back(RemarkId::other_balancers, static_cast<int>(before.balancers.size()),
+                        static_cast<int>(after.balancers.size()));
   return doubts;
 }
 

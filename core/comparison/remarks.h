@@ -13,6 +13,7 @@ enum class RemarkId {
   other_name,         ///< name before, after
   flange_elsewhere,   ///< distance m, turn rad
   other_masses,       ///< of all links before kg, after kg
+  other_balancers,    ///< number before, after
   // What else to know before believing the numbers.
   same_encoders,  ///< whether active
   encoders_swapped,

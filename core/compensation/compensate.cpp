@@ -9,6 +9,7 @@
 #include "core/identification/load_case.h"
 #include "core/io/units.h"
 #include "core/numerics/parallel.h"
+#include "core/robot/balancer.h"
 #include "core/robot/inverse_kinematics.h"
 #include "core/robot/wrench.h"
 #include "metrology/linear_algebra.h"
@@ -363,13 +364,20 @@ class Compensator {
         return Remark(what, joint + 1, angles[joint], limits.lower, limits.upper);
     }
     const robot::Robot& arm = geometry_.arm;
-    if (!arm.coupled() || robot::withinAxisLimits(arm, angles)) return {};
+    if (!arm.coupled() && arm.balancers.empty()) return {};
+    if (robot::withinAxisLimits(arm, angles)) return {};
     const JointVector turned = arm.axes_in_base_at_zero.angles(angles);
     for (int axis = 0; axis < arm.axes(); ++axis) {
       const robot::JointLimits& limits = arm.axis_limits[static_cast<std::size_t>(axis)];
       if (turned[axis] < limits.lower || turned[axis] > limits.upper)
         return Remark(RemarkId::follower_outside_limits, arm.axis_names[static_cast<std::size_t>(axis)], turned[axis],
                       limits.lower, limits.upper);
+    }
+    const robot::ArmPosture posture = robot::postureAt(arm, angles);
+    for (std::size_t i = 0; i < arm.balancers.size(); ++i) {
+      const double length = robot::lengthAt(arm.balancers[i], posture);
+      if (!robot::withinStroke(arm.balancers[i], length))
+        return Remark(RemarkId::balancer_outside_stroke, static_cast<int>(i) + 1, length);
     }
     return {};
   }

@@ -9,6 +9,7 @@ enum class RemarkId {
   posture_outside_limits,     ///< joint number, its angle rad, lower limit rad, upper limit rad
   command_outside_limits,     ///< joint number, the angle to command rad, lower limit rad, upper limit rad
   follower_outside_limits,    ///< name of an axis that follows others, its angle, lower and upper limit, rad
+  balancer_outside_stroke,    ///< number of the balancer, its length m
   near_singularity,           ///< conditioning, least conditioning
   turns_joint_of_negative_k,  ///< joint number, torque Nm
   turns_joint_of_unknown_k,   ///< joint number, torque Nm

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/effects/gravity_equilibrium.h"
+#include "core/robot/balancer.h"
 #include "core/robot/geometric_stiffness.h"
 #include "metrology/linear_algebra.h"
 
@@ -49,6 +50,32 @@ JointVector torqueChange(const effects::ArmState& state, const Carried& carried,
                                        carried.mass[first] * beyond.shift - carried.mass[j] * of_axis.at(axis.point);
     change[static_cast<Eigen::Index>(j)] =
         of_axis.rotation.cross(axis.direction).dot(arm.cross(gravity)) + axis.direction.dot(arm_change.cross(gravity));
+  }
+  return state.axes.torques(change);
+}
+
+/// The same of a balancer; about axis j it is z_j . ((x - p_j) x f), f the force on the outer body's end x.
+JointVector torqueChange(const effects::ArmState& state, const robot::PlacedBalancer& at,
+                         const frames::PlacedPosture& posture, std::size_t k) {
+  const int moved = static_cast<int>(k / 4);
+  const frames::SmallMotion& beyond = posture.beyondAxis(k);
+  const auto changeOf = [&](const Eigen::Vector3d& end, int body) {
+    return moved < body ? Eigen::Vector3d(beyond.at(end)) : Eigen::Vector3d(Eigen::Vector3d::Zero());
+  };
+  const Eigen::Vector3d end_change = changeOf(at.outer_end, at.outer);
+  const Eigen::Vector3d apart_change = end_change - changeOf(at.inner_end, at.inner);
+  const double longer = at.direction.dot(apart_change);
+  const Eigen::Vector3d turned = (apart_change - longer * at.direction) / at.length;
+  const Eigen::Vector3d force = at.onOuter();
+  const Eigen::Vector3d force_change =
+      -(at.tension.slope_n_per_m * longer * at.direction + at.tension.force_n * turned);
+  JointVector change = JointVector::Zero(state.bodies());
+  for (int j = at.inner; j < at.outer; ++j) {
+    const metrology::Line& axis = state.axes[static_cast<std::size_t>(j)];
+    const frames::SmallMotion of_axis = j < moved ? frames::SmallMotion{} : (j == moved ? posture.ofAxis(k) : beyond);
+    const Eigen::Vector3d arm = at.outer_end - axis.point;
+    change[j] = of_axis.rotation.cross(axis.direction).dot(arm.cross(force)) +
+                axis.direction.dot((end_change - of_axis.at(axis.point)).cross(force) + arm.cross(force_change));
   }
   return state.axes.torques(change);
 }
@@ -125,6 +152,11 @@ void PositionByGeometry::addSag(const effects::ArmState& modelled, const frames:
   for (Eigen::Index k = 0; k < layout_.axes(); ++k)
     torques.col(k) =
         torqueChange(modelled, carried, geometry_.weight.gravity_in_base, posture, static_cast<std::size_t>(k));
+  for (const robot::Balancer& balancer : geometry_.weight.balancers) {
+    const robot::PlacedBalancer at = robot::placedAt(balancer, modelled.posture);
+    for (Eigen::Index k = 0; k < layout_.axes(); ++k)
+      torques.col(k) += torqueChange(modelled, at, posture, static_cast<std::size_t>(k));
+  }
   columns.leftCols(layout_.axes()) += effects::byJoints(modelled, anglesByTorque(geometry_, at_, modelled) * torques);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/robot/balancer.h"
 #include "core/robot/kinematics.h"
 
 namespace stiffscope::effects {
@@ -77,6 +78,7 @@ void placeByPosture(const frames::LoadingGeometry& geometry, ArmState& state) {
   state.axes = robot::axesAt(geometry.arm, state.posture);
   state.weight_torque = JointVector::Zero(geometry.arm.joints());
   state.weight_from_body.assign(state.posture.motion.size(), robot::Wrench());
+  state.balancers_from_body.clear();
   state.flange = robot::flangeAt(geometry.arm, state.posture);
   if (!geometry.weight.links_known) return;
   robot::Wrench sum;
@@ -90,6 +92,12 @@ void placeByPosture(const frames::LoadingGeometry& geometry, ArmState& state) {
     const metrology::Line& axis = state.axes[b - 1];
     about_axes[static_cast<Eigen::Index>(b) - 1] = axis.direction.dot(sum.moment - axis.point.cross(sum.force));
   }
+  if (!geometry.weight.balancers.empty())
+    state.balancers_from_body.assign(state.posture.motion.size(), robot::Wrench());
+  for (const robot::Balancer& balancer : geometry.weight.balancers) {
+    about_axes += robot::balancerTorque(state.axes, state.posture, balancer);
+    robot::addBalancerForces(balancer, state.posture, state.balancers_from_body);
+  }
   state.weight_torque = state.axes.torques(about_axes);
   state.weight_from_body[0] = sum;
 }
@@ -99,6 +107,10 @@ robot::Wrench carried(const ArmState& state, int body, const Eigen::Vector3d& ab
   const robot::Wrench weight = state.weight_from_body[static_cast<std::size_t>(body)].about(about);
   sum.force += weight.force;
   sum.moment += weight.moment;
+  if (state.balancers_from_body.empty()) return sum;
+  const robot::Wrench balancers = state.balancers_from_body[static_cast<std::size_t>(body)].about(about);
+  sum.force += balancers.force;
+  sum.moment += balancers.moment;
   return sum;
 }
 

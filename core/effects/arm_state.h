@@ -29,9 +29,11 @@ struct ArmState {
   Eigen::Matrix3d cell_axes = Eigen::Matrix3d::Identity();  ///< base_from_cell: the axes the wrench was read in
   robot::Wrench load;                                       ///< on the tool; zero force where nothing pulls
   JointVector load_torque;
-  JointVector weight_torque;  ///< zero where masses are not known
+  JointVector weight_torque;  ///< of own weight and balancers; zero where masses are not known
   /// By body b: the own weight of all bodies from b outwards, about the R0 origin.
   PerBody<robot::Wrench> weight_from_body;
+  /// The same of the balancers; empty where there are none or masses are not known.
+  PerBody<robot::Wrench> balancers_from_body;
   std::vector<int> targets;
   std::vector<Eigen::Vector3d> points;  ///< where the reflectors stand, one a target
 
@@ -96,8 +98,8 @@ robot::ArmPosture movedPosture(const robot::Robot& arm, const JointVector& turne
 /// The same from `state.posture`, wherever that came from: fills axes, flange and own weight.
 void placeByPosture(const frames::LoadingGeometry& geometry, ArmState& state);
 
-/// What body `body` carries beyond its inner joint, about `about`: own weight from that body outwards, plus
-/// the load.
+/// What body `body` carries beyond its inner joint, about `about`: own weight and balancers from that body outwards,
+/// plus the load.
 robot::Wrench carried(const ArmState& state, int body, const Eigen::Vector3d& about);
 
 /// Own weight and load on the joints, Nm.

@@ -28,7 +28,7 @@ namespace {
 std::vector<BodyTwist> baseComplianceTwists(const LinearizationPoint& at, const PostureStates& posture, std::size_t i) {
   const Eigen::Vector3d foot = at.r0_from_base_link.translation();
   const Eigen::Matrix3d axes = at.r0_from_base_link.linear() * footAxes(at.rail_in_base);
-  const robot::Wrench load = carried(posture[i], 1, foot);
+  const robot::Wrench load = carried(posture[i], 0, foot);
   std::vector<BodyTwist> twists(5, {.first_body = 1, .with_axis = true, .pivot = foot});
   for (int k = 0; k < 2; ++k) twists[static_cast<std::size_t>(k)].rotation = axes.col(k) * axes.col(k).dot(load.moment);
   for (int k = 0; k < 3; ++k) twists[static_cast<std::size_t>(2 + k)].shift = axes.col(k) * axes.col(k).dot(load.force);

@@ -232,6 +232,8 @@ class ChainBuilder {
       own.mass.inertia = physical.value_or(kStandInInertia * Eigen::Matrix3d::Identity());
       if (!physical) stand_in.push_back(own.name);
     }
+    if (!weight.balancers.empty())
+      model_.remarks.emplace_back(RemarkId::no_balancers, static_cast<int>(weight.balancers.size()));
     if (!stand_in.empty()) model_.remarks.emplace_back(RemarkId::no_inertia, stand_in);
   }
 

@@ -10,6 +10,7 @@ enum class RemarkId {
   effect_of_measurement,    ///< id of an effect that the machine does not do
   effect_in_load_point,     ///< id of the effect that the load's place was corrected for
   no_masses,                ///< the URDF states none: the links have no weight
+  no_balancers,             ///< number of balancers that no spring of the chain is
   no_inertia,               ///< names of the bodies whose inertia is a stand-in
   load_axes_turn_with_link  ///< name of the link that directs the load cell's axes and does not carry it
 };

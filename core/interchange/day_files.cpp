@@ -57,6 +57,7 @@ class DayReader {
     result_.urdf = day_.folder / urdf.name;
     result_.robot = robot::parseUrdf(bytes.text(), day_.pathOf(urdf.name), campaign.base_link, campaign.flange_link);
     campaign::requireJoints(day_.xml.joint_numbers, result_.robot.joints());
+    campaign::placeBalancers(day_.xml.balancers, result_.robot);
     for (const PointsSource& source : day_.points) {
       if (source.axis < result_.robot.joints()) continue;
       throw io::InputError({day_.file, source.line, "axis"}, std::to_string(source.axis + 1),

@@ -219,6 +219,9 @@ ReadingsOfDay takenBack(const ReadingsOfDay& day, const ArmMistake& mistake, con
   if (mistake.robot_size != 1.0) {
     resize(mistake.robot_size, mended.robot);
     for (robot::BodyMass& body : mended.weight.bodies) body.com_in_base_at_zero *= mistake.robot_size;
+    // Its ends were placed by links of the wrong size: less is wrong without it.
+    mended.robot.balancers.clear();
+    mended.weight.balancers.clear();
   }
   const auto renamed = [&](int target) {
     return target < static_cast<int>(mistake.targets.size()) ? mistake.targets[static_cast<std::size_t>(target)]

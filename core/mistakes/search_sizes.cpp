@@ -57,6 +57,11 @@ void moveFrom(std::size_t joint, const Eigen::Vector3d& shift, const Eigen::Matr
   }
   for (std::size_t body = joint + 1; body < robot.bodies.size(); ++body)
     robot.bodies[body].com_in_base_at_zero = moved(robot.bodies[body].com_in_base_at_zero);
+  for (robot::Balancer& balancer : robot.balancers) {
+    for (robot::BalancerEnd* end : {&balancer.from, &balancer.to}) {
+      if (end->body > static_cast<int>(joint)) end->in_base_at_zero = moved(end->in_base_at_zero);
+    }
+  }
 }
 
 void keepOrigin(const SearchedArm& arm, ReadingsOfDay day, Remark remedy, std::vector<ArmCure>& cures) {

@@ -264,7 +264,7 @@ const char* wordsFor(PostureRule rule) {
     case PostureRule::none:
       break;
     case PostureRule::follower:
-      return "an axis that follows others outside its limits";
+      return "an axis that follows others outside its limits, or a balancer outside its stroke";
     case PostureRule::singularity:
       return "too near a singularity";
     case PostureRule::low:

@@ -1,5 +1,7 @@
 #include "core/robot/geometric_stiffness.h"
 
+#include "core/robot/balancer.h"
+
 namespace stiffscope::robot {
 
 namespace {
@@ -53,6 +55,7 @@ JointMatrix geometricStiffness(const ArmAxes& axes, const ArmPosture& posture, c
     addForce(axes, body, posture.motion[static_cast<std::size_t>(body)] * mass.com_in_base_at_zero,
              mass.mass_kg * weight.gravity_in_base, stiffness);
   }
+  for (const Balancer& balancer : weight.balancers) stiffness += balancerStiffness(axes, posture, balancer);
   return ofJoints(axes, stiffness);
 }
 

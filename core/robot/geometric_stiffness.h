@@ -12,7 +12,7 @@ namespace stiffscope::robot {
 /// Of coupled joints turns^T K_c turns by the axes' K_c.
 JointMatrix geometricStiffness(const ArmAxes& axes, const Wrench& wrench_in_base);
 
-/// The own weight's share of K_c; `axes` are those at that posture.
+/// The share of K_c that the own weight and the balancers have; `axes` are those at that posture.
 JointMatrix geometricStiffness(const ArmAxes& axes, const ArmPosture& posture, const GravityLoad& weight);
 
 }  // namespace stiffscope::robot

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 
+#include "core/robot/balancer.h"
 #include "core/robot/spring_equilibrium.h"
 
 namespace stiffscope::robot {
 
 bool GravityLoad::any() const {
+  if (!balancers.empty()) return true;
   return gravity_in_base.squaredNorm() > 0.0 && !bodies.empty() &&
          std::any_of(bodies.begin() + 1, bodies.end(), [](const BodyMass& body) { return body.mass_kg > 0.0; });
 }
@@ -25,6 +27,11 @@ GravityLoad gravityLoad(const Robot& nominal, const std::optional<Tool>& tool,
     const bool own = nominal.axes_in_base_at_zero.jointOf(static_cast<int>(body) - 1) >= 0;
     const bool carries = own && body >= 2 && static_cast<int>(body) <= nominal.armAxes() + 1;
     if (carries && weight.bodies[body].mass_kg <= 0.0) weight.links_known = false;
+  }
+  weight.balancers = nominal.balancers;
+  for (Balancer& balancer : weight.balancers) {
+    for (BalancerEnd* end : {&balancer.from, &balancer.to})
+      end->in_base_at_zero = base_from_base_link * end->in_base_at_zero;
   }
   if (tool && tool->mass_kg > 0.0) {
     BodyMass& last = weight.bodies.back();
@@ -52,6 +59,10 @@ JointVector weightTorque(const Robot& robot, const ArmPosture& posture, const Gr
     moment += (posture.motion[body] * weight.bodies[body].com_in_base_at_zero).cross(pull);
     const metrology::Line axis = axisAt(robot, posture, i);
     torque[i] = axis.direction.dot(moment - axis.point.cross(force));
+  }
+  if (!weight.balancers.empty()) {
+    const ArmAxes axes = axesAt(robot, posture);
+    for (const Balancer& balancer : weight.balancers) torque += balancerTorque(axes, posture, balancer);
   }
   return robot.axes_in_base_at_zero.torques(torque);
 }

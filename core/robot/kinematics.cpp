@@ -90,14 +90,4 @@ bool Robot::wristStandsApart() const {
   return axes_in_base_at_zero.couplings->turns.topRightCorner(armAxes(), joints() - arm).isZero(0.0);
 }
 
-bool withinAxisLimits(const Robot& robot, const JointVector& q) {
-  const JointVector angles = robot.axes_in_base_at_zero.angles(q);
-  for (std::size_t axis = 0; axis < robot.axis_limits.size(); ++axis) {  // a robot that states none has none
-    const JointLimits& limits = robot.axis_limits[axis];
-    const double angle = angles[static_cast<Eigen::Index>(axis)];
-    if (angle < limits.lower || angle > limits.upper) return false;
-  }
-  return true;
-}
-
 }  // namespace stiffscope::robot

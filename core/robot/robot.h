@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "metrology/lines.h"
@@ -68,6 +69,32 @@ struct Rail {
   double lower = 0.0, upper = 0.0;                               ///< limits of the position, m
 };
 
+/// A coil spring by its maker's data: `tension_n` at `length_m`, and `rate_n_per_m` more by length. Pulls its ends
+/// together where the tension is positive.
+struct SpringLaw {
+  double rate_n_per_m = 0.0, tension_n = 0.0, length_m = 0.0;
+};
+
+/// A gas cylinder: gauge pressure and gas volume at `length_m`, p V^exponent constant with p absolute (1: the gas keeps
+/// its temperature, as it does at rest). `pushes`: its volume grows with its length, else it shrinks and it pulls.
+struct GasLaw {
+  double pressure_pa = 0.0, area_m2 = 0.0, volume_m3 = 0.0, length_m = 0.0, exponent = 1.0;
+  bool pushes = false;
+};
+
+/// A point of a body, where it stands in the base frame with all joints at zero.
+struct BalancerEnd {
+  int body = 0;
+  Eigen::Vector3d in_base_at_zero = Eigen::Vector3d::Zero();
+};
+
+/// A spring or a gas cylinder between two bodies of the arm, that carries some of its weight (core/robot/balancer.h).
+struct Balancer {
+  std::variant<SpringLaw, GasLaw> law;
+  BalancerEnd from, to;
+  std::optional<double> shortest_m, longest_m;  ///< its stroke
+};
+
 /// Joints at the end of the arm whose axes meet in the wrist centre, where the machine has one: three, of four and five
 /// joints two. The joints before them, the arm's, carry the wrist centre.
 constexpr int wristJointsOf(int joints) { return joints >= 6 ? 3 : 2; }
@@ -126,6 +153,7 @@ struct Robot {
   PerBody<BodyMass> bodies;      ///< [0] the base (its mass plays no part), [i] the body beyond axis i
   std::vector<LinkFrame> links;  ///< every link on the chain, and every link rigidly fixed to one of those
   std::optional<Rail> rail;      ///< of an arm on a linear axis
+  std::vector<Balancer> balancers;
 
   int joints() const { return axes_in_base_at_zero.joints(); }                ///< that have angles and springs
   int axes() const { return static_cast<int>(axes_in_base_at_zero.size()); }  ///< as many as moving bodies
@@ -137,7 +165,8 @@ struct Robot {
   bool wristStandsApart() const;
 };
 
-/// Whether all axes are within their limits at joint angles q, also those that follow joints.
+/// Whether all axes are within their limits at joint angles q, also those that follow joints, and all balancers within
+/// their strokes.
 bool withinAxisLimits(const Robot& robot, const JointVector& q);
 
 /// Which joints' compliances are unknowns; the others' columns are left out (their compliance taken as 0).

@@ -390,12 +390,27 @@ void measureNestsIfDue(Session& session) {
 
 namespace {
 
+/// A spring or cylinder as its maker's sheet has it.
+robot::Balancer declaredBalancer(const LinkSpring& spring) {
+  const double length = (spring.to_in_base_at_zero - spring.from_in_base_at_zero).norm();
+  robot::Balancer balancer;
+  balancer.law = robot::SpringLaw{spring.rate, spring.tension, length};
+  if (const auto& gas = spring.gas)
+    balancer.law = robot::GasLaw{gas->pressure, gas->area, gas->volume, length, gas->exponent, gas->pushes};
+  balancer.from = {spring.from_body, spring.from_in_base_at_zero};
+  balancer.to = {spring.to_body, spring.to_in_base_at_zero};
+  return balancer;
+}
+
 /// What the laboratory declares, before anything is measured.
 campaign::Campaign declared(const ElasticMachine& machine, const SimulationSpec& spec) {
   campaign::Campaign campaign;
   campaign.name = spec.name;
   campaign.date = spec.date;
   campaign.robot = spec.nominal;
+  for (const LinkSpring& spring : spec.machine.link_springs) {
+    if (spring.declared) campaign.robot.balancers.push_back(declaredBalancer(spring));
+  }
   campaign.base_link = spec.base_link;
   campaign.flange_link = spec.flange_link;
   campaign.double_encoder = spec.double_encoder;

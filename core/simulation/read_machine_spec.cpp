@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "core/io/units.h"
@@ -269,8 +270,29 @@ SharedSpring readSharedSpring(const io::XmlNode& node, const MachineSpec& machin
   return spring;
 }
 
+CylinderGas readGas(const io::XmlNode& node) {
+  constexpr double kBar = 1e5, kSquareCentimetre = 1e-4, kLitre = 1e-3;
+  CylinderGas gas;
+  gas.pressure = positive(node, "gas_pressure_bar", kBar);
+  gas.area = positive(node, "gas_area_cm2", kSquareCentimetre);
+  gas.volume = positive(node, "gas_volume_l", kLitre);
+  if (node.has("gas_exponent")) gas.exponent = positive(node, "gas_exponent", 1.0);
+  if (gas.exponent < 1.0) node.refuse("gas_exponent", node.requiredAttribute("gas_exponent"), "expected 1 or more");
+  gas.pushes = choice<bool>(node, "gas_acts", {{"pull", false}, {"push", true}});
+  return gas;
+}
+
+/// What a campaign can declare is one of the two laws.
+void requireOneLaw(const io::XmlNode& node, const LinkSpring& spring) {
+  if (spring.gas && (spring.rate != 0.0 || spring.tension != 0.0))
+    node.refuse("declared", "true", "expected gas without rate_n_per_m and tension_n beside it, or those without gas");
+}
+
 LinkSpring readLinkSpring(const io::XmlNode& node, const MachineSpec& machine) {
-  refuseUnknown(node, {"from_body", "to_body", "from_mm", "to_mm", "rate_n_per_m", "tension_n"});
+  const std::vector<std::string> of_gas{"gas_pressure_bar", "gas_area_cm2", "gas_volume_l", "gas_exponent", "gas_acts"};
+  std::vector<std::string> known{"from_body", "to_body", "from_mm", "to_mm", "rate_n_per_m", "tension_n", "declared"};
+  known.insert(known.end(), of_gas.begin(), of_gas.end());
+  refuseUnknown(node, known);
   LinkSpring spring;
   spring.from_body = integer(node, "from_body", 0, jointsOf(machine));
   spring.to_body = integer(node, "to_body", 0, jointsOf(machine));
@@ -284,6 +306,10 @@ LinkSpring readLinkSpring(const io::XmlNode& node, const MachineSpec& machine) {
   }
   spring.rate = nonNegativeOr(node, "rate_n_per_m", 1.0, 0.0);
   spring.tension = numberOr(node, "tension_n", 1.0, 0.0);
+  if (std::any_of(of_gas.begin(), of_gas.end(), [&](const std::string& name) { return node.has(name); }))
+    spring.gas = readGas(node);
+  spring.declared = flag(node, "declared", false);
+  if (spring.declared) requireOneLaw(node, spring);
   return spring;
 }
 

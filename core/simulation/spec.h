@@ -124,17 +124,28 @@ struct JointStiffness {
   std::optional<ZeroWarming> zero_warming = std::nullopt;  ///< needs SimulationSpec::temperature
 };
 
+/// Gas in a cylinder between two bodies: `pressure` (Pa above the air's) and `volume` with all joints at zero, the
+/// absolute pressure times volume^exponent the same at every length.
+struct CylinderGas {
+  double pressure = 0.0, area = 0.0, volume = 0.0;  ///< Pa, m^2, m^3
+  double exponent = 1.0;
+  bool pushes = false;  ///< the volume grows as the ends go apart; else it shrinks
+};
+
 /// A straight spring between two bodies of the arm (0: the base, i: the body beyond joint i): from carousel
 /// to upper arm a gravity compensator, along the forearm a dress pack. With l the distance of its ends and
 /// l0 the same at all joints zero of the nominal arm, it pulls them together with
 ///   T(l) = tension + rate (l - l0),
-/// negative where it pushes. Its torque on a joint follows from where its ends stand, hence from the posture.
+/// negative where it pushes; gas adds its own pull. Its torque on a joint follows from where its ends stand, hence from
+/// the posture.
 struct LinkSpring {
   int from_body = 1, to_body = 2;
   Eigen::Vector3d from_in_base_at_zero = Eigen::Vector3d::Zero();  ///< m; must differ from `to`
   Eigen::Vector3d to_in_base_at_zero = Eigen::Vector3d::UnitZ();
   double rate = 0.0;     ///< N/m
   double tension = 0.0;  ///< N, at all joints zero
+  std::optional<CylinderGas> gas = std::nullopt;
+  bool declared = false;  ///< campaign.xml states it as a balancer: either gas or rate and tension
 };
 
 /// The spring with its bodies moved from their nominal places at zero.

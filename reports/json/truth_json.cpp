@@ -136,6 +136,7 @@ void addStructure(const simulation::SimulationSpec& spec, Json& list) {
          {"arms", shared.arms}});
   }
   for (const simulation::LinkSpring& spring : machine.link_springs) {
+    if (spring.declared) continue;
     // A spring on joint 2 alone is what the vocabulary calls a compensator.
     const bool on_joint_2 = spring.from_body == 1 && spring.to_body == 2;
     list.push_back({{"effect", on_joint_2 ? "gravity_compensator" : "dress_pack"},
@@ -145,6 +146,12 @@ void addStructure(const simulation::SimulationSpec& spec, Json& list) {
                     {"to_m", array(spring.to_in_base_at_zero)},
                     {"rate_n_per_m", spring.rate},
                     {"tension_n", spring.tension}});
+    if (!spring.gas) continue;
+    list.back()["gas"] = {{"pressure_pa", spring.gas->pressure},
+                          {"area_m2", spring.gas->area},
+                          {"volume_m3", spring.gas->volume},
+                          {"exponent", spring.gas->exponent},
+                          {"acts", spring.gas->pushes ? "push" : "pull"}};
   }
   for (const simulation::ThermalGrowth& growth : machine.growths) {
     list.push_back({{"effect", "thermal_growth"},

@@ -40,6 +40,11 @@ std::string comparisonWords(comparison::RemarkId id, const RemarkValues& values)
     case other_masses:
       return fmt::format("the URDFs' links have different masses, {:.0f} kg and {:.0f} kg in all", values.number(0),
                          values.number(1));
+    case other_balancers:
+      return fmt::format(
+          "the campaigns state different balancers, {} and {} of them: what these change is taken for a change of the "
+          "machine where only one statement is right",
+          values.count(0), values.count(1));
     case same_encoders:
       return fmt::format("both campaigns were measured with double encoders {}",
                          values.count(0) != 0 ? "active" : "inactive");

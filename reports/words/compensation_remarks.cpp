@@ -27,6 +27,9 @@ std::string compensationWords(compensation::RemarkId id, const RemarkValues& val
           "axis '{}', which follows other joints, would stand at {:.3f} deg, outside its limits {:.1f} to "
           "{:.1f} deg",
           values.name(0), degrees(1), degrees(2), degrees(3));
+    case balancer_outside_stroke:
+      return fmt::format("balancer {} would be {:.1f} mm long, outside its stroke", values.count(0),
+                         values.number(1) / io::kMillimetre);
     case near_singularity:
       return fmt::format("too near a singularity: conditioning {:.4f}, at least {:g} is asked for", values.number(0),
                          values.number(1));

@@ -22,6 +22,8 @@ const char* refusalWords(compensation::RemarkId reason) {
       return "a command would be outside a joint's limits";
     case follower_outside_limits:
       return "an axis that follows others would be outside its limits";
+    case balancer_outside_stroke:
+      return "a balancer would be outside its stroke";
     case near_singularity:
       return "the posture is too near a singularity";
     case turns_joint_of_negative_k:

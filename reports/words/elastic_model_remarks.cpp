@@ -29,6 +29,9 @@ std::string elasticModelWords(elastic_model::RemarkId id, const RemarkValues& va
       return effect() + ": load_point stands where the load acts as corrected";
     case no_masses:
       return "arm and tool have no weight: the URDF states no masses of the links";
+    case no_balancers:
+      return fmt::format("no balancer is in the file ({} stated): the arm in it sags as it would without",
+                         values.count(0));
     case no_inertia:
       return fmt::format(
           "the URDF states no inertia that a rigid body has for {}: {:g} kg m^2 about every axis stand in, without "

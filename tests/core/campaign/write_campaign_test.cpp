@@ -67,6 +67,31 @@ void expectSameTables(const campaign::Campaign& a, const campaign::Campaign& b) 
   });
 }
 
+void expectSameBalancers(const std::vector<robot::Balancer>& a, const std::vector<robot::Balancer>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(std::tie(a[i].from.body, a[i].to.body), std::tie(b[i].from.body, b[i].to.body));
+    expectClose(a[i].from.in_base_at_zero, b[i].from.in_base_at_zero, kAttribute);
+    expectClose(a[i].to.in_base_at_zero, b[i].to.in_base_at_zero, kAttribute);
+    EXPECT_NEAR(a[i].shortest_m.value_or(0), b[i].shortest_m.value_or(0), kAttribute);
+    EXPECT_NEAR(a[i].longest_m.value_or(0), b[i].longest_m.value_or(0), kAttribute);
+    ASSERT_EQ(a[i].law.index(), b[i].law.index());
+    if (const auto* spring = std::get_if<robot::SpringLaw>(&a[i].law)) {
+      const auto& other = std::get<robot::SpringLaw>(b[i].law);
+      EXPECT_NEAR(spring->rate_n_per_m, other.rate_n_per_m, kAttribute * spring->rate_n_per_m);
+      EXPECT_NEAR(spring->tension_n, other.tension_n, kAttribute * std::abs(spring->tension_n));
+      EXPECT_NEAR(spring->length_m, other.length_m, kAttribute);
+      continue;
+    }
+    const auto &gas = std::get<robot::GasLaw>(a[i].law), &other = std::get<robot::GasLaw>(b[i].law);
+    EXPECT_NEAR(gas.pressure_pa, other.pressure_pa, kAttribute * gas.pressure_pa);
+    EXPECT_NEAR(gas.area_m2, other.area_m2, kAttribute * gas.area_m2);
+    EXPECT_NEAR(gas.volume_m3, other.volume_m3, kAttribute * gas.volume_m3);
+    EXPECT_NEAR(gas.length_m, other.length_m, kAttribute);
+    EXPECT_EQ(std::tie(gas.exponent, gas.pushes), std::tie(other.exponent, other.pushes));
+  }
+}
+
 void expectSame(const campaign::Campaign& a, const campaign::Campaign& b) {
   EXPECT_EQ(std::tie(a.name, a.date, a.base_link, a.flange_link, a.pose_ids, a.nest_ids),
             std::tie(b.name, b.date, b.base_link, b.flange_link, b.pose_ids, b.nest_ids));
@@ -104,6 +129,7 @@ void expectSame(const campaign::Campaign& a, const campaign::Campaign& b) {
     EXPECT_EQ(a.known_stiffness[i].stiffness, b.known_stiffness[i].stiffness);
     EXPECT_EQ(a.known_stiffness[i].sd, b.known_stiffness[i].sd);
   }
+  expectSameBalancers(a.robot.balancers, b.robot.balancers);
   expectSameTables(a, b);
 }
 
@@ -126,6 +152,19 @@ void expectRoundTrip(const campaign::Campaign& campaign, const std::filesystem::
 TEST(WriteCampaign, ReadsBackAsItWas) {
   const SmallCampaign files;
   expectRoundTrip(campaign::readCampaign(files.folder()).campaign, files.folder() / "robot.urdf");
+}
+
+TEST(WriteCampaign, ReadsBackBalancersAsTheyWere) {
+  const SmallCampaign files;
+  campaign::Campaign campaign = campaign::readCampaign(files.folder()).campaign;
+  campaign.robot.balancers = {
+      {robot::SpringLaw{41234.5, -6789.0, 0.8125}, {1, {-0.31, 0.05, 0.52}}, {2, {0.32, 0.11, 1.23}}, 0.05, 4.5},
+      {robot::GasLaw{143.5e5, 17.3e-4, 16.1e-3, 0.912, 1.25, true},
+       {2, {0.3, 0.1, 1.2}},
+       {0, {-0.4, 0.1, 0.3}},
+       {},
+       {}}};
+  expectRoundTrip(campaign, files.folder() / "robot.urdf");
 }
 
 TEST(WriteCampaign, ReadsBackSevenJointsAsTheyWere) {

@@ -273,6 +273,20 @@ TEST(Comparison, OneMachineHasOneUrdf) {
   EXPECT_TRUE(found.cautions[2].is(comparison::RemarkId::other_masses)) << reports::words(found.cautions[2]);
 }
 
+TEST(Comparison, OneMachineHasTheSameBalancers) {
+  campaign::Campaign before = day(exampleCompliance(), 1, 0.0, 2, 0.0);
+  before.robot.balancers = {{robot::SpringLaw{2e3, 500.0, 0.9}, {1, {-0.3, 0, 0.9}}, {2, {0.4, 0, 1.3}}, {}, {}}};
+  campaign::Campaign after = before;
+  // The same spring, stated at another length.
+  after.robot.balancers[0].law = robot::SpringLaw{2e3, 700.0, 1.0};
+  EXPECT_TRUE(compared(before, after).cautions.empty());
+  after.robot.balancers[0].law = robot::SpringLaw{2e3, 900.0, 0.9};
+  const comparison::Comparison found = compared(before, after);
+  ASSERT_FALSE(found.cautions.empty());
+  EXPECT_EQ(reports::words(found.cautions[0]).rfind("the campaigns state different balancers, 1 and 1 of them", 0), 0u)
+      << reports::words(found.cautions[0]);
+}
+
 TEST(Comparison, DifferentMachinesAreNotCompared) {
   campaign::Campaign before = day(exampleCompliance(), 1, 0.0, 2, 0.0), after = before;
   after.robot.axes_in_base_at_zero[2].point.x() += 0.2;

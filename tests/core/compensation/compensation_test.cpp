@@ -108,6 +108,17 @@ TEST(Compensate, RefusesWithTheReason) {
   EXPECT_EQ(reports::words(arm.run(fine).reason), "joint 2 stands at 10.000 deg, outside its limits -57.3 to 5.7 deg");
   arm.geometry.arm.limits[1] = {-6.2, 6.2};
 
+  // On the second axis's line: its length is the same in every posture.
+  robot::Balancer rod;
+  const metrology::Line& second = arm.geometry.arm.axes_in_base_at_zero[1];
+  rod.from = {1, second.point}, rod.to = {2, second.point + 0.3 * second.direction};
+  rod.shortest_m = 0.35;
+  arm.geometry.arm.balancers = {rod};
+  EXPECT_EQ(reports::words(arm.run(fine).reason), "balancer 1 would be 300.0 mm long, outside its stroke");
+  arm.geometry.arm.balancers[0].shortest_m = 0.25;
+  EXPECT_TRUE(arm.run(fine).solved);
+  arm.geometry.arm.balancers.clear();
+
   arm.estimate.identifiable[3] = false;
   EXPECT_NE(reports::words(arm.run(fine).reason).find("k4 is not known"), std::string::npos);
   arm.estimate.identifiable[3] = true;

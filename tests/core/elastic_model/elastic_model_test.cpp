@@ -213,6 +213,15 @@ TEST(ElasticModel, WithoutMassesNothingWeighs) {
   EXPECT_TRUE(model.remarks[0].is(elastic_model::RemarkId::no_masses));
 }
 
+TEST(ElasticModel, SaysThatABalancerIsNotInIt) {
+  Arm arm;
+  arm.geometry.weight.balancers.resize(2);
+  const elastic_model::ElasticModel model = arm.model();
+  ASSERT_EQ(model.remarks.size(), 1u);
+  EXPECT_EQ(reports::words(model.remarks[0]),
+            "no balancer is in the file (2 stated): the arm in it sags as it would without");
+}
+
 TEST(ElasticModel, AnInertiaThatNoBodyHasIsReplacedAndNamed) {
   const Arm arm;
   elastic_model::ElasticSource source{arm.campaign, arm.geometry, arm.estimate};

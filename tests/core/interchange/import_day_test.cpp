@@ -187,6 +187,21 @@ TEST_F(ImportDay, AJointThatTheRobotHasNotIsRefused) {
   expectSays(refusal("<joint_reading joint=\"7\" sign=\"-1\"/>" + kByClock), {"DAY.xml:5", "joint", "'7'", "1 to 6"});
 }
 
+TEST_F(ImportDay, ABalancerOfTheDayIsTheCampaigns) {
+  writeFiles();
+  const std::string balancer =
+      "<balancer kind=\"spring\" from_link=\"link_1\" from_mm=\"-900 0 0\" to_link=\"link_2\" to_mm=\"-160 0 190\" "
+      "rate_n_per_m=\"2e4\" tension_n=\"5e3\" length_mm=\"773\"/>";
+  const auto balancers = imported(balancer + kByClock).campaign.robot.balancers;
+  ASSERT_EQ(balancers.size(), 1u);
+  EXPECT_EQ(balancers[0].to.body, 2);
+  // Axis 2 of the sample's arm stands 0.41 m before axis 1 and 0.94 m up.
+  EXPECT_LT((balancers[0].to.in_base_at_zero - Eigen::Vector3d(0.25, 0, 1.13)).norm(), 1e-12);
+  std::string elsewhere = balancer;
+  elsewhere.replace(elsewhere.find("link_2"), 6, "link_7");
+  expectSays(refusal(elsewhere + kByClock), {"DAY.xml:5", "to_link", "'link_7'", "expected a link of the robot"});
+}
+
 TEST_F(ImportDay, AWrongSignCouplingOrUnitIsRefusedAndNamed) {
   writeFiles();
   const std::string rest = kTracker + "<log file=\"karel.csv\"/><join by=\"clock\"/>";

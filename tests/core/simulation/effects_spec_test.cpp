@@ -90,6 +90,29 @@ TEST_F(SimulationEffectsSpec, readsWhatAJointHas) {
   EXPECT_EQ(machine.curves[0].curve.sliders[2].limit, 40.0);  // 1 : 2 : 3 of 80 Nm
 }
 
+TEST_F(SimulationEffectsSpec, readsGasAndWhatIsDeclared) {
+  const std::string ends = "<spring from_body='1' to_body='2' from_mm='0 0 900' to_mm='300 0 1400' ";
+  const simulation::SimulationSpec spec =
+      read(ends +
+           "gas_pressure_bar='150' gas_area_cm2='17' gas_volume_l='6' gas_exponent='1.2' gas_acts='pull' "
+           "declared='true'/>" +
+           ends + "tension_n='1e4'/>");
+  const simulation::LinkSpring& spring = spec.machine.link_springs.at(0);
+  EXPECT_NEAR(spring.gas->pressure, 150e5, 1e-6);
+  EXPECT_NEAR(spring.gas->area, 17e-4, 1e-15);
+  EXPECT_NEAR(spring.gas->volume, 6e-3, 1e-15);
+  EXPECT_EQ(spring.gas->exponent, 1.2);
+  EXPECT_FALSE(spring.gas->pushes);
+  EXPECT_TRUE(spring.declared);
+  EXPECT_FALSE(spec.machine.link_springs.at(1).declared || spec.machine.link_springs.at(1).gas);
+  EXPECT_NE(complaint(ends + "gas_pressure_bar='150'/>").find("gas_area_cm2"), std::string::npos);
+  const std::string whole = ends + "gas_pressure_bar='150' gas_area_cm2='17' gas_volume_l='6' ";
+  EXPECT_NE(complaint(whole + "gas_acts='draw'/>").find("gas_acts: 'draw'"), std::string::npos);
+  EXPECT_NE(complaint(whole + "gas_acts='push' gas_exponent='0.9'/>").find("expected 1 or more"), std::string::npos);
+  EXPECT_NE(complaint(whole + "gas_acts='push' tension_n='1' declared='true'/>").find("expected gas without"),
+            std::string::npos);
+}
+
 TEST_F(SimulationEffectsSpec, readsWhatTheMachineHas) {
   const simulation::SimulationSpec spec = read(
       "<base rotation_nm_per_rad='1e7 1e7 1e7' translation_n_per_m='1e9 1e9 1e9'>"

@@ -21,7 +21,9 @@ simulation::SimulationSpec everySpring() {
   machine.joints[3].stages = simulation::JointStages{{50.0, 200.0}, {2e5, 3e5, 5e5}};
   machine.shared_springs = {{{1, 2}, {0.3, -0.25}, 8e6}, {{4, 5}, {1.0, 0.4}, 1e5}};
   machine.link_springs = {{1, 2, {-0.2, 0.3, 0.7}, {0.3, 0.3, 1.6}, 3e4, 1.2e4},
-                          {0, 5, {0.1, -0.4, 0.5}, {1.6, -0.1, 2.4}, 2e3, 300.0}};
+                          {0, 5, {0.1, -0.4, 0.5}, {1.6, -0.1, 2.4}, 2e3, 300.0},
+                          {1, 2, {-0.4, 0.1, 0.9}, {0.3, 0.2, 1.1}, 0, 0, CylinderGas{40e5, 1e-3, 2e-3, 1.3, false}},
+                          {0, 3, {-0.3, 0, 0.4}, {0.5, 0.1, 1.9}, 0, 0, CylinderGas{30e5, 5e-4, 3e-3, 1.0, true}}};
   machine.tool_plate = simulation::ToolPlate{{3e8, 4e8, 9e8}, {4e6, 5e6, 6e6}};
   machine.base_translation = Vector3d(1e9, 1e9, 3e9);
   machine.base_contacts = {{0, true, 4e7, 1e-5}};
@@ -129,6 +131,64 @@ TEST(SimulationSprings, gravityCompensatorByHand) {
   JointVector q = JointVector::Zero(6);
   q[1] = M_PI / 6;
   EXPECT_NEAR(simulation::equilibrium(machine, q).deformation[0], torque / 1e8, 1e-4 * std::abs(torque / 1e8));
+}
+
+// 100 bar on 20 cm2 hold 20 kN at 0.6 m. Pulled out by 0.25 m, 0.5 l of 2 l are gone: the absolute pressure is 4/3 of
+// what it was, or (4/3)^1.4; pushed out as far it is 4/5.
+TEST(SimulationSprings, gasByHand) {
+  const PerBody<Eigen::Isometry3d> at_zero(3, Eigen::Isometry3d::Identity());
+  PerBody<Eigen::Isometry3d> longer = at_zero;
+  longer[2].translation().x() = 0.25;
+  LinkSpring spring{1, 2, {0, 0, 0}, {0.6, 0, 0}, 0.0, 0.0, CylinderGas{100e5, 20e-4, 2e-3, 1.0, false}};
+  EXPECT_NEAR(springNow(spring, at_zero).pull.x(), 20e3, 1e-9);
+  EXPECT_EQ(springNow(spring, at_zero).energy, 0.0);
+  const double absolute = 100e5 + 101325.0;
+  EXPECT_NEAR(springNow(spring, longer).pull.x(), (absolute * 4 / 3 - 101325.0) * 20e-4, 1e-9);
+  spring.gas->exponent = 1.4;
+  EXPECT_NEAR(springNow(spring, longer).pull.x(), (absolute * std::pow(4.0 / 3, 1.4) - 101325.0) * 20e-4, 1e-9);
+  spring.gas->pushes = true;
+  spring.gas->exponent = 1.0;
+  EXPECT_NEAR(springNow(spring, at_zero).pull.x(), -20e3, 1e-9);
+  EXPECT_NEAR(springNow(spring, longer).pull.x(), -(absolute * 4 / 5 - 101325.0) * 20e-4, 1e-9);
+}
+
+TEST(SimulationSprings, gasPullsByTheSlopeOfItsEnergy) {
+  for (const bool pushes : {false, true}) {
+    for (const double exponent : {1.0, 1.25}) {
+      const LinkSpring spring{
+          1, 2, {0, 0, 0}, {0.6, 0, 0}, 0.0, 0.0, CylinderGas{100e5, 20e-4, 2e-3, exponent, pushes}};
+      const auto at = [&](double x) {
+        PerBody<Eigen::Isometry3d> motions(3, Eigen::Isometry3d::Identity());
+        motions[2].translation().x() = x;
+        return springNow(spring, motions);
+      };
+      for (const double x : {-0.2, 0.0, 0.3}) {
+        const double slope = (at(x + 1e-6).energy - at(x - 1e-6).energy) / 2e-6;
+        // Some 1e4 J are rounded to 1e-12, over 2e-6.
+        EXPECT_NEAR(at(x).pull.x(), slope, 1e-3) << pushes << exponent << x;
+      }
+    }
+  }
+}
+
+TEST(SimulationSprings, aDeclaredOneStandsInTheCampaign) {
+  SimulationSpec spec = armSpec();
+  spec.machine.link_springs = {
+      {1, 2, {-0.2, 0.3, 0.7}, {0.3, 0.3, 1.6}, 3e4, 1.2e4},
+      {1, 2, {-0.4, 0.1, 0.9}, {0.3, 0.2, 1.1}, 0, 0, CylinderGas{40e5, 1e-3, 2e-3, 1.3, true}},
+      {0, 3, {-0.3, 0, 0.4}, {0.5, 0.1, 1.9}, 2e3, 500.0}};
+  EXPECT_TRUE(measureWithoutNoise(buildMachine(spec), spec).robot.balancers.empty());
+  spec.machine.link_springs[1].declared = spec.machine.link_springs[2].declared = true;
+  const auto balancers = measureWithoutNoise(buildMachine(spec), spec).robot.balancers;
+  ASSERT_EQ(balancers.size(), 2u);
+  const auto& gas = std::get<robot::GasLaw>(balancers[0].law);
+  EXPECT_EQ(gas.pressure_pa, 40e5);
+  EXPECT_EQ(gas.exponent, 1.3);
+  EXPECT_TRUE(gas.pushes);
+  EXPECT_NEAR(gas.length_m, std::sqrt(0.49 + 0.01 + 0.04), 1e-15);
+  EXPECT_EQ(balancers[0].from.body, 1);
+  EXPECT_EQ(std::get<robot::SpringLaw>(balancers[1].law).tension_n, 500.0);
+  EXPECT_EQ(balancers[1].to.in_base_at_zero, Vector3d(0.5, 0.1, 1.9));
 }
 
 // A spring from the base to the arm pulls the base as hard as the arm: nothing on the pedestal's own spring.
