@@ -24,6 +24,7 @@ void addHelp(CLI::App& app, Run& run) {
   command->callback([words, &app, &run] {
     run = [words, &app] {
       const CLI::App* about = &app;
+      std::string above;  // "stiffscope import": what the usage of `help import campaign` begins with, as of --help
       for (const std::string& word : *words) {
         const CLI::App* inner = nullptr;
         std::vector<std::string> known;
@@ -34,9 +35,10 @@ void addHelp(CLI::App& app, Run& run) {
         if (inner == nullptr) {
           throw io::InputError({"help"}, word, "expected a command" + io::nearestNameHint(word, known));
         }
+        above += (above.empty() ? "" : " ") + about->get_name();
         about = inner;
       }
-      printText(about->help());
+      printText(about->help(above));
       return kDone;
     };
   });

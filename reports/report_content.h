@@ -91,6 +91,8 @@ struct Figure {
   std::vector<FigureMark> marks = {};     ///< empty: nothing is laid over it
   std::string value_name, category_name;  ///< what the axes say: "Residual (µm)", "Posture"
   std::string section = "figures";        ///< id of the section of the page that it stands in; see kFigureSections
+  /// Which of the report's campaigns it is of, by its place among them; empty: of all, or of the only one.
+  std::optional<std::size_t> campaign = std::nullopt;
 };
 
 /// The sections that have figures, in the order of the page: figures are counted in it.

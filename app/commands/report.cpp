@@ -284,13 +284,17 @@ std::vector<std::vector<conformity::Decision>> decisionsOf(const conformity::Lim
 /// Each scene stands for its campaign's figure on the first page.
 void addScenes(const std::list<Result>& results, reports::ReportContent& content) {
   std::size_t i = 0;
+  const std::vector<std::optional<DeflectionScene>> pictures = deflectionScenes(content.campaigns);
   for (const Result& one : results) {
+    const std::optional<DeflectionScene>& picture = pictures[i];
+    const std::string scene =
+        picture && !one.scene.empty() ? beginningAs(one.scene, content.campaigns[i], *picture) : one.scene;
     ++i;
     const std::string suffix = results.size() > 1 ? fmt::format("-{}", i) : std::string();
     for (const char* id : {"deflection", "accuracy-before", "sweeps"}) {
       const bool there = std::any_of(content.figures.begin(), content.figures.end(),
                                      [&](const reports::Figure& figure) { return figure.id == id + suffix; });
-      if (there && !one.scene.empty()) content.scenes.push_back({id + suffix, one.scene});
+      if (there && !scene.empty()) content.scenes.push_back({id + suffix, scene});
     }
   }
 }

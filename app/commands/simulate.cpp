@@ -36,8 +36,10 @@ int simulateDay(const SimulateRequest& request, const Outlet& outlet) {
                 "campaign; for readings without noise declare some and set true_noise_factor=\"0\"");
   }
   const reports::Json truth = reports::truthJson(spec);
-  campaign::writeCampaign(simulation::simulate(spec), spec.urdf_file, request.out,
-                          {{"truth.json", textOf(truth) + '\n'}});
+  campaign::Campaign simulated = simulation::simulate(spec);
+  // Whoever is handed the folder, or a report of it, is not to take it for a machine that was measured.
+  simulated.texts.note = "simulated by stiffscope; no machine was measured.";
+  campaign::writeCampaign(simulated, spec.urdf_file, request.out, {{"truth.json", textOf(truth) + '\n'}});
   outlet.deliver([&] { return truth; }, [&] { return request.out + ": campaign written\n"; });
   return kDone;
 }

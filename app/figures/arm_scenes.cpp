@@ -4,11 +4,13 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <set>
 #include <utility>
 #include <vector>
 
+#include "core/comparison/matched_postures.h"
 #include "core/io/units.h"
 #include "core/robot/kinematics.h"
 #include "metrology/lines.h"
@@ -96,8 +98,6 @@ void nameVectors(render::ArmScene& scene, std::optional<identification::Method> 
   scene.residual_name = fmt::format("residual of {}", reports::shortName(*method));
 }
 
-std::string kilonewtons(double newtons) { return fmt::format("{}\u00a0kN", reports::fixed(1e-3 * newtons, 2)); }
-
 /// R0 in the scene, whose floor is at the foot of axis 1.
 Eigen::Vector3d placeOfR0(const reports::ReportCampaign& one) {
   return {0.0, 0.0, heightOfR0(one.identification.frames)};
@@ -115,7 +115,7 @@ std::string loadWords(const identification::Identification& identification) {
     forces.push_back(load_case.wrench.force.norm());
   const auto [least, most] = std::minmax_element(forces.begin(), forces.end());
   if (*most <= 1.02 * *least) return "The same load moves";
-  return fmt::format("Loads of {} to {} move", kilonewtons(*least), kilonewtons(*most));
+  return fmt::format("Loads of {} to {} move", reports::forceWords(*least), reports::forceWords(*most));
 }
 
 /// The point whose vectors the scene of all postures shows.
@@ -141,7 +141,8 @@ render::ArmScene postureScene(const reports::ReportCampaign& one, std::size_t in
                               std::optional<identification::Method> method) {
   const double force = one.identification.cases[index].wrench.force.norm();
   render::ArmScene scene;
-  scene.title = fmt::format("Deflection in posture {} under {}", reports::postureName(one, index), kilonewtons(force));
+  scene.title =
+      fmt::format("Deflection in posture {} under {}", reports::postureName(one, index), reports::forceWords(force));
   scene.subtitle = reports::asIs(one.campaign.name);
   scene.poses = {armPose(one, index, method)};
   nameVectors(scene, method);
@@ -170,12 +171,78 @@ std::optional<Eigen::Vector3d> viewAcross(const Eigen::Vector3d& force, const Ei
 
 }  // namespace
 
-render::ArmScene deflectionScene(const reports::ReportCampaign& one) {
-  const std::size_t median = medianCase(one);
-  render::ArmScene scene = postureScene(one, median, reports::shownMethod(one.identification));
+namespace {
+
+render::ArmScene deflectionScene(const reports::ReportCampaign& one, std::size_t load_case) {
+  render::ArmScene scene = postureScene(one, load_case, reports::shownMethod(one.identification));
   const auto& joints = scene.poses.front().joint_points;
-  scene.view_direction = viewAcross(one.identification.cases[median].wrench.force, joints.back() - joints.front());
+  scene.view_direction = viewAcross(one.identification.cases[load_case].wrench.force, joints.back() - joints.front());
   return scene;
+}
+
+/// To the least magnification of all, from where the first is seen; each fits what the others show.
+void seeAlike(std::vector<DeflectionScene*>& scenes) {
+  double magnification = std::numeric_limits<double>::infinity(), residual_factor = magnification;
+  for (const DeflectionScene* one : scenes) residual_factor = std::min(residual_factor, one->scene.residual_factor);
+  for (DeflectionScene* one : scenes) {
+    one->scene.residual_factor = residual_factor;
+    magnification = std::min(magnification, render::automaticMagnification(one->scene));
+  }
+  for (DeflectionScene* one : scenes) {
+    one->scene.magnification = magnification;
+    one->scene.view_direction = scenes.front()->scene.view_direction;
+    for (const DeflectionScene* other : scenes) {
+      if (other == one) continue;
+      const auto points = render::pointsOf(other->scene, magnification);
+      one->scene.also_fitted.insert(one->scene.also_fitted.end(), points.begin(), points.end());
+    }
+  }
+}
+
+/// The load case of `other` that is case `index` of `one`; none where it lacks that.
+std::optional<std::size_t> sameCase(const reports::ReportCampaign& one, std::size_t index,
+                                    const reports::ReportCampaign& other) {
+  const comparison::MatchedPostures matched =
+      comparison::matchPostures(one.campaign, one.identification, other.campaign, other.identification);
+  for (const comparison::PosturePair& pair : matched.pairs) {
+    if (pair.before == index) return pair.after;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+render::ArmScene deflectionScene(const reports::ReportCampaign& one) { return deflectionScene(one, medianCase(one)); }
+
+std::vector<std::optional<DeflectionScene>> deflectionScenes(const std::vector<reports::ReportCampaign>& campaigns) {
+  std::vector<std::optional<DeflectionScene>> scenes(campaigns.size());
+  std::vector<std::size_t> loaded;
+  for (std::size_t i = 0; i < campaigns.size(); ++i) {
+    if (!campaigns[i].identification.cases.empty()) loaded.push_back(i);
+  }
+  std::vector<std::size_t> of_first;  // the case of each loaded campaign in the posture of the first
+  for (const std::size_t i : loaded) {
+    const reports::ReportCampaign& first = campaigns[loaded.front()];
+    const auto same = i == loaded.front() ? medianCase(first) : sameCase(first, medianCase(first), campaigns[i]);
+    if (same) of_first.push_back(*same);
+  }
+  const bool alike = of_first.size() == loaded.size();
+  std::vector<DeflectionScene*> drawn;
+  for (std::size_t k = 0; k < loaded.size(); ++k) {
+    const reports::ReportCampaign& one = campaigns[loaded[k]];
+    const std::size_t load_case = alike ? of_first[k] : medianCase(one);
+    DeflectionScene& made = scenes[loaded[k]].emplace();
+    made.load_case = load_case;
+    made.scene = deflectionScene(one, load_case);
+    made.scene.magnification = render::automaticMagnification(made.scene);
+    if (alike && k > 0) made.as_in = campaigns[loaded.front()].campaign.name;
+    drawn.push_back(&made);
+  }
+  if (alike && drawn.size() > 1) {
+    for (DeflectionScene* one : drawn) one->scene.magnification.reset();
+    seeAlike(drawn);
+  }
+  return scenes;
 }
 
 render::ArmScene allPosturesScene(const reports::ReportCampaign& one) {
@@ -198,22 +265,28 @@ render::ArmScene allPosturesScene(const reports::ReportCampaign& one) {
   return scene;
 }
 
-reports::Figure describeDeflectionScene(const reports::ReportCampaign& one, double magnification) {
-  const std::size_t index = medianCase(one);
+reports::Figure describeDeflectionScene(const reports::ReportCampaign& one, const DeflectionScene& drawn) {
+  const std::size_t index = drawn.load_case;
+  const double magnification = drawn.scene.magnification.value_or(1.0);
   const reports::JudgedPoint point = reports::judgedPoint(one);
   const double displacement = reports::kMmPerM * reports::displacementAt(one.identification, point.at_wrist)[index];
   reports::Figure figure;
   figure.id = "deflection";
   figure.title = fmt::format("Deflection in posture {}", reports::postureName(one, index));
-  figure.caption = fmt::format("The posture with the median displacement of {}, {}\u00a0mm, magnified {} times.",
-                               point.name, reports::fixed(displacement, 2), render::factorText(magnification));
+  const std::string factor = render::factorText(magnification), moved = reports::fixed(displacement, 2);
+  figure.caption =
+      drawn.as_in.empty()
+          ? fmt::format("The posture with the median displacement of {}, {}\u00a0mm, magnified {} times.", point.name,
+                        moved, factor)
+          : fmt::format("The same posture, view and scale as of {}: {} moves by {}\u00a0mm, magnified {} times.",
+                        reports::asIs(drawn.as_in), point.name, moved, factor);
   if (const auto shown = reports::shownMethod(one.identification)) {
     const double left = reports::kMmPerM * reports::residualAt(one.identification.of(*shown), point.at_wrist)[index];
     figure.caption += fmt::format(" Where the arrows part is what {} leaves: {}\u00a0mm at {}",
                                   reports::shortName(*shown), reports::significant(left, 2), point.name);
-    const double factor = deflectionScene(one).residual_factor;
+    const double longer = drawn.scene.residual_factor;
     figure.caption +=
-        factor > 1 ? fmt::format(", drawn {} times longer than the others.", reports::fixed(factor, 0)) : ".";
+        longer > 1 ? fmt::format(", drawn {} times longer than the others.", reports::fixed(longer, 0)) : ".";
   }
   figure.caption += fmt::format(" {}", framesWords(one));
   figure.alt = fmt::format(

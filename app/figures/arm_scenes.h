@@ -2,6 +2,8 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "core/identification/identify.h"
 #include "render/arm_scene.h"
@@ -35,12 +37,24 @@ render::ArmScene postureScene(const reports::ReportCampaign& one, std::size_t in
 /// The scene of the median posture (medianCase), by the method that the report shows.
 render::ArmScene deflectionScene(const reports::ReportCampaign& one);
 
+/// The scene of a campaign on the first page and the load case that it is of.
+struct DeflectionScene {
+  std::size_t load_case = 0;
+  render::ArmScene scene;  ///< with its magnification
+  std::string as_in = {};  ///< the campaign whose median posture this is; empty: its own (medianCase)
+};
+
+/// Of each campaign, empty of one without a load. Where all loaded ones measured the median posture of the first under
+/// the same load (comparison::matchPostures), all show that posture, from one place and to one scale, so that their
+/// arrows can be held against each other; else each its own.
+std::vector<std::optional<DeflectionScene>> deflectionScenes(const std::vector<reports::ReportCampaign>& campaigns);
+
 /// All postures, pale, with the displacement vectors of P_wrist alone (of the first reflector where P_wrist
 /// is not measured).
 render::ArmScene allPosturesScene(const reports::ReportCampaign& one);
 
 /// The words for both; pictures are still to be drawn. `magnification` as drawn.
-reports::Figure describeDeflectionScene(const reports::ReportCampaign& one, double magnification);
+reports::Figure describeDeflectionScene(const reports::ReportCampaign& one, const DeflectionScene& drawn);
 reports::Figure describeAllPostures(const reports::ReportCampaign& one, double magnification);
 
 /// The gap between model and machine on the arm: what is left of each reflector's displacement, in the load

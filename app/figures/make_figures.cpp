@@ -46,9 +46,8 @@ class FigureList {
     if (const auto drift = stationDrift(one_, station)) add(place, describeStationDrift(station), *drift);
   }
 
-  void addDeflection() {
-    const render::ArmScene scene = deflectionScene(one_);
-    add("opening", describeDeflectionScene(one_, render::automaticMagnification(scene)), scene, kOpening);
+  void addDeflection(const DeflectionScene& opening) {
+    add("opening", describeDeflectionScene(one_, opening), opening.scene, kOpening);
     if (one_.identification.cases.size() <= kMostGhosts) {
       const render::ArmScene all = allPosturesScene(one_);
       add("compensation", describeAllPostures(one_, render::automaticMagnification(all)), all, kScene);
@@ -121,10 +120,11 @@ class FigureList {
   std::vector<reports::Figure> figures_;
 };
 
-std::vector<reports::Figure> figuresOf(const reports::ReportCampaign& one, const FigureOptions& options) {
+std::vector<reports::Figure> figuresOf(const reports::ReportCampaign& one, const FigureOptions& options,
+                                       const std::optional<DeflectionScene>& opening) {
   FigureList list(one);
   const bool loaded = !one.identification.cases.empty();
-  if (loaded) list.addDeflection();
+  if (opening) list.addDeflection(*opening);
   if (loaded) list.addStiffness(options);
   if (one.workspace != nullptr) list.addWorkspace();
   if (one.accuracy != nullptr) list.addAccuracy();
@@ -146,11 +146,13 @@ std::vector<reports::Figure> makeFigures(const std::vector<reports::ReportCampai
                                          const FigureOptions& options,
                                          const std::optional<reports::AvoidedByEncoders>& avoided) {
   std::vector<reports::Figure> figures;
+  const std::vector<std::optional<DeflectionScene>> opening = deflectionScenes(campaigns);
   for (std::size_t i = 0; i < campaigns.size(); ++i) {
-    for (reports::Figure& figure : figuresOf(campaigns[i], options)) {
+    for (reports::Figure& figure : figuresOf(campaigns[i], options, opening[i])) {
       if (campaigns.size() > 1) {
         figure.id += fmt::format("-{}", i + 1);
         figure.title += fmt::format(" ({})", labelOf(campaigns[i].campaign));
+        figure.campaign = i;
       }
       figures.push_back(std::move(figure));
     }

@@ -43,8 +43,8 @@ Json paletteJson(const render::Palette& palette, const render::Colour& effects) 
           {"joint", colour(palette.joint)}};
 }
 
-Json vectorKind(const char* key, const std::string& name, const char* colour, double width) {
-  return {{"key", key}, {"name", name}, {"colour", colour}, {"width", width}};
+Json vectorKind(const char* key, const std::string& name, const char* colour, double width, double head = 15) {
+  return {{"key", key}, {"name", name}, {"colour", colour}, {"width", width}, {"head", head}};
 }
 
 /// Bytes of names that are not UTF-8 become U+FFFD.
@@ -167,9 +167,9 @@ std::string loadedSceneJson(const reports::ReportCampaign& one, const campaign::
   for (const NamedMaterial& method : methods)
     json["methods"].push_back(
         {{"key", reports::namesOf(method.method).key}, {"name", reports::namesOf(method.method).brief}});
-  json["vectors"].push_back(vectorKind("m", "measured", "measured", 5));
+  json["vectors"].push_back(vectorKind("m", "measured", "measured", 6, 20));
   if (!methods.empty()) {
-    json["vectors"].push_back(vectorKind("p", "predicted", "predicted", 2.5));
+    json["vectors"].push_back(vectorKind("p", "predicted", "predicted", 2.2, 10));
     json["vectors"].push_back(vectorKind("r", "residual", "residual", 3.5));
   }
   if (before) json["vectors"].push_back(vectorKind("e", "effects", "effects", 3.5));
@@ -184,6 +184,22 @@ std::string loadedSceneJson(const reports::ReportCampaign& one, const campaign::
     if (const auto& load = frame.scene.poses.front().load) made["load_at"] = placeJson(load->at);
     made["points"] = loadedPoints(frame, i, methods, before ? &*before : nullptr);
     json["frames"].push_back(std::move(made));
+  }
+  return sceneText(json);
+}
+
+std::string beginningAs(const std::string& scene, const reports::ReportCampaign& one, const DeflectionScene& picture) {
+  Json json = Json::parse(scene);
+  json["magnification"] = picture.scene.magnification.value_or(1.0);
+  json["residual_factor"] = picture.scene.residual_factor;
+  if (picture.scene.view_direction)
+    json["view"] = vectorJson(*picture.scene.view_direction, 0.01);
+  else
+    json.erase("view");
+  const identification::LoadCase& load_case = one.identification.cases[picture.load_case];
+  const Json& frames = json["frames"];
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (frames[i]["posture"] == load_case.pose && frames[i]["step"] == load_case.step) json["first"] = i;
   }
   return sceneText(json);
 }
@@ -219,7 +235,7 @@ std::string accuracySceneJson(const reports::ReportCampaign& one) {
   Json json = emptyScene(one);
   json["corrected"] = false;
   if (const auto scenes = accuracyScenes(one)) json["magnification"] = *scenes->before.magnification;
-  json["vectors"].push_back(vectorKind("m", "left by the calibrated geometry", "measured", 5));
+  json["vectors"].push_back(vectorKind("m", "left by the calibrated geometry", "measured", 6, 20));
   if (effects) {
     json["vectors"].push_back(vectorKind("r", "left with effects", "residual", 3.5));
     json["vectors"].push_back(vectorKind("e", "explained by the effects", "effects", 3.5));

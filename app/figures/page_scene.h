@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "app/figures/arm_scenes.h"
 #include "core/extended_model/extended_model.h"
 #include "reports/report_content.h"
 
@@ -21,6 +22,10 @@ namespace stiffscope::app {
 /// it was corrected for the effects of `one.improved`; what these took away is vector e. The rows of the load states
 /// must still be there. At most kMostScenePostures postures, evenly chosen.
 std::string loadedSceneJson(const reports::ReportCampaign& one, const campaign::Campaign& raw);
+
+/// The same scene, which begins as that of the first page's picture: in its posture, to its scale, from its view. Made
+/// by loadedSceneJson while the rows are there; only when all campaigns are read is it known how they are seen alike.
+std::string beginningAs(const std::string& scene, const reports::ReportCampaign& one, const DeflectionScene& picture);
 
 /// Of an unloaded day what the calibrated geometry leaves at each reflector (m), what the effects explain of it (e) and
 /// what is left (r). Empty where the day could not be calibrated.

@@ -216,13 +216,14 @@ reports::Figure describeWristSphere(const reports::ReportCampaign& one) {
   figure.id = "wrist-sphere";
   figure.title = "Residuals of the wrist's spheres";
   figure.caption = fmt::format(
-      "{} readings of {} about one centre; rms {}\u00a0µm. A line of means that stays at zero says that the wrist's "
+      "{} readings of {} about one centre; rms {}. A line of means that stays at zero says that the wrist's "
       "axes "
       "meet in one point; one wave over the turn would be a wrong centre, waves that differ by reflector axes that "
       "miss.",
       one.campaign.wrist_sweep->rows.size(),
       wrist.table.size() == 1 ? "one reflector" : fmt::format("{} reflectors", wrist.table.size()),
-      reports::significant(wrist.spheres.rms / io::kMicrometre, 2));
+      wrist.spheres.rms < io::kMillimetre ? reports::significant(wrist.spheres.rms / io::kMicrometre, 2) + "\u00a0µm"
+                                          : reports::significant(wrist.spheres.rms / io::kMillimetre, 2) + "\u00a0mm");
   std::size_t most = 0;
   for (const frames::WristTableRow& of : wrist.table) most = std::max(most, static_cast<std::size_t>(of.readings));
   const std::string drawn = drawnWords(most, kMostReadings, "readings of a reflector");

@@ -84,11 +84,11 @@ std::array<double, 3> classBounds(std::vector<double> values) {
   return bounds;
 }
 
-std::string classWords(const std::array<double, 3>& bounds, std::size_t k) {
+std::string classWords(const std::array<double, 3>& bounds, std::size_t k, const reports::LinearStiffnessUnit& unit) {
   const auto number = [](double value) { return reports::significant(value, 2); };
-  if (k == 0) return fmt::format("below {} N/µm", number(bounds[0]));
-  if (k == 3) return fmt::format("from {} N/µm", number(bounds[2]));
-  return fmt::format("{} to {} N/µm", number(bounds[k - 1]), number(bounds[k]));
+  if (k == 0) return fmt::format("below {} {}", number(bounds[0]), unit.name);
+  if (k == 3) return fmt::format("from {} {}", number(bounds[2]), unit.name);
+  return fmt::format("{} to {} {}", number(bounds[k - 1]), number(bounds[k]), unit.name);
 }
 
 }  // namespace
@@ -96,6 +96,7 @@ std::string classWords(const std::array<double, 3>& bounds, std::size_t k) {
 render::PointChart stiffnessSliceChart(const campaign::Campaign& campaign, const frames::Frames& frames,
                                        const WorkspaceStiffness& found) {
   const workspace::StiffnessSlice& slice = found.slice;
+  const reports::LinearStiffnessUnit unit = reports::stiffnessUnit(found);
   render::PointChart chart;
   chart.title = "Compliance of P_{TCP} in a vertical plane through axis 1";
   chart.subtitle =
@@ -107,20 +108,20 @@ render::PointChart stiffnessSliceChart(const campaign::Campaign& campaign, const
   for (const workspace::SlicePlace& one : slice.places) {
     const double softest = softestIn(inPlane(one.at.model, slice.outward));
     largest = std::max(largest, softest);
-    if (softest > 0.0) stiffness.push_back(io::kMicrometre / softest);
+    if (softest > 0.0) stiffness.push_back(1.0 / (unit.size * softest));
   }
   const double scale = largest > 0.0 ? 0.48 * slice.spacing / largest : 0.0;  // ellipses do not touch
   render::PointSeries springs = outline("by joint springs alone (K_{x})", render::colours::kNone);
   std::vector<render::PointSeries> classes;
   const std::array<double, 3> bounds = stiffness.empty() ? std::array<double, 3>{} : classBounds(stiffness);
   for (std::size_t k = 0; k < kStiffnessColours.size(); ++k)
-    classes.push_back(outline("softest " + classWords(bounds, k), kStiffnessColours[k]));
+    classes.push_back(outline("softest " + classWords(bounds, k, unit), kStiffnessColours[k]));
   for (const workspace::SlicePlace& one : slice.places) {
     const Eigen::Matrix2d model = inPlane(one.at.model, slice.outward);
     const double softest = softestIn(model);
     const render::PlotPoint centre{one.radius, one.height};
     if (!found.held.empty()) addEllipse(inPlane(one.at.springs, slice.outward), centre, scale, springs.points);
-    const double own = softest > 0.0 ? io::kMicrometre / softest : 0.0;
+    const double own = softest > 0.0 ? 1.0 / (unit.size * softest) : 0.0;
     const auto k =
         static_cast<std::size_t>(std::count_if(bounds.begin(), bounds.end(), [&](double b) { return own >= b; }));
     addEllipse(model, centre, scale, classes[k].points);
@@ -139,10 +140,13 @@ render::PointChart stiffnessSliceChart(const campaign::Campaign& campaign, const
   }
   centreInPicture(panel.series);
   panel.scale_bar = slice.spacing;
-  const double um_per_kn = scale > 0.0 ? slice.spacing / scale * 1000.0 / io::kMicrometre : 0.0;
+  const double move = scale > 0.0 ? slice.spacing / scale * 1000.0 : 0.0;  // by 1 kN, m
+  const double um = move / io::kMicrometre;
+  // Of a soft arm a kilonewton is too much: the same by a tenth of it.
+  const std::string words = unit.size < 1e6 ? fmt::format("{} mm by 100 N", reports::significant(0.1e-3 * um, 3))
+                                            : fmt::format("{} µm by 1 kN", reports::significant(um, 3));
   panel.scale_name =
-      fmt::format("{} mm; as a move of P_{{TCP}}: {} µm by 1 kN", reports::fixed(slice.spacing / io::kMillimetre, 0),
-                  reports::significant(um_per_kn, 3));
+      fmt::format("{} mm; as a move of P_{{TCP}}: {}", reports::fixed(slice.spacing / io::kMillimetre, 0), words);
   chart.shapes.push_back(std::move(panel));
   chart.note =
       "Each outline is where P_{TCP} moves under a force of one size in all directions of the plane. Places are within "
@@ -156,20 +160,21 @@ render::PointChart stiffnessSliceChart(const reports::ReportCampaign& one) {
 
 reports::Figure describeStiffnessSlice(const reports::ReportCampaign& one) {
   const WorkspaceStiffness& found = *one.workspace;
+  const reports::LinearStiffnessUnit unit = reports::stiffnessUnit(found);
   double least = std::numeric_limits<double>::infinity(), most = 0.0;
   for (const workspace::SlicePlace& place : found.slice.places) {
     const double softest = softestIn(inPlane(place.at.model, found.slice.outward));
     if (softest <= 0.0) continue;
-    least = std::min(least, io::kMicrometre / softest);
-    most = std::max(most, io::kMicrometre / softest);
+    least = std::min(least, 1.0 / (unit.size * softest));
+    most = std::max(most, 1.0 / (unit.size * softest));
   }
   reports::Figure figure;
   figure.id = "stiffness-slice";
   figure.title = "Compliance of P_{TCP} over a slice of the workspace";
   figure.caption = fmt::format(
-      "Large outlines give much. In its softest direction of the plane P_{{TCP}} is between {} and {}\u00a0N/µm stiff "
+      "Large outlines give much. In its softest direction of the plane P_{{TCP}} is between {} and {}\u00a0{} stiff "
       "over these {} places.",
-      reports::significant(least, 2), reports::significant(most, 2), found.slice.places.size());
+      reports::significant(least, 2), reports::significant(most, 2), unit.name, found.slice.places.size());
   if (!found.held.empty())
     figure.caption += " Grey outlines are of the joint springs alone: what lies outside them is what else gives.";
   // What joint 1 moves is at right angles to the plane.
@@ -186,7 +191,8 @@ render::IntervalChart postureStiffnessChart(const reports::ReportCampaign& one) 
   render::IntervalChart chart;
   chart.title = "Principal stiffnesses of P_{TCP} by posture";
   chart.subtitle = fmt::format("{}; whiskers: 95\u00a0% interval", reports::asIs(one.campaign.name));
-  chart.y_title = "Stiffness (N/µm)";
+  const reports::LinearStiffnessUnit unit = reports::stiffnessUnit(found);
+  chart.y_title = fmt::format("Stiffness ({})", unit.name);
   chart.category_title = "Posture";
   chart.logarithmic = true;
   constexpr std::size_t kMostPostures = 30;
@@ -208,9 +214,9 @@ render::IntervalChart postureStiffnessChart(const reports::ReportCampaign& one) 
         continue;
       }
       const identification::CoverageInterval interval = principals[k].stiffnessInterval();
-      const double value = principals[k].stiffness() * io::kMicrometre;
-      const double high = std::isfinite(interval.high) ? interval.high * io::kMicrometre : value;
-      series.intervals.push_back({value, interval.low * io::kMicrometre, high, !std::isfinite(interval.high)});
+      const double value = principals[k].stiffness() / unit.size;
+      const double high = std::isfinite(interval.high) ? interval.high / unit.size : value;
+      series.intervals.push_back({value, interval.low / unit.size, high, !std::isfinite(interval.high)});
       if (series.intervals.back().doubtful) chart.doubtful_name = "interval open above";
     }
     chart.series.push_back(std::move(series));
@@ -223,6 +229,7 @@ reports::Figure describePostureStiffness(const reports::ReportCampaign& one) {
   reports::Figure figure;
   figure.id = "posture-stiffness";
   figure.title = "Principal stiffnesses of P_{TCP} by posture";
+  const reports::LinearStiffnessUnit unit = reports::stiffnessUnit(found);
   const workspace::PointStiffness* softest = nullptr;
   for (const workspace::PointStiffness& place : found.postures) {
     if (place.of_model.empty()) continue;
@@ -232,8 +239,8 @@ reports::Figure describePostureStiffness(const reports::ReportCampaign& one) {
   figure.caption =
       softest == nullptr
           ? std::string("No direction of P_{TCP} is free of joints of unknown stiffness.")
-          : fmt::format("Softest is posture {}: {}\u00a0N/µm in its softest direction.", reports::asIs(softest->pose),
-                        reports::significant(softest->of_model.front().stiffness() * io::kMicrometre, 3));
+          : fmt::format("Softest is posture {}: {}\u00a0{} in its softest direction.", reports::asIs(softest->pose),
+                        reports::significant(softest->of_model.front().stiffness() / unit.size, 3), unit.name);
   figure.alt = "Points with whiskers by posture: the softest and the stiffest direction on a logarithmic axis.";
   return figure;
 }

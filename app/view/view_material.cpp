@@ -26,8 +26,7 @@ ViewFrame frameOf(const reports::ReportCampaign& one, std::size_t index, std::op
   frame.scene = postureScene(one, index, method);
   frame.name = fmt::format("posture-{}-step-{}", posture, load_case.step);
   frame.where = fmt::format("posture {}", posture);
-  frame.load =
-      fmt::format("load step {}, {}\u00a0kN", load_case.step, reports::fixed(1e-3 * load_case.wrench.force.norm(), 2));
+  frame.load = fmt::format("load step {}, {}", load_case.step, reports::forceWords(load_case.wrench.force.norm()));
   frame.posture = load_case.pose;
   frame.step = load_case.step;
   frame.force = load_case.wrench.force;

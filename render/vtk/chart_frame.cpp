@@ -217,11 +217,11 @@ void drawKey(Canvas& canvas, Key key, const Box& box, Colour colour) {
     case Key::medium_arrow:
     case Key::thin_arrow:
       drawArrow(canvas, {box.left - 0.4 * r, centre.y}, {box.right + 0.4 * r, centre.y}, colour,
-                (key == Key::thick_arrow    ? 5
+                (key == Key::thick_arrow    ? 6
                  : key == Key::medium_arrow ? 3.5
-                                            : 2.5) *
+                                            : 2.2) *
                     canvas.unit(),
-                1.2 * r);
+                key == Key::thin_arrow ? r : 1.4 * r);
       break;
   }
 }

@@ -316,7 +316,7 @@ void addVectorsTo(vtkRenderer& layer, const SceneStage& stage, const VectorKind&
   forEachPoint(stage.scene, [&](const ScenePoint& point, const ArmPose&) {
     if (!(point.*kind.vector)) return;
     const Eigen::Vector3d tip = point.position + factor * *(point.*kind.vector);
-    mesh.addArrow(point.position, tip, kind.width / 2 * metres, kHeadLength * metres, kind.colour);
+    mesh.addArrow(point.position, tip, kind.width / 2 * metres, kind.head * metres, kind.colour);
   });
   show(layer, stage, mesh);
 }
@@ -385,7 +385,7 @@ double paintReference(Canvas& canvas, const SceneStage& stage, double factor, co
   const double pixels_per_deflection = factor * stage.projection.pixelsPerMetre();
   const double reference = roundDown125(150 * stage.unit / pixels_per_deflection);
   const Spot tip{left.x + reference * pixels_per_deflection, left.y};
-  drawArrow(canvas, left, tip, look.colour, look.width * stage.unit, kHeadLength * stage.unit);
+  drawArrow(canvas, left, tip, look.colour, look.width * stage.unit, look.head * stage.unit);
   const std::string text = fmt::format("{}   {} \u00d7 {}", lengthText(reference), what, factorText(factor));
   const Spot at{tip.x + 10 * stage.unit, left.y};
   canvas.text(text, at, AlignX::left, AlignY::centre, labelStyle(canvas));
@@ -414,9 +414,10 @@ const Palette& paletteOf(const ArmScene& scene) { return scene.dark ? kDarkPalet
 
 std::array<VectorKind, 3> vectorKinds(const ArmScene& scene) {
   const Palette& palette = paletteOf(scene);
-  return {{{&ScenePoint::measured, palette.measured, kMeasuredWidth, 1, scene.measured_name},
-           {&ScenePoint::predicted, palette.predicted, kPredictedWidth, 1, scene.predicted_name},
-           {&ScenePoint::residual, palette.residual, kResidualWidth, scene.residual_factor, scene.residual_name}}};
+  return {{{&ScenePoint::measured, palette.measured, kMeasuredWidth, kMeasuredHead, 1, scene.measured_name},
+           {&ScenePoint::predicted, palette.predicted, kPredictedWidth, kPredictedHead, 1, scene.predicted_name},
+           {&ScenePoint::residual, palette.residual, kResidualWidth, kResidualHead, scene.residual_factor,
+            scene.residual_name}}};
 }
 
 bool hasVectors(const ArmScene& scene, const VectorKind& kind) {

@@ -60,16 +60,19 @@ struct SceneStage {
   Projection projection;
 };
 
-inline constexpr double kMeasuredWidth = 5;     ///< pixels at 1200 x 700
-inline constexpr double kPredictedWidth = 2.5;  ///< thinner and in front, so that both show where they agree
+inline constexpr double kMeasuredWidth = 6;     ///< pixels at 1200 x 700
+inline constexpr double kPredictedWidth = 2.2;  ///< thinner and in front, so that both show where they agree
 inline constexpr double kResidualWidth = 3.5;   ///< in front of both
-inline constexpr double kHeadLength = 15;
+/// Of a measured vector longer, so wider, than of one that is predicted: where both end at one place, a rim of the
+/// measured one's head stays around that of the other.
+inline constexpr double kMeasuredHead = 20, kPredictedHead = 10, kResidualHead = 15;
 
 /// One kind of vector: which, how it is painted, and how it is called.
 struct VectorKind {
   std::optional<Eigen::Vector3d> ScenePoint::*vector;
   Colour colour;
   double width;   ///< pixels at 1200 x 700
+  double head;    ///< length of its head, the same
   double factor;  ///< of its length, beside the magnification
   std::string name;
 };

@@ -1,6 +1,7 @@
 #include "reports/page/facts.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <set>
 
@@ -72,6 +73,23 @@ std::string instrument(const std::string& model, const std::string& serial, cons
                                       : fmt::format("; certificate {}", reports::asIs(certificate)));
 }
 
+/// Their state, and on which joints the readings have a second encoder: a campaign states the state alone.
+std::string encoderFact(const reports::ReportCampaign& one) {
+  const std::string state = reports::encoderState(one.campaign.double_encoder);
+  std::vector<std::string> joints;
+  if (one.identification.transmission) {
+    const auto& gears = one.identification.transmission->joints;
+    for (std::size_t j = 0; j < gears.size(); ++j) {
+      if (gears[j].postures > 0) joints.push_back(std::to_string(j + 1));
+    }
+  }
+  if (!joints.empty())
+    return fmt::format("{}; both sides of the gear read on joint{} {}", state, joints.size() > 1 ? "s" : "",
+                       fmt::join(joints, ", "));
+  if (one.campaign.double_encoder == campaign::DoubleEncoder::unspecified) return state;
+  return state + "; on which joints is not stated";
+}
+
 }  // namespace
 
 Facts whoAndWhat(const reports::ReportCampaign& one) {
@@ -90,11 +108,12 @@ Facts whoAndWhat(const reports::ReportCampaign& one) {
   own("Serial number", texts.robot_serial);
   own("Controller", texts.controller);
   own("Item", texts.item);
-  if (isLoaded(one)) add("Double encoders", reports::encoderState(campaign.double_encoder));
+  if (isLoaded(one)) add("Double encoders", encoderFact(one));
   own("Customer", texts.customer);
   own("Laboratory", texts.laboratory);
   own("Place", texts.place);
   own("Operator", texts.operator_name);
+  if (texts.laboratory.empty() && texts.operator_name.empty()) add("Measured by", "not stated");
   own("Approved by", texts.approved_by);
   own("Date of issue", texts.date_of_issue);
   own("Environment", texts.environment);
@@ -106,10 +125,9 @@ Facts whoAndWhat(const reports::ReportCampaign& one) {
                          ? "certificate not stated"
                          : fmt::format("certificate {}", reports::asIs(texts.load_cell_certificate)));
   if (!one.identification.cases.empty())
-    add("Load", fmt::format("{}\u00a0kN in {} postures (load step {})",
-                            reports::fixed(1e-3 * reports::meanForce(one.identification), 2),
-                            one.identification.cases.size(), one.identification.step));
-  own("Note", texts.note);
+    add("Load",
+        fmt::format("{} in {} postures (load step {})", reports::forceWords(reports::meanForce(one.identification)),
+                    one.identification.cases.size(), one.identification.step));
   return facts;
 }
 

@@ -66,8 +66,9 @@ void writeTable(Html& html, const reports::Table& table) {
                                    [](const reports::RowGroup& group) { return !group.header.empty(); });
   std::size_t rows = 0;
   for (const reports::RowGroup& group : table.groups) rows += group.rows.size();
-  // A third of a printed page; a longer table is broken between groups, its head repeated.
-  constexpr std::size_t kMostOnAPage = 20;
+  // A quarter of a printed page with its heading and its notes; a longer table is broken between rows, its head
+  // repeated: kept together it would leave up to a third of a page empty.
+  constexpr std::size_t kMostOnAPage = 11;
   std::string kind = table.words ? "words" : grouped ? "grouped" : "numeric";
   if (rows > kMostOnAPage || table.words) kind += " long";     // rows of words are high
   if (!grouped && !table.words && rows > 2) kind += " sorts";  // a group's header spans its rows in their order

@@ -9,6 +9,7 @@
 #include "reports/page/sections.h"
 #include "reports/report_content.h"
 #include "reports/words/accuracy_words.h"
+#include "reports/words/audit_plain.h"
 #include "reports/words/conformity_words.h"
 #include "reports/words/day_words.h"
 #include "reports/words/effect_words.h"
@@ -50,10 +51,9 @@ std::string stateOf(const reports::ReportCampaign& one) {
 KeyNumber deflection(const reports::ReportCampaign& one, const reports::JudgedPoint& point) {
   const auto& displacement = reports::displacementAt(one.identification, point.at_wrist);
   if (displacement.empty()) return {"–", "deflection: no posture could be used"};
-  return {
-      fmt::format("{}\u00a0mm", reports::fixed(reports::kMmPerM * reports::mean(displacement), 2)),
-      fmt::format("mean deflection at {} under {}\u00a0kN, {} postures{}", point.name,
-                  reports::fixed(1e-3 * reports::meanForce(one.identification), 2), displacement.size(), stateOf(one))};
+  return {fmt::format("{}\u00a0mm", reports::fixed(reports::kMmPerM * reports::mean(displacement), 2)),
+          fmt::format("mean deflection at {} under {}, {} postures{}", point.name,
+                      reports::forceWords(reports::meanForce(one.identification)), displacement.size(), stateOf(one))};
 }
 
 /// At the reflectors, by which the method was chosen, and at P_wrist; beside the paper in the paper's order.
@@ -72,11 +72,14 @@ KeyNumber compensated(const reports::ReportCampaign& one, bool paper) {
       fmt::format("of the deflection at {} compensated by {} in postures {}", point(first_at_wrist),
                   reports::shortName(*shown), reports::heldOut(method, first_at_wrist) ? "held out" : "used");
   if (wrist) words += fmt::format("; {} at {}", share(!first_at_wrist), point(!first_at_wrist));
+  words += stateOf(one);
   return {share(first_at_wrist), words};
 }
 
 /// The joints that the verdict does not doubt.
-KeyNumber trusted(const identification::Identification& identification) {
+KeyNumber trusted(const reports::ReportCampaign& one) {
+  const identification::Identification& identification = one.identification;
+  const std::string state = stateOf(one);
   const auto shown = reports::shownMethod(identification);
   if (!shown)
     return {fmt::format("0 of {}", identification.identifiability.joints.size()),
@@ -92,7 +95,7 @@ KeyNumber trusted(const identification::Identification& identification) {
       doubtful.push_back(reports::jointName(joint));
     }
   }
-  std::string words = fmt::format("joint stiffnesses found by {}", reports::shortName(*shown));
+  std::string words = fmt::format("joint stiffnesses found by {}{}", reports::shortName(*shown), state);
   if (!doubtful.empty()) {
     words += fmt::format("; {} {} not to be trusted and not counted", fmt::join(doubtful, ", "),
                          doubtful.size() == 1 ? "is" : "are");
@@ -106,7 +109,7 @@ KeyNumber third(const reports::ReportContent& content, const reports::ReportCamp
             fmt::format("of the deflection at {} with double encoders inactive is avoided by active ones",
                         reports::pointOf(*content.avoided))};
   }
-  return trusted(one.identification);
+  return trusted(one);
 }
 
 /// What a day of sweeps alone gives: axes and the lengths between them.
@@ -149,18 +152,20 @@ std::vector<KeyNumber> keyNumbers(const reports::ReportContent& content) {
   return {deflection(one, point), compensated(one, content.compare_with_paper), third(content, one)};
 }
 
-/// The checks of the audit that found something, by name; the audit's own section explains them.
+/// What the checks of the audit found, in plain words with each check's name; the audit's own section explains them.
 void addAuditWarnings(const audit::AuditReport& audit, std::vector<std::string>& items) {
   for (const preparation::AuditVerdict verdict : {preparation::AuditVerdict::fail, preparation::AuditVerdict::warn}) {
-    std::vector<std::string> names;
-    for (const preparation::AuditCheck& check : audit.checks) {
-      if (check.verdict != verdict) continue;
-      names.push_back(reports::auditName(check.id));
-      if (!check.where.empty() && check.id == "circle_arc") names.back() += " of " + reports::words(check.where);
-    }
-    if (!names.empty()) {
-      items.push_back(
-          fmt::format("The audit of the readings {} on: {}.", reports::auditWord(verdict), fmt::join(names, ", ")));
+    for (auto check = audit.checks.begin(); check != audit.checks.end(); ++check) {
+      const auto same = [&](const preparation::AuditCheck& one) {
+        return one.id == check->id && one.verdict == verdict;
+      };
+      if (check->verdict != verdict || std::find_if(audit.checks.begin(), check, same) != check) continue;
+      std::string where;  // axes one by one, of a check that is made for each
+      for (auto one = check; one != audit.checks.end(); ++one) {
+        if (same(*one) && !one->where.empty() && one->id == "circle_arc") where += ", " + reports::words(one->where);
+      }
+      items.push_back(fmt::format("The audit {}: {} ({}{}).", reports::auditWord(verdict),
+                                  reports::amissWords(check->id), reports::auditName(check->id), where));
     }
   }
 }
@@ -186,16 +191,29 @@ void writeWarnings(Html& html, const reports::ReportContent& content) {
   const auto& campaigns = content.campaigns;
   std::vector<std::string> of_all;
   for (const std::string& doubt : reports::doubtsOfTheMachine(campaigns)) of_all.push_back(reports::asIs(doubt) + ".");
-  const bool any = std::any_of(campaigns.begin(), campaigns.end(),
-                               [](const reports::ReportCampaign& one) { return !warningsOf(one).empty(); });
+  std::vector<std::vector<std::string>> own;
+  for (const reports::ReportCampaign& one : campaigns) own.push_back(warningsOf(one));
+  // What holds of every campaign is said once.
+  std::vector<std::string> shared;
+  if (campaigns.size() > 1) shared = own.front();
+  for (const std::vector<std::string>& other : own)
+    std::erase_if(shared, [&](const auto& item) { return std::find(other.begin(), other.end(), item) == other.end(); });
+  for (std::vector<std::string>& items : own)
+    std::erase_if(items,
+                  [&](const auto& item) { return std::find(shared.begin(), shared.end(), item) != shared.end(); });
+  for (const std::string& item : shared)
+    of_all.push_back((campaigns.size() == 2 ? "Both days: " : "All days: ") + item);
+  const bool any = std::any_of(own.begin(), own.end(), [](const auto& items) { return !items.empty(); });
   if (!any && of_all.empty()) return;
   html.paragraph("Before you believe these numbers:");
   html.list(of_all);
+  if (!any) return;
   const auto cautions = html.element("div", {{"class", campaigns.size() > 1 ? "several" : "cautions"}});
-  for (const reports::ReportCampaign& one : campaigns) {
+  for (std::size_t i = 0; i < campaigns.size(); ++i) {
+    if (own[i].empty()) continue;
     const auto column = html.element("div");
-    if (campaigns.size() > 1) html.paragraph(reports::asIs(one.campaign.name), "name");
-    html.list(warningsOf(one));
+    if (campaigns.size() > 1) html.paragraph(reports::asIs(campaigns[i].campaign.name), "name");
+    html.list(own[i]);
   }
 }
 
@@ -398,6 +416,16 @@ bool auditFails(const reports::ReportCampaign& one) {
   return one.audit != nullptr && one.audit->verdict == preparation::AuditVerdict::fail;
 }
 
+/// What those who measured, or simulated, say of their days: before anything is read from the numbers.
+void writeNotes(Html& html, const reports::ReportContent& content) {
+  std::vector<std::string> notes;
+  for (const reports::ReportCampaign& one : content.campaigns) {
+    const std::string& note = one.campaign.texts.note;
+    if (!note.empty() && std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
+  }
+  for (const std::string& note : notes) html.paragraph("Note: " + reports::asIs(note), "stated");
+}
+
 /// What the audit says of the readings, once where it says the same of all; an unloaded day's verdict has it already.
 void writeJudgements(Html& html, const reports::ReportContent& content) {
   std::vector<std::string> sentences;
@@ -493,6 +521,7 @@ void writeOpening(Html& html, const reports::ReportContent& content) {
   html.leaf("h1", content.title);
   html.paragraph(whatAndWhen(content) + fmt::format("Report {}", reports::reportId(content)), "faint");
   const bool loaded = reports::anyOfKind(content.campaigns, reports::DayKind::loaded);
+  writeNotes(html, content);
   // Of loads two sentences: what the audit says, what the diagnosis finds; the numbers are in the table below.
   writeJudgements(html, content);
   const bool mistaken = std::any_of(content.campaigns.begin(), content.campaigns.end(), explainedByMistakes);

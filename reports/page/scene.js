@@ -471,7 +471,7 @@
           const vectors = this.vectorsOf(point);
           if (!vectors[vector.key]) continue;
           const colour = this.byShare ? this.shareColour(this.shareOf(vectors)) : palette[vector.colour];
-          mesh.arrow(point.at, add(point.at, times(vectors[vector.key], this.factorOf(vector.key))), (vector.width / 2) * mm, 15 * mm, colour);
+          mesh.arrow(point.at, add(point.at, times(vectors[vector.key], this.factorOf(vector.key))), (vector.width / 2) * mm, (vector.head || 15) * mm, colour);
         }
         if (mesh.triangles.length > 0) this.layer(mesh.object(THREE, this.surface));
       }

@@ -15,12 +15,13 @@ namespace stiffscope::page {
 
 namespace {
 
-/// "2.31 (2.20 to 2.44)", N/µm.
-std::string principalCell(const std::vector<workspace::DirectionalCompliance>& found, bool softest) {
+/// "2.31 (2.20 to 2.44)".
+std::string principalCell(const std::vector<workspace::DirectionalCompliance>& found, bool softest,
+                          const reports::LinearStiffnessUnit& unit) {
   if (found.empty() || (!softest && found.size() < 2)) return "–";
   const workspace::DirectionalCompliance& one = softest ? found.front() : found.back();
   const identification::CoverageInterval interval = one.stiffnessInterval();
-  const auto number = [](double stiffness) { return reports::significant(stiffness * io::kMicrometre, 3); };
+  const auto number = [&unit](double stiffness) { return reports::significant(stiffness / unit.size, 3); };
   return fmt::format("{} ({} to {})", number(one.stiffness()), number(interval.low),
                      std::isfinite(interval.high) ? number(interval.high) : "open");
 }
@@ -32,7 +33,8 @@ std::string directionCell(const std::vector<workspace::DirectionalCompliance>& f
 }
 
 reports::Table placesTable(const workspace::WorkspaceStiffness& found, int joints) {
-  reports::Table table{"Stiffness at P_{TCP} in the postures, N/µm (95\u00a0% interval)",
+  const reports::LinearStiffnessUnit unit = reports::stiffnessUnit(found);
+  reports::Table table{fmt::format("Stiffness at P_{{TCP}} in the postures, {} (95\u00a0% interval)", unit.name),
                        {"Posture", "Softest", "in direction (R_{0})", "Stiffest", "K_{x} alone, softest"},
                        {{}}};
   table.id = "posture-stiffness";
@@ -40,9 +42,9 @@ reports::Table placesTable(const workspace::WorkspaceStiffness& found, int joint
   table.data = reports::stiffnessPlaces(found, joints, kPostures, !kSlice);
   for (const workspace::PointStiffness& one : found.postures)
     table.groups.front().rows.push_back(
-        {reports::asIs(one.pose), principalCell(one.of_model, true), directionCell(one.of_model),
-         principalCell(one.of_model, false),
-         one.of_springs.empty() ? "–" : reports::significant(one.of_springs.front().stiffness() * io::kMicrometre, 3)});
+        {reports::asIs(one.pose), principalCell(one.of_model, true, unit), directionCell(one.of_model),
+         principalCell(one.of_model, false, unit),
+         one.of_springs.empty() ? "–" : reports::significant(one.of_springs.front().stiffness() / unit.size, 3)});
   return table;
 }
 

@@ -32,8 +32,13 @@ bool hasFigures(const reports::ReportContent& content, const std::string& sectio
                      [&](const reports::Figure& figure) { return figure.section == section; });
 }
 
-void writeFiguresOf(Html& html, const reports::ReportContent& content, const std::string& section) {
-  if (!hasFigures(content, section)) return;
+namespace {
+
+/// Those of a section that `chosen` takes, under the numbers that they have among all.
+void writeChosen(Html& html, const reports::ReportContent& content, const std::string& section,
+                 const std::function<bool(const reports::Figure&)>& chosen) {
+  const auto here = [&](const reports::Figure& figure) { return figure.section == section && chosen(figure); };
+  if (std::none_of(content.figures.begin(), content.figures.end(), here)) return;
   int number = 0;
   for (const char* earlier : reports::kFigureSections) {
     if (section == earlier) break;
@@ -42,8 +47,16 @@ void writeFiguresOf(Html& html, const reports::ReportContent& content, const std
   }
   const auto grid = html.element("div", {{"class", "figures"}});
   for (const reports::Figure& figure : content.figures) {
-    if (figure.section == section) writeFigure(html, figure, ++number);
+    if (figure.section != section) continue;
+    ++number;
+    if (chosen(figure)) writeFigure(html, figure, number);
   }
+}
+
+}  // namespace
+
+void writeFiguresOf(Html& html, const reports::ReportContent& content, const std::string& section) {
+  writeChosen(html, content, section, [](const reports::Figure&) { return true; });
 }
 
 void writeFigures(Html& html, const reports::ReportContent& content) {
@@ -96,11 +109,15 @@ void writeEach(Html& html, const reports::ReportContent& content, const char* id
         html.setTableSuffix(fmt::format("-{}", i + 1));
       }
       write(content.campaigns[i]);
-      if (!several) writeFiguresOf(html, content, id);
+      // A campaign's figures stand with its tables: on paper they fill the room that a table leaves.
+      if (several)
+        writeChosen(html, content, id, [i](const reports::Figure& figure) { return figure.campaign == i; });
+      else
+        writeFiguresOf(html, content, id);
     }
     html.setTableSuffix("");
   }
-  if (several) writeFiguresOf(html, content, id);
+  if (several) writeChosen(html, content, id, [](const reports::Figure& figure) { return !figure.campaign; });
 }
 
 }  // namespace stiffscope::page

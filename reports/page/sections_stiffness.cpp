@@ -93,7 +93,9 @@ reports::Table stiffnessTable(const identification::Identification& result, Note
 
 /// Compliances are what the methods solve for: their uncertainty is symmetric where a stiffness's is not.
 reports::Table complianceTable(const identification::Identification& result) {
-  reports::Table table{"Joint compliance c ± U, 10⁻⁹\u00a0rad/Nm", {"Joint"}, {{}}};
+  const bool soft = reports::stiffnessUnit(result).size < reports::kMega;
+  const double times = soft ? 1e6 : 1e9;
+  reports::Table table{fmt::format("Joint compliance c ± U, {}\u00a0rad/Nm", soft ? "10⁻⁶" : "10⁻⁹"), {"Joint"}, {{}}};
   table.id = "compliance";
   reports::DataTable& data = table.data.emplace();
   data.columns = {"joint", "method", "compliance_rad_per_nm", "u_rad_per_nm", "low_rad_per_nm", "high_rad_per_nm"};
@@ -109,7 +111,7 @@ reports::Table complianceTable(const identification::Identification& result) {
       const identification::CoverageInterval interval = identification::complianceInterval(estimate, joint);
       const double c = estimate.compliance[joint];
       const double expanded = std::max(interval.high - c, c - interval.low);
-      row.emplace_back(reports::withUncertainty(1e9 * c, 1e9 * expanded));
+      row.emplace_back(reports::withUncertainty(times * c, times * expanded));
       data.rows.push_back(
           {joint + 1.0, std::string(reports::namesOf(method).key), c, expanded, interval.low, interval.high});
     }

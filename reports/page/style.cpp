@@ -43,6 +43,7 @@ constexpr const char* kScreen =
     "header .cautions ul,header .several ul{margin:0}.name{font-weight:600;margin:.3rem 0}"
     "sub,sup{line-height:0}"
     ".faint,small{color:var(--faint)}"
+    ".stated{font-weight:600;max-width:none;margin:.3rem 0;padding:.2rem .7rem;background:var(--band)}"
     ".verdict{font-size:1.12rem;line-height:1.42;max-width:none;margin:.7rem 0 .4rem}"
     ".next{max-width:none;margin:.3rem 0 .6rem}.judgement{font-weight:600;margin:.3rem 0}.bad{border-left:4px solid "
     "#c8382c;padding-left:.7rem}"
@@ -101,9 +102,9 @@ constexpr const char* kScreen =
     "align-items:start;margin-top:1rem}"
     // A wide figure has its caption beside it.
     "figure{margin:0;padding:0;container-type:inline-size}"
+    "figure img{display:block;width:100%;height:auto;background:#fff;border:1px solid var(--line)}"
     "@media screen{@container (min-width:56rem){figure>img,figure>.chart,figure>.scene-live{float:left;width:68%}"
     "figcaption{margin:0 0 0 70%}}}"
-    "figure img{display:block;width:100%;height:auto;background:#fff;border:1px solid var(--line)}"
     "@media screen and (prefers-color-scheme:dark){figure img{filter:invert(.905) hue-rotate(180deg)}}"
     "figcaption{font-size:.92rem;margin-top:.5rem;max-width:56rem;overflow-wrap:anywhere}"
     "code{font-family:ui-monospace,monospace;font-size:.85em;overflow-wrap:anywhere}";
@@ -115,7 +116,9 @@ constexpr const char* kScripted =
     "solid "
     "var(--faint);padding:.3rem .5rem;font-size:.82rem;margin:.6rem;z-index:3;max-width:20rem;overflow:hidden}"
     ".csv,.offer{font:inherit;font-size:.85rem;color:var(--accent);background:var(--band);border:1px solid var(--line);"
-    "cursor:pointer;padding:.05rem .45rem}.filter{display:block;font-size:.85rem;color:var(--faint);margin:.4rem 0}"
+    "cursor:pointer;padding:.05rem .45rem}.filter{display:block;font-size:.85rem;color:var(--faint);margin:.4rem "
+    "0}.filter input{font:inherit;color:var(--ink);"
+    "background:var(--band);border:1px solid var(--faint);padding:.05rem .3rem}"
     "tr.marked th,tr.marked td{background:#e8a82044}tr.filtered{display:none}"
     "figure.live img,figure.live .chart{display:none}.scene-live{border:1px solid var(--line)}"
     ".bar{display:flex;flex-wrap:wrap;gap:.25rem .5rem;align-items:center;padding:.3rem .5rem;font-size:.82rem;"
@@ -150,9 +153,10 @@ constexpr const char* kPrint =
     "p:has(+ .scroll){break-after:avoid}table:not(.words) tbody tr:nth-child(-n+2):not(:last-child){break-after:avoid}"
     "table:not(.words) tbody tr:nth-last-child(-n+2):not(:first-child){break-before:avoid}"
     ".several,.each,.figures,.each>.figures{display:block}header .cautions{columns:auto}.scroll{break-inside:auto}"
-    "#versions .scroll{break-inside:avoid}"
+    "#versions{break-inside:avoid}"
     "figcaption,.notes,p.faint{font-size:8.5pt}.verdict{font-size:12pt}"
-    "table,.each table{font-size:7.5pt;line-height:1.3}th,td{padding:.1rem .36rem}"
+    // A caption is as wide as its table: of a narrow one it would be four lines.
+    "table,.each table{font-size:7.5pt;line-height:1.3}.each table{min-width:95mm}th,td{padding:.1rem .36rem}"
     ".figures{margin:0}figure{margin:3mm 0}"
     // The caption beside the figure: three fit on a page whatever their captions, and no half of it is empty.
     "figure{container-type:normal}figure img{border:0}main figure{display:grid;grid-template-columns:128mm "

@@ -3,6 +3,8 @@
 
 #include "core/accuracy/remarks.h"
 #include "core/io/units.h"
+#include "reports/words/entry_words.h"
+#include "reports/words/names.h"
 #include "reports/words/numbers.h"
 #include "reports/words/remarks.h"
 
@@ -10,7 +12,13 @@ namespace stiffscope::reports {
 
 std::string accuracyWords(accuracy::RemarkId id, const RemarkValues& values) {
   using accuracy::RemarkId;
-  const auto ids = [&] { return fmt::format("{}", fmt::join(values.names(0), ", ")); };
+  const auto effect = [&] { return nameOfId(values.name(0)); };
+  const auto effects = [&](const char* between) {
+    std::vector<std::string> names;
+    for (const std::string& id : values.names(0)) names.push_back(nameOfId(id));
+    return fmt::format("{}", fmt::join(names, between));
+  };
+  const auto ids = [&] { return effects(", "); };
   switch (id) {
     case RemarkId::left_by_geometry:
       return fmt::format(
@@ -36,19 +44,19 @@ std::string accuracyWords(accuracy::RemarkId id, const RemarkValues& values) {
       return fmt::format(
           "Beside that, {} {} no more than candidates: with them in the model {:.0f} % of the gap's "
           "squares beyond noise stay ({:.0f} % may).",
-          fmt::join(values.names(0), " and "), values.names(0).size() > 1 ? "are" : "is", 100.0 * values.number(1),
+          effects(" and "), values.names(0).size() > 1 ? "are" : "is", 100.0 * values.number(1),
           100.0 * values.number(2));
     case RemarkId::not_in_every_fold:
       return fmt::format("{} is found in all postures together but not in each fold's others: it is a candidate only.",
-                         values.name(0));
+                         capitalised(effect()));
     case RemarkId::less_than_unknown:
       return fmt::format(
           "{} moves the reflectors by {:.1f} um rms, less than the {:.1f} um that nothing explains and "
           "that it may be a part of: a candidate only.",
-          values.name(0), um(values.number(1)), um(values.number(2)));
+          capitalised(effect()), um(values.number(1)), um(values.number(2)));
     case RemarkId::too_small:
       return fmt::format("{} is beyond chance but moves the reflectors by {:.1f} um rms only ({:.1f} um would matter).",
-                         values.name(0), um(values.number(1)), um(values.number(2)));
+                         capitalised(effect()), um(values.number(1)), um(values.number(2)));
     case RemarkId::nests_show_station:
       return fmt::format("The floor nests show that the station {}, by up to {:.0f} um where the arm was read.",
                          values.count(0) != 0 ? "jumped" : "drifted", um(values.number(1)));

@@ -3,6 +3,7 @@
 
 #include "core/calibration/remarks.h"
 #include "core/io/units.h"
+#include "reports/words/entry_words.h"
 #include "reports/words/remarks.h"
 
 namespace stiffscope::reports {
@@ -45,7 +46,7 @@ std::string calibrationWords(calibration::RemarkId id, const RemarkValues& value
              "are "
              "seen, and no stiffness can be given";
     case RemarkId::negative_compliance:
-      return fmt::format("{} of {} would be negative, which no spring is: left at zero", values.name(0),
+      return fmt::format("{} of {} would be negative, which no spring is: left at zero", nameOfId(values.name(0)),
                          values.name(1));
     case RemarkId::no_effect_predicts:
       return "no effect predicts postures that were held out better than geometry alone";

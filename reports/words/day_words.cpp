@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 #include <algorithm>
 
+#include "reports/words/audit_plain.h"
 #include "reports/words/names.h"
 
 namespace stiffscope::reports {
@@ -32,7 +33,7 @@ const char* purposeOf(DayKind kind) {
     case DayKind::loaded:
       break;
   }
-  return "identify from";
+  return "identify stiffnesses from";
 }
 
 }  // namespace
@@ -80,29 +81,35 @@ std::string methodWords(DayKind kind, int joints) {
 
 namespace {
 
-/// The checks of a verdict, by name where they are few.
-std::string checksThat(const audit::AuditReport& audit, preparation::AuditVerdict verdict, const char* before) {
-  std::vector<std::string> names;
+/// The checks of a verdict, each once.
+std::vector<std::string> checksThat(const audit::AuditReport& audit, preparation::AuditVerdict verdict) {
+  std::vector<std::string> ids;
   for (const preparation::AuditCheck& check : audit.checks) {
-    if (check.verdict != verdict) continue;
-    const std::string name = auditName(check.id);
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    if (check.verdict == verdict && std::find(ids.begin(), ids.end(), check.id) == ids.end()) ids.push_back(check.id);
   }
-  constexpr std::size_t kFew = 4;
-  if (names.empty()) return {};
-  return before +
-         (names.size() > kFew ? fmt::format("{} checks", names.size()) : fmt::format("{}", fmt::join(names, ", ")));
+  return ids;
+}
+
+/// ": reflectors do not come back when the load is taken off", where they are few; else " by 5 checks".
+std::string failureWords(const std::vector<std::string>& ids) {
+  constexpr std::size_t kFew = 3;
+  if (ids.empty()) return {};
+  if (ids.size() > kFew) return fmt::format(" by {} checks", ids.size());
+  std::vector<std::string> amiss;
+  for (const std::string& id : ids) amiss.push_back(amissWords(id));
+  return fmt::format(": {}", fmt::join(amiss, "; "));
 }
 
 }  // namespace
 
 std::string auditMeaning(const audit::AuditReport& audit, DayKind kind) {
+  const std::vector<std::string> warned = checksThat(audit, preparation::AuditVerdict::warn);
   switch (audit.verdict) {
     case preparation::AuditVerdict::pass:
       return fmt::format("The audit passes: the readings are fit to {}.", purposeOf(kind));
     case preparation::AuditVerdict::warn:
-      return fmt::format("The audit finds the readings fit to {}, and warns{} (see Audit).", purposeOf(kind),
-                         checksThat(audit, preparation::AuditVerdict::warn, " of "));
+      return fmt::format("The readings are good enough to {}; the audit warns of {} (see Audit).", purposeOf(kind),
+                         warned.size() == 1 ? "one thing" : fmt::format("{} things", warned.size()));
     case preparation::AuditVerdict::not_testable:
       // A day that is not meant for loads does not fail by what only a load would tell.
       if (kind == DayKind::sweeps) return "No check of the audit fails; some need what such a day does not measure.";
@@ -111,8 +118,8 @@ std::string auditMeaning(const audit::AuditReport& audit, DayKind kind) {
     case preparation::AuditVerdict::fail:
       break;
   }
-  return fmt::format("The audit fails{}: as they were read, the readings are not fit to {}.",
-                     checksThat(audit, preparation::AuditVerdict::fail, " by "), purposeOf(kind));
+  return fmt::format("The audit fails{}. As they were read, the readings are not fit to {}.",
+                     failureWords(checksThat(audit, preparation::AuditVerdict::fail)), purposeOf(kind));
 }
 
 std::string untestedWords(const audit::AuditReport& audit, DayKind kind) {

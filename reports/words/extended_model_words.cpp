@@ -122,7 +122,9 @@ std::string combinationWords(const extended_model::SeenCombination& seen) {
 std::string residualWords(const extended_model::ExtendedModel& model) {
   const extended_model::HiddenEffects& hidden = *model.hidden;
   std::string text = fmt::format("Joint springs alone leave {:.3g} times the noise's chi-square", hidden.lack_of_fit);
-  if (!model.effects.added.empty()) text += fmt::format(", the model {:.3g}", hidden.left_over);
+  // What was taken off the readings before counts as noise, too, so that less than nothing can be left.
+  if (!model.effects.added.empty())
+    text += hidden.left_over > 0.0 ? fmt::format(", the model {:.3g}", hidden.left_over) : ", the model less than it";
   if (hidden.unexplained)
     return text + fmt::format(
                       "; {:.0f} % of the gap is explained by no effect that is known here: values are apparent "
@@ -146,13 +148,21 @@ std::string gainWords(const extended_model::ExtendedModel& model) {
     return percentNumber(
         method.subsets.compliances.empty() ? method.at_targets->all_postures : method.at_targets->subsets.held_out, 1);
   };
-  return fmt::format(
-      "With {} in the model {} leaves {:.0f} µm rms per coordinate instead of {:.0f} µm, and compensates {} % "
-      "instead of "
-      "{} % of the reflectors' deflection{}.",
-      addedWords(model.effects), namesOf(which).brief, with.estimate.rms_residual / io::kMicrometre,
-      without.estimate.rms_residual / io::kMicrometre, share(with), share(without),
-      with.subsets.compliances.empty() ? "" : " in postures held out");
+  const double left = with.estimate.rms_residual / io::kMicrometre,
+               before = without.estimate.rms_residual / io::kMicrometre;
+  const std::string held_out = with.subsets.compliances.empty() ? "" : " in postures held out";
+  std::string text = fmt::format("With {} in the model {} leaves ", addedWords(model.effects), namesOf(which).brief);
+  // Numbers that print alike would say "8 instead of 8".
+  const int decimals = fixed(left, 0) == fixed(before, 0) ? 1 : 0;
+  if (fixed(left, decimals) == fixed(before, decimals))
+    text += fmt::format("{} µm rms per coordinate as without", fixed(left, decimals));
+  else
+    text += fmt::format("{} µm rms per coordinate instead of {} µm", fixed(left, decimals), fixed(before, decimals));
+  if (share(with) == share(without))
+    return text + fmt::format(", and compensates {}\u00a0% of the reflectors' deflection{}, with it or without.",
+                              share(with), held_out);
+  return text + fmt::format(", and compensates {}\u00a0% instead of {}\u00a0% of the reflectors' deflection{}.",
+                            share(with), share(without), held_out);
 }
 
 std::string doubtOf(const extended_model::AddedEffect& effect) {

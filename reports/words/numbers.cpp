@@ -201,6 +201,13 @@ std::string wrapped(const std::string& text, std::size_t indent) {
   return result;
 }
 
+std::string forceWords(double newtons) {
+  constexpr double kKilo = 1e3;
+  // What would print as 1000 N is a kilonewton.
+  if (newtons < 0.9995 * kKilo) return significant(newtons, 3) + "\u00a0N";
+  return fixed(newtons / kKilo, 2) + "\u00a0kN";
+}
+
 double um(double metres) { return metres / io::kMicrometre; }
 
 }  // namespace stiffscope::reports

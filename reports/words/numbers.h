@@ -87,6 +87,9 @@ inline double unsignedZero(double value, int decimals) {
 /// Text broken at blanks to lines of at most 98 columns, those after the first indented by `indent` blanks.
 std::string wrapped(const std::string& text, std::size_t indent);
 
+/// "1.50 kN"; below a kilonewton "92.3 N", as a small robot lifts.
+std::string forceWords(double newtons);
+
 double um(double metres);  ///< in micrometres
 
 }  // namespace stiffscope::reports

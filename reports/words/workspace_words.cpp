@@ -24,6 +24,14 @@ std::string deflectionWords(const workspace::Placement& placement) {
 
 }  // namespace
 
+LinearStiffnessUnit stiffnessUnit(const workspace::WorkspaceStiffness& found) {
+  constexpr double kSoft = 0.1e6;  // N/m
+  for (const workspace::PointStiffness& one : found.postures) {
+    if (!one.of_model.empty() && one.of_model.front().stiffness() < kSoft) return {1e3, "N/mm"};
+  }
+  return {};
+}
+
 std::vector<std::string> workspaceNotes(const workspace::WorkspaceStiffness& found) {
   std::vector<std::string> notes;
   notes.emplace_back(

@@ -7,6 +7,14 @@
 
 namespace stiffscope::reports {
 
+/// The unit in which the stiffnesses of a day are printed: N/µm, or N/mm of an arm whose softest posture has less than
+/// a tenth of a N/µm, so that no column begins with zeros.
+struct LinearStiffnessUnit {
+  double size = 1e6;  ///< N/m
+  const char* name = "N/µm";
+};
+LinearStiffnessUnit stiffnessUnit(const workspace::WorkspaceStiffness& found);
+
 /// What the stiffnesses hold and what not, a sentence each; plain texts.
 std::vector<std::string> workspaceNotes(const workspace::WorkspaceStiffness& found);
 

@@ -20,6 +20,16 @@ TEST(CommandLine, HelpAndVersionSucceed) {
   }
 }
 
+TEST(CommandLine, HelpOfACommandIsWhatItsOwnOptionPrints) {
+  const ScratchFolder scratch;
+  for (const char* command : {"audit", "import campaign"}) {
+    const Ran asked = runProgram(std::string("help ") + command, scratch.path());
+    EXPECT_EQ(asked.status, 0) << command;
+    EXPECT_NE(asked.out.find(std::string("Usage: stiffscope ") + command), std::string::npos) << asked.out;
+    EXPECT_EQ(asked.out, runProgram(std::string(command) + " --help", scratch.path()).out);
+  }
+}
+
 // Neither a display nor stiffscope-view is needed for it.
 TEST(CommandLine, HelpOfTheWindowNamesItsOptions) {
   const ScratchFolder scratch;

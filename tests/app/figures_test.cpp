@@ -51,7 +51,39 @@ TEST(DeflectionScene, TheMedianPostureWithItsVectors) {
   ASSERT_EQ(pose.targets.size(), 3u);
   EXPECT_EQ(pose.targets[0].label, "P_{10}");
   EXPECT_NEAR(pose.targets[0].measured->z(), -4e-3, 1e-15);
-  EXPECT_NE(app::describeDeflectionScene(of(small), 100).caption.find("2.00\u00a0mm"), std::string::npos);
+  app::DeflectionScene drawn{2, scene};
+  drawn.scene.magnification = 100;
+  const std::string caption = app::describeDeflectionScene(of(small), drawn).caption;
+  EXPECT_NE(caption.find("2.00\u00a0mm, magnified 100 times"), std::string::npos) << caption;
+}
+
+TEST(DeflectionScene, OfTwoStatesInOnePostureToOneScale) {
+  // The second day moves by half as much, so that its median posture and its own scale would be others.
+  const SmallResult first(campaign::DoubleEncoder::inactive), second(campaign::DoubleEncoder::active, 0.3);
+  const auto scenes = app::deflectionScenes({of(first), of(second)});
+  ASSERT_EQ(scenes.size(), 2u);
+  ASSERT_TRUE(scenes[0] && scenes[1]);
+  EXPECT_EQ(scenes[0]->load_case, 2u);
+  EXPECT_EQ(scenes[1]->load_case, 2u);
+  ASSERT_TRUE(scenes[0]->scene.magnification && scenes[1]->scene.magnification);
+  EXPECT_EQ(*scenes[0]->scene.magnification, *scenes[1]->scene.magnification);
+  EXPECT_EQ(scenes[0]->scene.residual_factor, scenes[1]->scene.residual_factor);
+  EXPECT_LT(*scenes[1]->scene.magnification, render::automaticMagnification(app::deflectionScene(of(second))));
+  EXPECT_TRUE(scenes[0]->as_in.empty());
+  EXPECT_EQ(scenes[1]->as_in, "small");
+  // Each makes room for the arrows of the other, so that both are drawn to one scale.
+  EXPECT_FALSE(scenes[0]->scene.also_fitted.empty());
+  EXPECT_FALSE(scenes[1]->scene.also_fitted.empty());
+}
+
+TEST(DeflectionScene, WithoutACommonPostureEachDayItsOwn) {
+  const SmallResult first(campaign::DoubleEncoder::inactive);
+  SmallResult second(campaign::DoubleEncoder::active, 0.3);
+  second.campaign.pose_ids = {"D", "E", "F"};
+  const auto scenes = app::deflectionScenes({of(first), of(second)});
+  ASSERT_TRUE(scenes[0] && scenes[1]);
+  EXPECT_TRUE(scenes[1]->as_in.empty());
+  EXPECT_EQ(*scenes[1]->scene.magnification, render::automaticMagnification(app::deflectionScene(of(second))));
 }
 
 TEST(DeflectionScene, EveryJointPointIsOnItsAxis) {

@@ -54,7 +54,8 @@ TEST(Report, HasTheAuditItsRejectedReadingsAndItsFiles) {
   for (const json& name : results["files"]) EXPECT_TRUE(fs::exists(out / name.get<std::string>())) << name;
   const std::string page = contentsOf(out / "report.html");
   EXPECT_NE(page.find("<section id=\"audit\">"), std::string::npos);
-  EXPECT_NE(page.find("The audit finds the readings fit to identify from, and warns of"), std::string::npos);
+  EXPECT_NE(page.find("The readings are good enough to identify stiffnesses from; the audit warns of"),
+            std::string::npos);
   EXPECT_NE(page.find("No reading was rejected."), std::string::npos);
   EXPECT_NE(page.find("none left out; no drift of the station taken off"), std::string::npos);
 }

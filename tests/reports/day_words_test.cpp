@@ -1,4 +1,5 @@
 #include "reports/words/day_words.h"
+#include "reports/words/audit_plain.h"
 
 #include <gtest/gtest.h>
 
@@ -20,17 +21,30 @@ audit::AuditReport auditOf(preparation::AuditVerdict verdict, const std::vector<
   return audit;
 }
 
-TEST(DayWords, TheAuditsSentenceNamesTheChecksThatDecideIt) {
+TEST(DayWords, TheAuditsSentenceSaysWhetherTheReadingsServeAndWhatSpoilsThem) {
   using preparation::AuditVerdict;
   EXPECT_EQ(
       auditMeaning(auditOf(AuditVerdict::warn, {"repeat_outliers", "repeat_outliers", "lost_beam"}), DayKind::loaded),
-      "The audit finds the readings fit to identify from, and warns of repeat outliers, lost beam (see Audit).");
-  EXPECT_EQ(auditMeaning(auditOf(AuditVerdict::fail, {"time_order"}), DayKind::unloaded),
-            "The audit fails by time order: as they were read, the readings are not fit to calibrate from.");
-  EXPECT_EQ(auditMeaning(auditOf(AuditVerdict::warn,
+      "The readings are good enough to identify stiffnesses from; the audit warns of 2 things (see Audit).");
+  EXPECT_EQ(
+      auditMeaning(auditOf(AuditVerdict::fail, {"time_order"}), DayKind::unloaded),
+      "The audit fails: load steps do not follow each other in time. As they were read, the readings are not fit to "
+      "calibrate from.");
+  EXPECT_EQ(auditMeaning(auditOf(AuditVerdict::fail,
                                  {"lost_beam", "time_order", "nest_outliers", "repeat_outliers", "completeness"}),
                          DayKind::loaded),
-            "The audit finds the readings fit to identify from, and warns of 5 checks (see Audit).");
+            "The audit fails by 5 checks. As they were read, the readings are not fit to identify stiffnesses from.");
+}
+
+TEST(DayWords, EveryCheckHasPlainWordsThatAreNotItsName) {
+  for (const preparation::AuditCheckId& check : preparation::kAuditCheckIds) {
+    const std::string id(check.id), words = amissWords(id);
+    EXPECT_GT(words.size(), 15u) << id;
+    EXPECT_EQ(words.find('_'), std::string::npos) << id;
+    EXPECT_NE(words.back(), '.') << id;  // a clause: sentences are made of it
+  }
+  EXPECT_NO_THROW(amissWords(std::string(preparation::kStationsAgree)));
+  EXPECT_THROW(amissWords("nothing"), std::logic_error);
 }
 
 }  // namespace

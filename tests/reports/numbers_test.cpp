@@ -8,6 +8,13 @@
 namespace stiffscope::page {
 namespace numbers_test {
 
+TEST(ForceWords, InTheUnitThatSuitsTheRobot) {
+  EXPECT_EQ(reports::forceWords(1497.3), "1.50\u00a0kN");
+  EXPECT_EQ(reports::forceWords(92.34), "92.3\u00a0N");  // not 0.09 kN
+  EXPECT_EQ(reports::forceWords(999.6), "1.00\u00a0kN");
+  EXPECT_EQ(reports::forceWords(999.4), "999\u00a0N");
+}
+
 TEST(Numbers, ValuesEndWhereTheirUncertaintyDoes) {
   EXPECT_EQ(reports::withUncertainty(5.6012, 0.1), "5.60 ± 0.10");
   EXPECT_EQ(reports::withUncertainty(0.079123, 0.0123), "0.079 ± 0.012");

@@ -238,8 +238,8 @@ TEST(Page, TheAuditWithItsLimitsAndRejectedReadings) {
   parse(page, document);
   EXPECT_TRUE(has(page, "The audit fails"));
   EXPECT_TRUE(has(page, "3 of 33 checks could be made."));
-  EXPECT_TRUE(has(page, "The audit of the readings fails on: lost beam."));
-  EXPECT_TRUE(has(page, "The audit of the readings warns on: station drift."));
+  EXPECT_TRUE(has(page, "The audit fails: the tracker lost its beam in some readings (lost beam)."));
+  EXPECT_TRUE(has(page, "The audit warns: tracker or robot moved against the floor during the day (station drift)."));
   EXPECT_TRUE(has(page, "<li>Readings: 1 left out; the station's motion"));
   EXPECT_TRUE(has(page, "12.5\u00a0µm"));
   EXPECT_TRUE(has(page, "where the arm was read (900 s)"));
@@ -300,6 +300,67 @@ TEST(Page, TheTileCountsOnlyTrustedStiffnesses) {
   EXPECT_TRUE(has(page, "k<sub>4</sub> is not to be trusted."));  // the verdict's words
   small.method(identification::Method::decoupled_partial_pose).estimate.compliance[5] = -4e-6;
   EXPECT_TRUE(has(page::reportPage(contentOf(small)), "k<sub>4</sub>, k<sub>6</sub> are not to be trusted."));
+}
+
+TEST(Page, BeginsWithTheNoteAndSaysWhatIsNotStated) {
+  SmallResult small;
+  reports::ReportContent content = contentOf(small);
+  std::string page = page::reportPage(content);
+  EXPECT_FALSE(has(page, "class=\"stated\""));
+  EXPECT_TRUE(has(page, "<th scope=\"row\">Measured by</th><td>not stated</td>"));
+  EXPECT_TRUE(has(page, "active; on which joints is not stated"));
+  small.campaign.texts.note = "simulated; <no> machine";
+  small.campaign.texts.operator_name = "A. Person";
+  page = page::reportPage(content);
+  const std::size_t note = page.find("<p class=\"stated\">Note: simulated; &lt;no&gt; machine</p>");
+  ASSERT_NE(note, std::string::npos);
+  EXPECT_LT(note, page.find("class=\"numbers\""));
+  EXPECT_FALSE(has(page, "Measured by"));
+}
+
+TEST(Page, FiguresOfACampaignStandWithItsTables) {
+  const SmallResult first(campaign::DoubleEncoder::inactive), second(campaign::DoubleEncoder::active);
+  reports::ReportContent content = contentOf(first);
+  content.campaigns.push_back({second.campaign, second.identification});
+  content.figures.clear();
+  for (const char* id : {"stiffness-1", "stiffness-2", "common"}) {
+    reports::Figure figure{id, "A title", "Words", "plain words", {1, 2, 3}, 12, 7};
+    figure.section = "stiffness";
+    if (id != std::string("common")) figure.campaign = content.figures.size();
+    content.figures.push_back(std::move(figure));
+  }
+  const std::string page = page::reportPage(content);
+  const std::size_t section = page.find("<section id=\"stiffness\">");
+  const std::size_t second_heading = page.find("<h3>", page.find("<h3>", section) + 1);
+  const std::size_t one = page.find("id=\"stiffness-1\""), other = page.find("id=\"stiffness-2\""),
+                    common = page.find("id=\"common\"");
+  EXPECT_LT(section, one);
+  EXPECT_LT(one, second_heading);
+  EXPECT_LT(second_heading, other);
+  EXPECT_LT(other, common);
+  EXPECT_LT(common, page.find("<section id=\"subsets\">"));
+  for (const char* number : {"Figure 1. A title", "Figure 2. A title", "Figure 3. A title"})
+    EXPECT_TRUE(has(page, number)) << number;
+}
+
+TEST(Page, WhatHoldsOfBothDaysIsSaidOnce) {
+  const SmallResult first(campaign::DoubleEncoder::inactive), second(campaign::DoubleEncoder::active);
+  reports::ReportContent content = contentOf(first);
+  content.campaigns.push_back({second.campaign, second.identification});
+  audit::AuditReport audits[2];
+  for (audit::AuditReport& audited : audits) {
+    audited.verdict = preparation::AuditVerdict::warn;
+    preparation::AuditCheck drift;
+    drift.id = "station_drift";
+    drift.verdict = preparation::AuditVerdict::warn;
+    audited.checks.push_back(drift);
+  }
+  audits[1].checks.push_back(audits[1].checks.front());
+  audits[1].checks.back().id = "tare";
+  for (std::size_t i = 0; i < 2; ++i) content.campaigns[i].audit = &audits[i];
+  const std::string page = page::reportPage(content);
+  EXPECT_TRUE(has(page, "Both days: The audit warns: tracker or robot moved against the floor during the day"));
+  EXPECT_TRUE(has(page, "<li>The audit warns: the load cell does not read zero without a load (tare).</li>"));
 }
 
 TEST(Page, NoMethodAtAll) {
