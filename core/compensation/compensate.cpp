@@ -364,14 +364,13 @@ class Compensator {
         return Remark(what, joint + 1, angles[joint], limits.lower, limits.upper);
     }
     const robot::Robot& arm = geometry_.arm;
-    if (!arm.coupled() && arm.balancers.empty()) return {};
     if (robot::withinAxisLimits(arm, angles)) return {};
     const JointVector turned = arm.axes_in_base_at_zero.angles(angles);
-    for (int axis = 0; axis < arm.axes(); ++axis) {
-      const robot::JointLimits& limits = arm.axis_limits[static_cast<std::size_t>(axis)];
-      if (turned[axis] < limits.lower || turned[axis] > limits.upper)
-        return Remark(RemarkId::follower_outside_limits, arm.axis_names[static_cast<std::size_t>(axis)], turned[axis],
-                      limits.lower, limits.upper);
+    for (std::size_t axis = 0; arm.coupled() && axis < arm.axis_limits.size(); ++axis) {
+      const robot::JointLimits& limits = arm.axis_limits[axis];
+      const double angle = turned[static_cast<Eigen::Index>(axis)];
+      if (angle < limits.lower || angle > limits.upper)
+        return Remark(RemarkId::follower_outside_limits, arm.axis_names[axis], angle, limits.lower, limits.upper);
     }
     const robot::ArmPosture posture = robot::postureAt(arm, angles);
     for (std::size_t i = 0; i < arm.balancers.size(); ++i) {

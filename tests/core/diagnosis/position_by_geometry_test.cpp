@@ -113,8 +113,9 @@ TEST(PositionByGeometry, OfAnArmOnBalancersIsTheDifferences) {
   const auto sagOf = [](const Case& one) { return one.computed(); };
   const Eigen::MatrixXd without = sagOf(Case(geometry));
   const robot::GasLaw pulls{150e5, 1.7e-3, 6e-3, 0.8, 1.2, false};
-  geometry.weight.balancers = {{pulls, {1, {-0.3, 0.05, 0.6}}, {2, {0.2, 0.1, 1.0}}, {}, {}},
-                               {robot::SpringLaw{2e3, 400.0, 2.2}, {4, {0.9, -0.1, 1.2}}, {0, {0.1, 0.2, 0.4}}, {}, {}}};
+  geometry.weight.balancers = {
+      {pulls, {1, {-0.3, 0.05, 0.6}}, {2, {0.2, 0.1, 1.0}}, {}, {}},
+      {robot::SpringLaw{2e3, 400.0, 2.2}, {4, {0.9, -0.1, 1.2}}, {0, {0.1, 0.2, 0.4}}, {}, {}}};
   const Case one(geometry);
   const Eigen::MatrixXd expected = byDifferences(one.geometry, one.q, one.readings, one.centre);
   // As of the sag without: the fixed point stops at 1e-9 rad, over a step of 1e-6, and is followed to the first order.
