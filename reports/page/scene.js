@@ -607,9 +607,14 @@
       const reference = roundDown125(150 / pixels);
       const y = this.height - 14;
       line([12, y], [12 + reference * pixels, y], palette.ink, 3);
-      write((reference < 100 ? shortNumber(reference) + ' µm' : shortNumber(1e-3 * reference) + ' mm') + '   vectors × ' +
-        shortNumber(this.magnification) + (this.residualFactor !== 1 && this.shown.r ? ', residuals × ' + shortNumber(this.magnification * this.residualFactor) : ''),
-        22 + reference * pixels, y);
+      const scale = (reference < 100 ? shortNumber(reference) + ' µm' : shortNumber(1e-3 * reference) + ' mm') + '   vectors × ' + shortNumber(this.magnification);
+      const residuals = this.residualFactor !== 1 && this.shown.r ? 'residuals × ' + shortNumber(this.magnification * this.residualFactor) : '';
+      const left = 22 + reference * pixels;
+      // On a narrow screen the residuals' scale stands above.
+      const beside = residuals ? scale + ', ' + residuals : scale;
+      const fits = write(beside, left, y, false, true) < this.width - 4;
+      write(fits ? beside : scale, left, y);
+      if (!fits && residuals) write(residuals, 12, y - 18);
     }
 
     tell() {

@@ -130,13 +130,44 @@ bool isOnEffects(const Remark& detail) {
          detail.is(audit::RemarkId::effects_not_testable);
 }
 
+/// What a check that is not testable says, of several axes at once where it says the same of them: "axes 1, 2, 3: it
+/// was not swept" instead of a line each.
+std::vector<std::string> untestableWords(const audit::AuditReport& report) {
+  struct Said {
+    std::string name, what;
+    std::vector<std::string> axes;
+  };
+  std::vector<Said> all;
+  for (const preparation::AuditCheck& check : report.checks) {
+    if (check.verdict != preparation::AuditVerdict::not_testable) continue;
+    Said said{reports::auditName(check.id), reports::withMicro(reports::words(check.message)), {}};
+    const std::string axis = check.where.empty() ? std::string() : reports::words(check.where);
+    constexpr std::string_view kAxis = "axis ";
+    if (axis.starts_with(kAxis) && said.what.starts_with(axis + ": ")) {
+      said.what.erase(0, axis.size() + 2);
+      said.axes.push_back(axis.substr(kAxis.size()));
+    }
+    const auto same = std::find_if(all.begin(), all.end(), [&said](const Said& one) {
+      return one.name == said.name && one.what == said.what && !one.axes.empty() && !said.axes.empty();
+    });
+    if (same == all.end())
+      all.push_back(std::move(said));
+    else
+      same->axes.push_back(said.axes.front());
+  }
+  std::vector<std::string> items;
+  for (const Said& one : all) {
+    const std::string of =
+        one.axes.empty() ? "" : fmt::format("ax{} {}: ", one.axes.size() == 1 ? "is" : "es", fmt::join(one.axes, ", "));
+    items.push_back(fmt::format("{}, not testable: {}{}.", one.name, of, one.what));
+  }
+  return items;
+}
+
 /// Sentences on what has no verdict, and on what checks say besides it.
 std::vector<std::string> furtherWords(const audit::AuditReport& report, bool diagnosed) {
-  std::vector<std::string> items;
+  std::vector<std::string> items = untestableWords(report);
   for (const preparation::AuditCheck& check : report.checks) {
-    if (check.verdict == preparation::AuditVerdict::not_testable)
-      items.push_back(fmt::format("{}, not testable: {}.", reports::auditName(check.id),
-                                  reports::withMicro(reports::words(check.message))));
     std::vector<std::string> details;
     for (const Remark& detail : check.details) {
       // Which effects could be told apart has a place of its own where there is a diagnosis.

@@ -163,7 +163,8 @@ constexpr const char* kPrint =
     "minmax(0,1fr);gap:5mm;align-items:start}figcaption{margin:0}"
     "main figure img{max-height:74mm;object-fit:contain;object-position:left top}.first "
     "figcaption{margin-top:1mm;font-size:7.5pt}"
-    ".first figure img{max-height:56mm}"
+    // Two pictures one above the other stand on the first page.
+    ".first figure img{max-height:49mm}.first figure{margin:1.5mm 0}"
     ".scroll{overflow:visible;margin-bottom:3mm}caption{max-width:none}"
     "p,ul,ol,figcaption{max-width:none}"
     ".numbers{grid-template-columns:repeat(3,1fr)}.numbers b{font-size:16pt}"
