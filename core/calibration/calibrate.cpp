@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 #include "core/calibration/fitted_day.h"
@@ -165,6 +166,23 @@ const ModelResult& Calibration::of(CalibratedModel model) const {
 
 namespace {
 
+/// Joint compliances by the own weight beside the geometry, without other effects: good to what those take from them,
+/// and the sag changes the torques by a thousandth.
+std::optional<JointVector> compliancesAlone(const UnloadedDay& day) {
+  const std::vector<double> all = weightsWhere(day, [](int) { return true; });
+  const auto place = placeArm(day, all);
+  if (!place) return std::nullopt;
+  const ArmFit geometry = fitArm(day, *place, {}, {.weights = all});
+  const ArmFit gravity = fitArm(day, *place, jointCompliances(day), {.weights = all}, &geometry);
+  if (!gravity.done) return std::nullopt;
+  JointVector compliance = JointVector::Zero(day.arm.joints());
+  Eigen::Index size = 0;
+  for (const EffectPart& part : gravity.parts) {
+    for (const EffectTerm& term : part.terms) compliance[term.compliance_of] = gravity.sizes[size++];
+  }
+  return compliance;
+}
+
 Calibration calibrateBy(const campaign::Campaign& campaign, const CalibrationOptions& options) {
   Calibration result;
   result.day = unloadedDay(campaign, options.angles);
@@ -179,6 +197,10 @@ Calibration calibrateBy(const campaign::Campaign& campaign, const CalibrationOpt
   if (3 * static_cast<Eigen::Index>(readings) <= parameters) {
     result.reason = Remark(RemarkId::too_few_readings, readings, parameters);
     return result;
+  }
+
+  if (day.masses_known) {
+    if (const auto compliance = compliancesAlone(day)) letSag(*compliance, result.day);
   }
 
   // The whole day first, then each fold's others, without the readings that the whole day rejects.

@@ -9,6 +9,7 @@
 #include "core/effects/all.h"
 #include "core/effects/arm_state.h"
 #include "core/frames/frames.h"
+#include "core/numerics/parallel.h"
 
 namespace stiffscope::calibration {
 
@@ -236,6 +237,17 @@ UnloadedDay unloadedDay(const campaign::Campaign& campaign, JointAngles angles) 
   setWarmth(std::move(temperatures), day);
   setMoves(log, day);
   return day;
+}
+
+void letSag(const JointVector& compliance, UnloadedDay& day) {
+  if (!day.masses_known) return;
+  const Bending bending(day);
+  numerics::smallWorkOnAllCores(day.postures.size(), [&](std::size_t i) {
+    Posture& posture = day.postures[i];
+    const JointVector sagged = robot::saggedAngles(day.arm, posture.q, day.weight, compliance);
+    posture.torque = robot::weightTorque(day.arm, robot::postureAt(day.arm, sagged), day.weight);
+    posture.bends = bending.at(sagged);
+  });
 }
 
 }  // namespace stiffscope::calibration

@@ -31,7 +31,7 @@ struct Posture {
   JointVector q;        ///< as reported, rad
   JointVector move;     ///< q less that of the state before in `states`; zero for the first
   JointVector side;     ///< -1 or +1: sign of the joint's last move; 0 where it has not moved yet
-  JointVector torque;   ///< of the own weight on the joints of the nominal arm, Nm; zero: no masses
+  JointVector torque;   ///< of the own weight on the joints of the nominal arm, Nm; zero: no masses; see letSag
   double warmth = 0.0;  ///< temperature less the day's mean, K; 0 where it is not given
   double time = 0.0;    ///< 0 at the first posture, 1 at the last: by time_s, else by the order
   /// What bearings, links and base do by the own weight, by a unit of each of the day's elastic terms, in base_link.
@@ -84,6 +84,12 @@ struct UnloadedDay {
 
 /// Postures of `loading` at step 0 that `states` has joint angles for. Empty `postures` without either table.
 UnloadedDay unloadedDay(const campaign::Campaign& campaign, JointAngles angles = JointAngles::reported);
+
+/// Takes the own weight's torques, and what links, bearings and base do by it, where joints of these compliances
+/// (rad/Nm) let the arm sag to, in place of where its angles say: theta = c tau(q + theta). Else a weight that pulls
+/// the harder the farther it has sunk (K_c) would pass for a softer joint: joint 2 of a heavy arm by a fifth of a per
+/// cent. Where masses are not known nothing changes.
+void letSag(const JointVector& compliance, UnloadedDay& day);
 
 /// Joints with a commanded angle in every unloaded row of `states`.
 PerJoint<bool> commandedJoints(const campaign::Campaign& campaign);
