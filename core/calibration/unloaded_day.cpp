@@ -18,7 +18,9 @@ namespace {
 /// The structure's own compliances that the records of the loaded days have: their twists by the own weight alone.
 class Bending {
  public:
-  Bending(const UnloadedDay& day) : geometry_{.arm = day.arm, .weight = day.weight} {
+  explicit Bending(const UnloadedDay& day) {
+    geometry_.arm = day.arm;
+    geometry_.weight = day.weight;
     for (const effects::Effect effect :
          {effects::Effect::link_compliance, effects::Effect::bearing_tilt, effects::Effect::base_compliance}) {
       for (effects::EffectModel& model : effects::modelsOf(effects::recordOf(effect), {day.arm.joints(), {}}))
