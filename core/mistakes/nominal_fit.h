@@ -40,7 +40,7 @@ struct NominalFit {
 struct NominalFitOptions {
   bool sag = true;
   bool scale = false;
-  std::optional<JointVector> springs;  ///< compliances that sag by one factor, instead of each by its own; rad/Nm
+  std::optional<JointVector> springs = {};  ///< compliances that sag by one factor, instead of each by its own; rad/Nm
 };
 
 NominalFit fitNominal(const ReadingsOfDay& day, const NominalFitOptions& options = {});
