@@ -59,7 +59,7 @@ int onWideStack(const std::function<int()>& work) {
 
 #ifdef __GLIBC__
 /// Asks for the first of the heap in pages of 2 MiB where the system gives them to those who ask: one fault then in
-/// place of 512, a tenth of a report's time. Reserved addresses cost nothing until they are written to.
+/// place of 512, a twentieth of a report's time. Reserved addresses cost nothing until they are written to.
 void takeLargePages() {
 #ifdef MADV_HUGEPAGE
   constexpr int kReserved = 256 << 20;  // bytes: what a report of two campaigns needs

@@ -76,7 +76,7 @@ struct FigureMark {
   double x = 0, y = 0;
   std::string series, category;  ///< rich texts; of an axis of numbers no category
   double value = 0, at = 0;      ///< in the unit of the axes; `at` on the horizontal one
-  std::string quantity{};        ///< what the value's own axis says; empty: the figure's value_name
+  std::string quantity{};        ///< what the value's axis says, which may be its panel's own
 };
 
 /// A finished picture with its words. In title and caption `x_{abc}` sets abc as a subscript; `alt` is plain.

@@ -43,7 +43,7 @@ reports::Figure drawn(reports::Figure figure, const Picture& picture, render::Si
   nameAxes(picture, figure);
   if constexpr (!std::is_same_v<Picture, render::ArmScene>) {  // that has no values
     for (render::Mark& mark : image.marks) {
-      if (mark.quantity == figure.value_name) mark.quantity.clear();
+      if (mark.quantity.empty()) mark.quantity = figure.value_name;
       figure.marks.push_back({mark.x, mark.y, std::move(mark.series), std::move(mark.category), mark.value,
                               mark.category_at, std::move(mark.quantity)});
     }

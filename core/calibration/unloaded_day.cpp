@@ -206,9 +206,8 @@ UnloadedDay unloadedDay(const campaign::Campaign& campaign, JointAngles angles) 
   for (const LoggedPosture& at : log) {
     if (at.state->step == 0) at_pose[static_cast<std::size_t>(at.state->pose)] = &at;
   }
-  const Bending bending(day);
   if (day.masses_known) {
-    day.bending = bending.terms();
+    day.bending = Bending(day).terms();
   } else if (!day.arm.coupled()) {
     // Of a coupled arm each body's weight pulls on several drives: masses have to be known.
     day.free_moments = freeMoments(day.arm.joints());
@@ -221,10 +220,6 @@ UnloadedDay unloadedDay(const campaign::Campaign& campaign, JointAngles angles) 
     Posture posture(day.arm.joints());
     posture.pose = points.pose;
     posture.q = at->q;
-    if (day.masses_known) {
-      posture.torque = robot::weightTorque(day.arm, robot::postureAt(day.arm, posture.q), day.weight);
-      posture.bends = bending.at(posture.q);
-    }
     posture.pulls = pullsOf(day, posture.q, campaign.gravity_in_base);
     for (const campaign::ReflectorMean& mean : points.reflectors) {
       posture.readings.push_back(
@@ -238,6 +233,7 @@ UnloadedDay unloadedDay(const campaign::Campaign& campaign, JointAngles angles) 
   setTimes(times, day);
   setWarmth(std::move(temperatures), day);
   setMoves(log, day);
+  letSag(JointVector::Zero(day.arm.joints()), day);
   return day;
 }
 

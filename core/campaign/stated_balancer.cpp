@@ -41,13 +41,12 @@ robot::SpringLaw readSpringLaw(const io::XmlNode& node) {
 }
 
 robot::GasLaw readGasLaw(const io::XmlNode& node) {
-  constexpr double kBar = 1e5, kSquareCentimetre = 1e-4, kLitre = 1e-3;
   constexpr double kMostBar = 1000.0, kLeastArea = 0.01, kMostArea = 10'000.0, kLeastVolume = 0.001,
                    kMostVolume = 1000.0;
   robot::GasLaw law;
-  law.pressure_pa = within(node, "pressure_bar", 0.0, kMostBar, kBar);
-  law.area_m2 = within(node, "area_cm2", kLeastArea, kMostArea, kSquareCentimetre);
-  law.volume_m3 = within(node, "volume_l", kLeastVolume, kMostVolume, kLitre);
+  law.pressure_pa = within(node, "pressure_bar", 0.0, kMostBar, io::kBar);
+  law.area_m2 = within(node, "area_cm2", kLeastArea, kMostArea, io::kSquareCentimetre);
+  law.volume_m3 = within(node, "volume_l", kLeastVolume, kMostVolume, io::kLitre);
   law.length_m = within(node, "length_mm", kShortest, kLongest, io::kMillimetre);
   constexpr double kAdiabatic = 2.0;  // above that of any gas at the pressures of cylinders
   if (node.has("exponent")) law.exponent = within(node, "exponent", 1.0, kAdiabatic, 1.0);

@@ -197,8 +197,8 @@ void writeLaw(const robot::SpringLaw& law, Element& element) {
 }
 
 void writeLaw(const robot::GasLaw& law, Element& element) {
-  element.set("acts", law.pushes ? "push" : "pull").set("pressure_bar", law.pressure_pa * 1e-5);
-  element.set("area_cm2", law.area_m2 * 1e4).set("volume_l", law.volume_m3 * 1e3);
+  element.set("acts", law.pushes ? "push" : "pull").set("pressure_bar", law.pressure_pa / io::kBar);
+  element.set("area_cm2", law.area_m2 / io::kSquareCentimetre).set("volume_l", law.volume_m3 / io::kLitre);
   element.set("length_mm", law.length_m / io::kMillimetre);
   if (law.exponent != 1.0) element.set("exponent", law.exponent);
 }

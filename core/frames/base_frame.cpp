@@ -1,5 +1,6 @@
 #include "core/frames/base_frame.h"
 
+#include "core/robot/balancer.h"
 #include "metrology/lines.h"
 #include "metrology/rigid_motion.h"
 
@@ -16,10 +17,7 @@ robot::Robot inFrame(const robot::Robot& nominal, const Eigen::Isometry3d& r0_fr
   robot::Robot robot = nominal;
   for (metrology::Line& axis : robot.axes_in_base_at_zero) axis = movedBy(r0_from_base_link, axis);
   for (robot::BodyMass& body : robot.bodies) body.com_in_base_at_zero = r0_from_base_link * body.com_in_base_at_zero;
-  for (robot::Balancer& balancer : robot.balancers) {
-    for (robot::BalancerEnd* end : {&balancer.from, &balancer.to})
-      end->in_base_at_zero = r0_from_base_link * end->in_base_at_zero;
-  }
+  for (robot::Balancer& balancer : robot.balancers) robot::moveEnds(r0_from_base_link, balancer);
   for (robot::LinkFrame& link : robot.links)
     link.base_from_link_at_zero = r0_from_base_link * link.base_from_link_at_zero;
   robot.base_from_flange_at_zero = r0_from_base_link * nominal.base_from_flange_at_zero;

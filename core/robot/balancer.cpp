@@ -56,6 +56,10 @@ PlacedBalancer placedAt(const Balancer& balancer, const ArmPosture& posture) {
   return at;
 }
 
+void moveEnds(const Eigen::Isometry3d& motion, Balancer& balancer) {
+  for (BalancerEnd* end : {&balancer.from, &balancer.to}) end->in_base_at_zero = motion * end->in_base_at_zero;
+}
+
 double lengthAt(const Balancer& balancer, const ArmPosture& posture) {
   return (placeOf(balancer.to, posture) - placeOf(balancer.from, posture)).norm();
 }

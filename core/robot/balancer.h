@@ -24,6 +24,9 @@ struct PlacedBalancer {
 };
 PlacedBalancer placedAt(const Balancer& balancer, const ArmPosture& posture);
 
+/// Brings both ends into another frame, of which `motion` gives the place of the one they are in.
+void moveEnds(const Eigen::Isometry3d& motion, Balancer& balancer);
+
 double lengthAt(const Balancer& balancer, const ArmPosture& posture);
 
 /// Whether its stroke reaches this length, its gas still has a volume there, and its ends are apart.

@@ -29,10 +29,7 @@ GravityLoad gravityLoad(const Robot& nominal, const std::optional<Tool>& tool,
     if (carries && weight.bodies[body].mass_kg <= 0.0) weight.links_known = false;
   }
   weight.balancers = nominal.balancers;
-  for (Balancer& balancer : weight.balancers) {
-    for (BalancerEnd* end : {&balancer.from, &balancer.to})
-      end->in_base_at_zero = base_from_base_link * end->in_base_at_zero;
-  }
+  for (Balancer& balancer : weight.balancers) moveEnds(base_from_base_link, balancer);
   if (tool && tool->mass_kg > 0.0) {
     BodyMass& last = weight.bodies.back();
     const Eigen::Vector3d tool_com = arm.base_from_flange_at_zero * tool->com_in_flange;

@@ -271,11 +271,10 @@ SharedSpring readSharedSpring(const io::XmlNode& node, const MachineSpec& machin
 }
 
 CylinderGas readGas(const io::XmlNode& node) {
-  constexpr double kBar = 1e5, kSquareCentimetre = 1e-4, kLitre = 1e-3;
   CylinderGas gas;
-  gas.pressure = positive(node, "gas_pressure_bar", kBar);
-  gas.area = positive(node, "gas_area_cm2", kSquareCentimetre);
-  gas.volume = positive(node, "gas_volume_l", kLitre);
+  gas.pressure = positive(node, "gas_pressure_bar", io::kBar);
+  gas.area = positive(node, "gas_area_cm2", io::kSquareCentimetre);
+  gas.volume = positive(node, "gas_volume_l", io::kLitre);
   if (node.has("gas_exponent")) gas.exponent = positive(node, "gas_exponent", 1.0);
   if (gas.exponent < 1.0) node.refuse("gas_exponent", node.requiredAttribute("gas_exponent"), "expected 1 or more");
   gas.pushes = choice<bool>(node, "gas_acts", {{"pull", false}, {"push", true}});

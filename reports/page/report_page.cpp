@@ -106,8 +106,7 @@ std::string marksJson(const reports::Figure& figure) {
     const double digits = std::pow(10.0, 5.0 - std::ceil(std::log10(std::max(std::abs(mark.value), 1e-12))));
     marks.push_back({rounded(mark.x, 1e4), rounded(mark.y, 1e4), indexOf(series, mark.series),
                      mark.category.empty() ? -1 : indexOf(categories, mark.category), rounded(mark.value, digits),
-                     rounded(mark.at, 1e4),
-                     indexOf(quantities, mark.quantity.empty() ? figure.value_name : mark.quantity)});
+                     rounded(mark.at, 1e4), indexOf(quantities, mark.quantity)});
   }
   return reports::Json{{"quantities", quantities},
                        {"category", figure.category_name},
@@ -124,7 +123,7 @@ void keepMarks(Html& html, const reports::Figure& figure) {
   for (const reports::FigureMark& mark : figure.marks)
     data.rows.push_back({reports::plain(mark.series), reports::plain(mark.category),
                          mark.category.empty() ? reports::DataCell(mark.at) : reports::DataCell(), mark.value,
-                         reports::plain(mark.quantity.empty() ? figure.value_name : mark.quantity)});
+                         reports::plain(mark.quantity)});
   html.keepTable("figure-" + figure.id, reports::csvTable(data));
 }
 

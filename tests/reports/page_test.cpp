@@ -320,6 +320,20 @@ TEST(Page, BeginsWithTheNoteAndSaysWhatIsNotStated) {
   EXPECT_FALSE(has(page, "Measured by"));
 }
 
+// That one day is simulated says nothing of the other.
+TEST(Page, ANoteOnOneOfTwoDaysNamesIt) {
+  SmallResult first(campaign::DoubleEncoder::inactive), second(campaign::DoubleEncoder::active);
+  first.campaign.texts.note = "simulated";
+  const auto pageOfBoth = [&] {
+    reports::ReportContent content = contentOf(first);
+    content.campaigns.push_back({second.campaign, second.identification});
+    return page::reportPage(content);
+  };
+  EXPECT_TRUE(has(pageOfBoth(), "<p class=\"stated\">Note on Double encoders inactive: simulated</p>"));
+  second.campaign.texts.note = "simulated";
+  EXPECT_TRUE(has(pageOfBoth(), "<p class=\"stated\">Note: simulated</p>"));
+}
+
 TEST(Page, FiguresOfACampaignStandWithItsTables) {
   const SmallResult first(campaign::DoubleEncoder::inactive), second(campaign::DoubleEncoder::active);
   reports::ReportContent content = contentOf(first);
