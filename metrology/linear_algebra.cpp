@@ -84,6 +84,10 @@ Eigen::VectorXd symmetricEigenvalues(const Eigen::MatrixXd& a) {
   return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(a, Eigen::EigenvaluesOnly).eigenvalues();
 }
 
+Eigen::MatrixXd propagated(const Eigen::MatrixXd& jacobian, const Eigen::Ref<const Eigen::MatrixXd>& covariance) {
+  return jacobian * covariance * jacobian.transpose();
+}
+
 Eigen::MatrixXd covarianceRoot(const Eigen::MatrixXd& covariance) {
   const Eigen::VectorXd sd = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
   const Eigen::VectorXd inverse = sd.unaryExpr([](double d) { return d > 0.0 ? 1.0 / d : 0.0; });

@@ -45,6 +45,9 @@ struct SymmetricEigen {
 SymmetricEigen symmetricEigen(const Eigen::MatrixXd& a);
 Eigen::VectorXd symmetricEigenvalues(const Eigen::MatrixXd& a);
 
+/// J C J^T: the covariance of J x of an x with covariance C (GUM 5.2.2).
+Eigen::MatrixXd propagated(const Eigen::MatrixXd& jacobian, const Eigen::Ref<const Eigen::MatrixXd>& covariance);
+
 /// S with S S^T = C of a covariance C, semidefinite or nearly so, by the eigenvectors of its correlation.
 Eigen::MatrixXd covarianceRoot(const Eigen::MatrixXd& covariance);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/frames/arm_parameters.h"
+#include "metrology/linear_algebra.h"
 
 namespace stiffscope::calibration {
 
@@ -34,7 +35,7 @@ UncertainPoint stationInBase(const UnloadedDay& day, const ArmFit& fit) {
   const Eigen::Vector3d lever = point.value - fit.centre;
   for (int k = 0; k < 3; ++k) by_base.col(k) = Eigen::Vector3d::Unit(k).cross(lever);
   by_base.rightCols<3>().setIdentity();
-  point.sd = sdOf(by_base * covarianceFrom(fit, fit.places().baseAt(), 6) * by_base.transpose());
+  point.sd = sdOf(propagated(by_base, covarianceFrom(fit, fit.places().baseAt(), 6)));
   return point;
 }
 

@@ -124,7 +124,7 @@ class Comparing {
             numbers_->difference(of(lower).head(numbers_->count()), of(upper).head(numbers_->count()));
         by.col(static_cast<Eigen::Index>(f)) = change / (2.0 * kStep);
       }
-      const Eigen::MatrixXd own = by * pair_->covariances[k] * by.transpose();
+      const Eigen::MatrixXd own = propagated(by, pair_->covariances[k]);
       covariance_ = k == 0 ? own : Eigen::MatrixXd(covariance_ + own);
       by_free_[k] = std::move(by);
     }
@@ -155,7 +155,7 @@ class Comparing {
     Eigen::MatrixXd own = Eigen::MatrixXd::Zero(sizes, sizes),
                     across = Eigen::MatrixXd::Zero(difference_.size(), sizes);
     for (std::size_t k = 0; k < 2; ++k) {
-      own += by_effects_[k] * pair_->covariances[k] * by_effects_[k].transpose();
+      own += propagated(by_effects_[k], pair_->covariances[k]);
       across += by_free_[k] * pair_->covariances[k] * by_effects_[k].transpose();
     }
     const int count = static_cast<int>(sizes);

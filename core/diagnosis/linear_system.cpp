@@ -13,6 +13,7 @@
 #include "core/numerics/normal_equations.h"
 #include "core/numerics/parallel.h"
 #include "core/preparation/finding.h"
+#include "metrology/linear_algebra.h"
 #include "metrology/rigid_motion.h"
 
 namespace stiffscope::diagnosis {
@@ -79,7 +80,7 @@ void addWander(const SystemInput& input, const GapPosture& posture, const Eigen:
     motion.col(k) = effects::byMotion(rest, centre, axis, Eigen::Vector3d::Zero());
     motion.col(3 + k) = effects::byMotion(rest, centre, Eigen::Vector3d::Zero(), axis);
   }
-  const Eigen::MatrixXd a_second = motion * input.wandering->wander * motion.transpose();
+  const Eigen::MatrixXd a_second = propagated(motion, input.wandering->wander);
   const auto bridge = [&](std::size_t s, std::size_t r) {
     return preparation::bridgeBetweenRounds(station, posture.states[s].time_s, posture.states[r].time_s);
   };

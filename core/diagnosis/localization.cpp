@@ -151,7 +151,7 @@ struct Sum {
   double squares = 0.0, noise = 0.0, variance = 0.0, count = 0.0;
 
   void add(const LeftOver& one, const Eigen::Matrix3Xd& directions) {
-    const Eigen::MatrixXd noise_here = directions.transpose() * one.noise * directions;
+    const Eigen::MatrixXd noise_here = propagated(directions.transpose(), one.noise);
     squares += (directions.transpose() * one.left).squaredNorm();
     noise += noise_here.trace();
     variance += 2.0 * (noise_here * noise_here).trace();

@@ -214,8 +214,7 @@ class CoupledFit {
         const SmallMotion motion = arm.byBase(k);
         put(parameters_.baseAt() + static_cast<Eigen::Index>(k), motion.at(seen.line.point), motion.rotation);
       }
-      seen.covariance =
-          by * covariance.topLeftCorner(parameters_.targetsAt(), parameters_.targetsAt()) * by.transpose();
+      seen.covariance = propagated(by, covariance.topLeftCorner(parameters_.targetsAt(), parameters_.targetsAt()));
       seen.line = {points_from_base * seen.line.point, points_from_base.linear() * seen.line.direction};
       seen.across_u = points_from_base.linear() * seen.across_u;
       seen.across_v = points_from_base.linear() * seen.across_v;

@@ -6,6 +6,7 @@
 
 #include "core/frames/remarks.h"
 #include "core/robot/kinematics.h"
+#include "metrology/linear_algebra.h"
 #include "metrology/lines.h"
 #include "metrology/rigid_motion.h"
 
@@ -114,7 +115,7 @@ FramesCovariance framesCovariance(const MeasuredAxes& axes, const ArmInR0& arm, 
       covariance.by_scale[at.radii + target] = wrist.radii[static_cast<std::size_t>(target)];
     }
   }
-  covariance.readings = by_axes * axesCovariance(axes) * by_axes.transpose();
+  covariance.readings = propagated(by_axes, axesCovariance(axes));
   if (wrist.measured) addWrist(wrist, at, covariance.readings);
   return covariance;
 }
@@ -252,7 +253,7 @@ std::optional<Eigen::MatrixXd> sagPart(const Frames& frames, const JointVector& 
     const Frames moved = measuredWith(compliance + kStep * JointVector::Unit(joints, joint));
     if (moved.arm.points_placed) by_compliance.col(joint) = framesDifference(frames, moved) / kStep;
   }
-  return by_compliance * covariance * by_compliance.transpose();
+  return propagated(by_compliance, covariance);
 }
 
 void propagate(const campaign::Campaign& campaign, Frames& frames,

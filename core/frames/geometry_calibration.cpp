@@ -246,7 +246,7 @@ class Calibration {
     const Eigen::Matrix3d covariance =
         trackerNoise(*campaign_.tracker).covarianceAt(position.point, position.from) / position.readings +
         campaign::stationCovariance(campaign_, position.station, position.point);
-    const Eigen::Matrix3d in_loading = covariance.inverse().llt().matrixU();
+    const Eigen::Matrix3d in_loading = Eigen::Matrix3d(covariance.inverse()).llt().matrixU();
     return in_loading * start_.r0_from_loading->linear().transpose();
   }
 

@@ -7,6 +7,7 @@
 
 #include "core/frames/coupled_axes.h"
 #include "core/frames/remarks.h"
+#include "metrology/linear_algebra.h"
 #include "metrology/lines.h"
 #include "metrology/rigid_motion.h"
 
@@ -37,7 +38,7 @@ AxesCovariance axesCovariance(const MeasuredAxes& axes) {
     const bool turned = (axes[axis].swept_at.head(static_cast<Eigen::Index>(axis)).array() != 0.0).any();
     if (turned) by_fits.middleRows<4>(at) += byEarlierAxes(axes, axis) * by_fits.topRows(at);
   }
-  return by_fits * of_fits * by_fits.transpose();
+  return propagated(by_fits, of_fits);
 }
 
 namespace {

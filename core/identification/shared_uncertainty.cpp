@@ -4,6 +4,7 @@
 
 #include "core/frames/joint_axes.h"
 #include "core/numerics/parallel.h"
+#include "metrology/linear_algebra.h"
 #include "metrology/lines.h"
 
 namespace stiffscope::identification {
@@ -108,7 +109,7 @@ std::vector<SweptParts> sweptParts(const campaign::Campaign& campaign, const fra
   const auto radii = static_cast<Eigen::Index>(swept);
   for (std::size_t k = 0; k < solves.size(); ++k) {
     const Eigen::Index at = joints * static_cast<Eigen::Index>(k);
-    parts[k].frames = by_axes.middleRows(at, joints) * of_axes * by_axes.middleRows(at, joints).transpose();
+    parts[k].frames = propagated(by_axes.middleRows(at, joints), of_axes);
     if (swept == 0) continue;
     parts[k].wrist = by_radii.middleRows(at, joints) * wrist.spheres.covariance.bottomRightCorner(radii, radii) *
                      by_radii.middleRows(at, joints).transpose();

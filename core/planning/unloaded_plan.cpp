@@ -120,9 +120,9 @@ class UnloadedPlanner {
 
   static double gainOf(const Eigen::MatrixXd& rows, const Eigen::MatrixXd& covariance,
                        const Eigen::MatrixXd& weighted) {
-    Eigen::MatrixXd among = rows * covariance * rows.transpose();
+    Eigen::MatrixXd among = propagated(rows, covariance);
     among.diagonal().array() += 1.0;
-    return solvePositive(among, rows * weighted * rows.transpose()).trace();
+    return solvePositive(among, propagated(rows, weighted)).trace();
   }
 
   static Eigen::MatrixXd inverse(const Eigen::MatrixXd& normal) {

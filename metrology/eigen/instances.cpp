@@ -1,0 +1,2 @@
+#define STIFFSCOPE_INSTANCE template
+#include "metrology/eigen/instances.h"
