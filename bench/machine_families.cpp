@@ -79,13 +79,12 @@ validation::BlindCase drawMachine(const std::string& family_at_kind, int i, std:
   const std::string family = familyOf(family_at_kind);
   using validation::CaseKind;
   validation::CasePlan plan;
-  const auto effect = [](int k) {
-    return std::string(effects::kEffectIds[static_cast<std::size_t>(k) % effects::kEffectCount]);
-  };
+  const std::vector<std::string>& effects = validation::loadedDays(kindOf(family_at_kind)).vocabulary.effects;
+  const auto effect = [&](int k) { return effects[static_cast<std::size_t>(k) % effects.size()]; };
   if (family == "single") {
     plan = {CaseKind::single, {effect(i)}, {}};
   } else if (family == "double") {
-    const int other = i + 1 + (i / static_cast<int>(effects::kEffectCount) * 5) % 15;
+    const int other = i + 1 + (i / static_cast<int>(effects.size()) * 5) % 15;
     plan = {CaseKind::pair, {effect(i), effect(other)}, {}};
   } else if (family == "outside") {
     const auto kinds = validation::outsideKinds();

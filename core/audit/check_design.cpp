@@ -107,9 +107,12 @@ void addSeparableEffects(const diagnosis::Diagnosis& diagnosis, AuditReport& rep
   for (const auto& group : diagnosis.aliases) {
     for (const effects::Effect effect : group) apart[static_cast<std::size_t>(effect)] = false;
   }
+  const bool on_rail = std::any_of(report.checks.begin(), report.checks.end(),
+                                   [](const preparation::AuditCheck& one) { return one.id == "rail_straight"; });
   std::vector<effects::Effect> told;
   for (std::size_t i = 0; i < effects::kEffectCount; ++i) {
-    if (apart[i]) told.push_back(static_cast<effects::Effect>(i));
+    const auto effect = static_cast<effects::Effect>(i);
+    if (apart[i] && effects::concerns(effect, on_rail)) told.push_back(effect);
   }
   if (!told.empty()) check->details.push_back(Remark(RemarkId::effects_apart, idsOf(told)));
   for (const auto& group : diagnosis.aliases) {

@@ -45,6 +45,7 @@ struct CircleReading {
   std::size_t line = 0;
   int station = 0;
   Eigen::Vector3d from = kStationOfTracker;
+  double carriage = kNotGiven;  ///< as of State
 };
 
 struct WristReading {
@@ -57,6 +58,7 @@ struct WristReading {
   std::size_t line = 0;
   int station = 0;
   Eigen::Vector3d from = kStationOfTracker;
+  double carriage = kNotGiven;  ///< as of State
 };
 
 /// While the carriage of a rail goes along and all joints stand still.
@@ -105,6 +107,9 @@ struct State {
   JointVector motor_side;            ///< motor angles over the gear ratio, rad
   double temperature_c = kNotGiven;  ///< degrees Celsius
   StatedPose tool_pose = {};         ///< by the controller's own kinematics
+  /// Of no column: where the carriage stood, m, once readings have been referred to its zero (preparation/rail.h) and
+  /// `rail` is 0.
+  double carriage = kNotGiven;
   /// Of no column: what q was as reported, where it has been referred to the motor's side
   /// (identification/motor_side.h).
   JointVector link_side;

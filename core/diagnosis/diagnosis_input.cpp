@@ -4,6 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <numeric>
+#include <utility>
+#include <vector>
 
 #include "core/diagnosis/remarks.h"
 #include "core/frames/geometry_calibration.h"
@@ -35,6 +39,72 @@ JointVector startCompliance(const campaign::Campaign& campaign, identification::
 bool sameFrame(const campaign::Campaign& campaign) {
   return campaign.circle_sweeps && campaign.loading && campaign.circle_sweeps->frame == campaign.loading->frame &&
          (!campaign.wrist_sweep || campaign.wrist_sweep->frame == campaign.loading->frame);
+}
+
+/// Joint angles of the sweep of the rail, which no table states: those of the arm's reading whose reflector stands
+/// nearest to where that sweep has it, `places` of the reflectors with the carriage at zero.
+JointVector anglesOfRailSweep(const campaign::Campaign& campaign, const std::map<int, Eigen::Vector3d>& places) {
+  JointVector nearest = campaign.states->rows.front().q;
+  double least = std::numeric_limits<double>::infinity();
+  const auto search = [&](const auto& table) {
+    if (!table || table->frame != campaign.rail_sweep->frame) return;
+    for (const auto& row : table->rows) {
+      const auto place = places.find(row.target);
+      if (place == places.end() || !((row.point - place->second).norm() < least)) continue;
+      least = (row.point - place->second).norm();
+      nearest = row.q;
+    }
+  };
+  search(campaign.circle_sweeps);
+  search(campaign.wrist_sweep);
+  return nearest;
+}
+
+/// What the sweep's straight line has taken in (effects::RailTravel).
+void addRailLine(const campaign::Campaign& campaign, const preparation::RailCourse& course,
+                 const frames::LoadingGeometry& geometry, effects::RailTravel& travel) {
+  std::map<int, std::pair<Eigen::Vector3d, double>> sums;
+  double x1 = 0.0, x2 = 0.0, x3 = 0.0, count = 0.0;
+  for (const campaign::RailReading& row : campaign.rail_sweep->rows) {
+    auto& [sum, readings] =
+        sums.emplace(row.target, std::pair(Eigen::Vector3d(Eigen::Vector3d::Zero()), 0.0)).first->second;
+    sum += row.point - row.rail * course.per_metre;
+    readings += 1.0;
+    const double x = (row.rail - travel.mean) / travel.scale;
+    x1 += x, x2 += x * x, x3 += x * x * x, count += 1.0;
+  }
+  const double spread = x2 - x1 * x1 / count;
+  if (!(spread > 0.0)) return;
+  travel.line_by_x = 1.0 / travel.scale;
+  travel.line_by_square = (x3 - x1 * x2 / count) / spread / travel.scale;
+  std::map<int, Eigen::Vector3d> places;
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const auto& [target, sum] : sums) middle += places[target] = sum.first / sum.second;
+  travel.reflectors_at_sweep = *geometry.r0_from_loading * (middle / static_cast<double>(sums.size()));
+  const JointVector q = anglesOfRailSweep(campaign, places);
+  travel.weight_at_sweep =
+      effects::carried(effects::stateAt(geometry, q, JointVector::Zero(q.size())), 0, Eigen::Vector3d::Zero());
+}
+
+effects::RailTravel railTravel(const preparation::PreparedCampaign& prepared, const frames::LoadingGeometry& geometry) {
+  effects::RailTravel travel;
+  std::vector<double> positions;
+  for (const campaign::State& row : prepared.campaign.states->rows) {
+    if (row.step == 0 && std::isfinite(row.carriage)) positions.push_back(row.carriage);
+  }
+  if (positions.empty()) return travel;
+  const auto [low, high] = std::minmax_element(positions.begin(), positions.end());
+  const auto count = static_cast<double>(positions.size());
+  travel.mean = std::accumulate(positions.begin(), positions.end(), 0.0) / count;
+  if (*high > *low) travel.scale = 0.5 * (*high - *low);
+  for (const double position : positions)
+    travel.mean_square += std::pow((position - travel.mean) / travel.scale, 2) / count;
+  const campaign::Campaign& campaign = prepared.campaign;
+  const std::optional<campaign::Loading>& loading = campaign.loading;
+  const bool by_line = prepared.rail && loading && loading->frame == campaign.rail_sweep->frame &&
+                       loading->frame == campaign::PointFrame::tracker && geometry.r0_from_loading;
+  if (by_line) addRailLine(campaign, *prepared.rail, geometry, travel);
+  return travel;
 }
 
 }  // namespace
@@ -72,6 +142,7 @@ DiagnosisInput diagnosisInput(const preparation::PreparedCampaign& prepared) {
   if (start.geometry.weight.links_known) start.geometry.compliance = compliance;
   start.state = startState(start.campaign, start.geometry, arm.cases);
   start.state.at.compliance = compliance;
+  if (start.campaign.robot.rail) start.state.at.rail = railTravel(prepared, start.geometry);
   if (!start.noise.known) start.reason = Remark(RemarkId::noise_not_known, start.noise.source);
   return start;
 }

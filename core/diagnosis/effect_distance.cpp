@@ -20,6 +20,7 @@ double distanceFromVocabulary(const campaign::Campaign& campaign) {
   const preparation::PreparedCampaign prepared = preparation::prepareCampaign(campaign);
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t e = 0; e < effects::kEffectCount; ++e) {
+    if (!effects::concerns(static_cast<effects::Effect>(e), campaign.robot.rail.has_value())) continue;
     DiagnoseOptions options;
     options.resamples = options.chance_draws = 0;
     options.only = static_cast<effects::Effect>(e);

@@ -36,7 +36,7 @@ void evaluatePreconditions(const GapOptions& options, const SystemInput& input, 
   for (std::size_t e = 0; e < effects::kEffectCount; ++e) {
     const auto effect = static_cast<effects::Effect>(e);
     const Remark missing = effects::missingFor(effect, has);
-    if (missing.empty()) continue;
+    if (missing.empty() || !effects::concerns(effect, input.campaign.robot.rail.has_value())) continue;
     study.not_testable.push_back({effect, missing});
     for (std::size_t m = 0; m < input.models.size(); ++m) {
       if (input.models[m].effect == effect) study.allowed[m] = false;

@@ -71,6 +71,7 @@ std::vector<DetectableSize> detectableSizes(const SystemInput& input, const GapF
   std::vector<DetectableSize> detectable;
   for (std::size_t e = 0; e < effects::kEffectCount; ++e) {
     const auto effect = static_cast<effects::Effect>(e);
+    if (!effects::concerns(effect, input.campaign.robot.rail.has_value())) continue;
     std::vector<double> sizes;
     for (std::size_t m = 0; m < input.models.size(); ++m) {
       if (input.models[m].effect != effect || !allowed[m]) continue;

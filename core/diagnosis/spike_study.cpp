@@ -92,10 +92,11 @@ SpikeAnswer verdictOf(const SpikedDay& day, const SpikeTask& task, double chance
   return std::nullopt;
 }
 
-std::vector<effects::Effect> wantedOf(const SpikeOptions& options) {
+std::vector<effects::Effect> wantedOf(const SpikeOptions& options, bool on_rail) {
   std::vector<effects::Effect> wanted;
   for (std::size_t e = 0; e < effects::kEffectCount; ++e) {
     const auto effect = static_cast<effects::Effect>(e);
+    if (!effects::concerns(effect, on_rail)) continue;
     const auto& asked = options.effects;
     if (asked.empty() || std::find(asked.begin(), asked.end(), effect) != asked.end()) wanted.push_back(effect);
   }
@@ -133,7 +134,7 @@ SpikeStudy spikeStudy(const campaign::Campaign& campaign, const Diagnosis& basel
   if (!day.unusable().empty()) return study;
   const double largest = options.sizes.empty() ? 0.0 : *std::max_element(options.sizes.begin(), options.sizes.end());
   std::vector<std::vector<Spike>> spikes;
-  for (const effects::Effect effect : wantedOf(options)) {
+  for (const effects::Effect effect : wantedOf(options, campaign.robot.rail.has_value())) {
     study.effects.push_back(described(effect, baseline));
     spikes.emplace_back();
     SpikedEffect& one = study.effects.back();

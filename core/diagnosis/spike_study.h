@@ -78,7 +78,8 @@ class SpikedDay {
   Field fieldOf(const Spike& spike, double size) const;
   Eigen::VectorXd byGeometry(const Eigen::VectorXd& errors, const effects::ArmState& state) const;
   double geometryLeft(const Eigen::VectorXd& errors) const;  ///< GeometryError::rms that they make, m
-  effects::ArmState atRest(int target, const JointVector& q, const Eigen::Vector3d& point, double time_s) const;
+  effects::ArmState atRest(int target, const JointVector& q, const Eigen::Vector3d& point, double time_s,
+                           double carriage) const;
   void moveLoading(const Field& field, campaign::Campaign& campaign) const;
   void moveDisplacements(const Field& field, campaign::Campaign& campaign) const;
   template <class Row>

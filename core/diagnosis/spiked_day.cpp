@@ -189,9 +189,9 @@ SpikedDay::Field SpikedDay::fieldOf(const Spike& spike, double size) const {
   };
 }
 
-effects::ArmState SpikedDay::atRest(int target, const JointVector& q, const Eigen::Vector3d& point,
-                                    double time_s) const {
-  effects::ArmState state = effects::gravityEquilibrium(start_.state.geometry, start_.state.at, q);
+effects::ArmState SpikedDay::atRest(int target, const JointVector& q, const Eigen::Vector3d& point, double time_s,
+                                    double carriage) const {
+  effects::ArmState state = effects::gravityEquilibrium(start_.state.geometry, start_.state.at, q, carriage);
   state.time_s = time_s;
   state.targets = {target};
   state.points = {point};
@@ -254,7 +254,8 @@ template <class Row>
 void SpikedDay::moveSweep(const Field& field, std::vector<Row>& rows) const {
   const Eigen::Matrix3d sweeps_from_r0 = start_.state.r0_from_sweeps.linear().transpose();
   for (Row& row : rows) {
-    const effects::PostureStates state{atRest(row.target, row.q, start_.state.r0_from_sweeps * row.point, row.time_s)};
+    const effects::PostureStates state{
+        atRest(row.target, row.q, start_.state.r0_from_sweeps * row.point, row.time_s, row.rail)};
     row.point += sweeps_from_r0 * field(state, 0);
   }
 }

@@ -16,11 +16,11 @@ namespace stiffscope::diagnosis {
 
 namespace {
 
-std::vector<std::map<int, double>> timesOf(const campaign::Campaign& campaign) {
-  std::vector<std::map<int, double>> times(campaign.pose_ids.size());
+std::vector<std::map<int, const campaign::State*>> statesOf(const campaign::Campaign& campaign) {
+  std::vector<std::map<int, const campaign::State*>> states(campaign.pose_ids.size());
   for (const campaign::State& state : campaign.states->rows)
-    times[static_cast<std::size_t>(state.pose)][state.step] = state.time_s;
-  return times;
+    states[static_cast<std::size_t>(state.pose)][state.step] = &state;
+  return states;
 }
 
 /// `posture`: of the case, unloaded.
@@ -66,12 +66,13 @@ class LoadingRowMaker {
  public:
   LoadingRowMaker(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,
                   const effects::LinearizationPoint& at, const effects::Corrections& corrections,
-                  const identification::LoadReadings& readings, const std::vector<std::map<int, double>>& times)
+                  const identification::LoadReadings& readings,
+                  const std::vector<std::map<int, const campaign::State*>>& states)
       : campaign_(campaign),
         geometry_(geometry),
         at_(at),
         corrections_(corrections),
-        times_(times),
+        states_(states),
         cases_(campaign, readings, geometry) {}
 
   std::vector<SystemRows> run(std::size_t first, std::size_t end) const {
@@ -122,7 +123,9 @@ class LoadingRowMaker {
     rows.pose = pose;
     rows.displacement.resize(per_state * states);
     rows.by_compliance.resize(per_state * states, geometry_.arm.joints());
-    effects::ArmState rest = effects::gravityEquilibrium(geometry_, at_, cases.front().q);
+    const campaign::State* unloaded_state = stateOf(pose, 0);
+    effects::ArmState rest = effects::gravityEquilibrium(
+        geometry_, at_, cases.front().q, unloaded_state ? unloaded_state->carriage : campaign::kNotGiven);
     rest.pose = pose;
     rest.targets = targets;
     rest.time_s = timeOf(pose, 0);
@@ -202,17 +205,22 @@ class LoadingRowMaker {
     rows.sag_by_compliance = effects::byEachJoint(rest, rest.weight_torque);
   }
 
-  double timeOf(int pose, int step) const {
-    const auto& by_step = times_[static_cast<std::size_t>(pose)];
+  const campaign::State* stateOf(int pose, int step) const {
+    const auto& by_step = states_[static_cast<std::size_t>(pose)];
     const auto found = by_step.find(step);
-    return found == by_step.end() ? campaign::kNoTime : found->second;
+    return found == by_step.end() ? nullptr : found->second;
+  }
+
+  double timeOf(int pose, int step) const {
+    const campaign::State* state = stateOf(pose, step);
+    return state == nullptr ? campaign::kNoTime : state->time_s;
   }
 
   const campaign::Campaign& campaign_;
   const frames::LoadingGeometry& geometry_;
   const effects::LinearizationPoint& at_;
   const effects::Corrections& corrections_;
-  const std::vector<std::map<int, double>>& times_;
+  const std::vector<std::map<int, const campaign::State*>>& states_;
   identification::LoadCaseMaker cases_;
 };
 
@@ -228,7 +236,7 @@ double compensatorSlope(const effects::LinearizationPoint& at, const JointVector
 }
 
 LoadingRows::LoadingRows(const campaign::Campaign& campaign)
-    : campaign_(campaign), readings_(campaign, identification::loadSteps(campaign)), times_(timesOf(campaign)) {}
+    : campaign_(campaign), readings_(campaign, identification::loadSteps(campaign)), states_(statesOf(campaign)) {}
 
 std::vector<SystemRows> LoadingRows::rows(const frames::LoadingGeometry& geometry,
                                           const effects::LinearizationPoint& at,
@@ -239,7 +247,7 @@ std::vector<SystemRows> LoadingRows::rows(const frames::LoadingGeometry& geometr
     shifted.r0_from_loading =
         metrology::motionAbout(at.epoch_centre, corrections.frame).inverse() * *geometry.r0_from_loading;
   }
-  return LoadingRowMaker(campaign_, shifted, at, corrections, readings_, times_).run(first, end);
+  return LoadingRowMaker(campaign_, shifted, at, corrections, readings_, states_).run(first, end);
 }
 
 std::vector<SystemRows> loadingRows(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,
@@ -254,7 +262,7 @@ std::vector<SweepRows> sweepRows(const campaign::Campaign& campaign, const frame
     const auto& at_zero = geometry.targets_at_zero[static_cast<std::size_t>(reading.target)];
     if (!at_zero) return;
     SweepRows& rows = by_index[{axis, reading.index}];
-    if (rows.state.points.empty()) rows.state = effects::gravityEquilibrium(geometry, at, reading.q);
+    if (rows.state.points.empty()) rows.state = effects::gravityEquilibrium(geometry, at, reading.q, reading.carriage);
     rows.state.time_s = reading.time_s;
     rows.state.targets.push_back(reading.target);
     rows.state.points.push_back(r0_from_points * reading.point);

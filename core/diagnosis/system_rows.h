@@ -88,7 +88,7 @@ class LoadingRows {
  private:
   const campaign::Campaign& campaign_;
   identification::LoadReadings readings_;
-  std::vector<std::map<int, double>> times_;  // by pose and step, s
+  std::vector<std::map<int, const campaign::State*>> states_;  // by pose and step
 };
 
 std::vector<SystemRows> loadingRows(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,

@@ -35,6 +35,8 @@ std::vector<EffectModel> effectModelsOf(const campaign::Campaign& campaign) {
 
 EffectNature natureOf(Effect effect) { return recordOf(effect).nature; }
 
+bool concerns(Effect effect, bool on_rail) { return on_rail || !recordOf(effect).of_rail; }
+
 bool entersCompensation(Effect effect) {
   return natureOf(effect) == EffectNature::machine || natureOf(effect) == EffectNature::load;
 }

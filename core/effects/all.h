@@ -27,6 +27,9 @@ std::vector<EffectModel> effectModelsOf(const campaign::Campaign& campaign);
 
 EffectNature natureOf(Effect effect);
 
+/// Whether a machine of this kind can have the effect at all.
+bool concerns(Effect effect, bool on_rail);
+
 /// Whether the effect has a part in what the machine does under a planned load.
 bool entersCompensation(Effect effect);
 

@@ -20,6 +20,7 @@ robot::ArmPosture movedPosture(const robot::Robot& arm, const JointVector& turne
 CompactPosture::CompactPosture(const PostureStates& posture) {
   const ArmState& rest = posture.front();
   pose_ = rest.pose;
+  carriage_ = rest.carriage;
   q_ = rest.q;
   turned_ = rest.turned;
   const auto isMoved = [](const Eigen::Isometry3d& motion) { return motion.matrix() != Eigen::Matrix4d::Identity(); };
@@ -37,6 +38,7 @@ PostureStates CompactPosture::states(const frames::LoadingGeometry& geometry) co
   std::copy(moved_.begin(), moved_.end(), moved.begin());
   ArmState rest = stateMoved(geometry, q_, turned_, moved);
   rest.pose = pose_;
+  rest.carriage = carriage_;
   rest.flange = flange_;
   rest.targets = targets_;
   rest.points = points_;

@@ -19,6 +19,7 @@ struct ArmState {
   int pose = -1;  ///< -1 in sweeps
   int step = 0;
   double time_s = campaign::kNoTime;
+  double carriage = campaign::kNotGiven;  ///< reported position on the rail, m; not a number where nothing says it
   bool loaded = false;  ///< its force is above the share of the posture's largest that makes it a return to zero
   JointVector q;
   JointVector turned;  ///< joint angles with the sag in
@@ -72,6 +73,7 @@ class CompactPosture {
 
  private:
   int pose_ = -1;
+  double carriage_ = campaign::kNotGiven;
   JointVector q_, turned_;
   std::vector<Eigen::Isometry3d> moved_;  // empty where no body is
   Eigen::Isometry3d flange_ = Eigen::Isometry3d::Identity();

@@ -13,6 +13,7 @@ namespace stiffscope::effects {
   EFFECT(link_compliance, linkCompliance)              \
   EFFECT(bearing_tilt, bearingTilt)                    \
   EFFECT(base_compliance, baseCompliance)              \
+  EFFECT(rail_bending, railBending)                    \
   EFFECT(joint_coupling, jointCoupling)                \
   EFFECT(joint_hardening, jointHardening)              \
   EFFECT(backlash, backlash)                           \

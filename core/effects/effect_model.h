@@ -19,6 +19,18 @@ struct PresentEffect {
   Eigen::VectorXd parameters;
 };
 
+/// The day on a rail as the models of effects need it.
+struct RailTravel {
+  double mean = 0.0;         ///< of the carriage's positions r over the postures, m
+  double scale = 1.0;        ///< half of what lies between the outermost, m
+  double mean_square = 0.0;  ///< of x = (r - mean) / scale over the postures
+  /// Readings are referred to the carriage at zero by the straight line through a sweep of the rail. What moves the
+  /// reflectors there by x and by x^2 - mean_square alike in all postures is in that line, by so much a metre.
+  double line_by_x = 0.0, line_by_square = 0.0;
+  robot::Wrench weight_at_sweep;                                  ///< own weight on the carriage in that sweep, R0
+  Eigen::Vector3d reflectors_at_sweep = Eigen::Vector3d::Zero();  ///< their mean with the carriage at zero, R0
+};
+
 /// What the models of the effects are linearised at. Effects that multiply another unknown (a wrong load
 /// point times a compliance) or bend with their own size (friction) take that other one from here and are
 /// fitted again and again.
@@ -42,6 +54,7 @@ struct LinearizationPoint {
   double sweep_time = 0.0;                                 ///< s; the sweeps' epoch as far as it is known
   Eigen::Isometry3d r0_from_base_link = Eigen::Isometry3d::Identity();
   Eigen::Vector3d rail_in_base = Eigen::Vector3d::Zero();  ///< direction of an arm's rail; zero: it stands on none
+  RailTravel rail;                                         ///< of an arm on one
 
   LinearizationPoint() = default;  ///< of no machine yet
   /// Of a machine of so many joints, rigid and without effects.
@@ -166,12 +179,14 @@ struct CampaignContents {
   bool weights = false;  ///< masses of the arm are known
   bool absolute = false, sweeps = false;
   bool nests = false;
+  int carriage_positions = 0;  ///< in loaded postures, a hundredth of a metre and more apart; 0: the arm is on no rail
 };
 
 /// All that the program knows of an effect but its words, which stand in reports/words.
 struct EffectRecord {
   Effect effect = {};
   EffectNature nature = EffectNature::machine;
+  bool of_rail = false;  ///< of an arm on a rail alone; others are not asked for it
   /// What is missing to test it with this; empty where nothing is. Null: nothing ever is.
   Remark (*missing)(const CampaignContents& contents) = nullptr;
   /// Its equations, one or more. Null: it has no columns.

@@ -53,11 +53,12 @@ JointVector turnOf(const LinearizationPoint& at, const PostureStates& rest) {
 
 JointVector presentTurn(const LinearizationPoint& at, const ArmState& state) { return turnOf(at, {state}); }
 
-ArmState gravityEquilibrium(const frames::LoadingGeometry& geometry, const LinearizationPoint& at,
-                            const JointVector& q) {
+ArmState gravityEquilibrium(const frames::LoadingGeometry& geometry, const LinearizationPoint& at, const JointVector& q,
+                            double carriage) {
   const JointVector sagged = geometry.sagged(q);
   PostureStates rest;
   ArmState& state = rest.emplace_back(stateMoved(geometry, q, sagged, noBodyMotions(geometry.arm.axes())));
+  state.carriage = carriage;
   if (at.present.empty()) return std::move(state);
   const bool turns = at.jointsTurn(), bodies = at.bodiesMove();
   constexpr int kRounds = 5;  // torques change with turns and motions by a hundredth with a strong effect
@@ -80,6 +81,7 @@ Eigen::Isometry3d lastBodyNear(const frames::LoadingGeometry& geometry, const Li
                                const ArmState& near) {
   PostureStates rest;
   rest.push_back(stateMoved(geometry, near.q, near.turned, near.moved));
+  rest.front().carriage = near.carriage;
   JointVector turned = near.q + geometry.springTurns(rest.front().weight_torque);
   if (at.jointsTurn()) turned += turnOf(at, rest);
   return movedPosture(geometry.arm, turned, motionsOf(at, rest)).motion.back();

@@ -7,10 +7,11 @@
 
 namespace stiffscope::effects {
 
-/// The unloaded arm at joint angles q (as reported, rad): sag of the joints' springs, and what the effects in
-/// the model do under the own weight alone, each computed where the others have left the arm.
-ArmState gravityEquilibrium(const frames::LoadingGeometry& geometry, const LinearizationPoint& at,
-                            const JointVector& q);
+/// The unloaded arm at joint angles q (as reported, rad), its carriage at `carriage` (ArmState): sag of the joints'
+/// springs, and what the effects in the model do under the own weight alone, each computed where the others have left
+/// the arm.
+ArmState gravityEquilibrium(const frames::LoadingGeometry& geometry, const LinearizationPoint& at, const JointVector& q,
+                            double carriage = campaign::kNotGiven);
 
 /// Where the last body of an arm of almost this geometry comes to, by one round of the above from where `near` rests:
 /// what its torques' change does to these torques again, a hundredth of that change, is left out. For derivatives by

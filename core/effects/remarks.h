@@ -15,6 +15,8 @@ enum class RemarkId {
   geometry_needs_positions,
   hardening_needs_two_loads,
   hysteresis_needs_return_to_zero,
+  rail_bending_needs_rail,
+  rail_bending_needs_three_positions,
   target_needs_three_reflectors,
   tool_needs_reflectors_or_moments,
 };

@@ -108,7 +108,7 @@ class Shifter {
     const auto statesOf = [&](int pose) -> effects::PostureStates {
       const auto rest = resting.find(pose);
       if (rest == resting.end()) return effects_.statesOf(pose);
-      return {atRest(pose, rest->second->q, rest->second->time_s)};
+      return {atRest(pose, rest->second->q, rest->second->time_s, rest->second->carriage)};
     };
     const Eigen::Isometry3d r0_from_loading = state_.geometry.r0_from_loading.value_or(Eigen::Isometry3d::Identity());
     const Eigen::Isometry3d loading_from_r0 = r0_from_loading.inverse();
@@ -143,7 +143,7 @@ class Shifter {
   void sweep(std::vector<Row>& rows) const {
     const Eigen::Matrix3d sweeps_from_r0 = state_.r0_from_sweeps.linear().transpose();
     for (Row& row : rows) {
-      const effects::PostureStates states{atRest(-1, row.q, row.time_s)};
+      const effects::PostureStates states{atRest(-1, row.q, row.time_s, row.carriage)};
       const PostureOffsets offsets(effects_, states, {});
       row.point -= sweeps_from_r0 * offsets.of(row.target, state_.r0_from_sweeps * row.point).front();
     }
@@ -205,8 +205,8 @@ class Shifter {
   };
 
   /// The arm at rest, not loaded, with the effects' own turns in.
-  effects::ArmState atRest(int pose, const JointVector& q, double time_s) const {
-    effects::ArmState state = effects::gravityEquilibrium(state_.geometry, state_.at, q);
+  effects::ArmState atRest(int pose, const JointVector& q, double time_s, double carriage) const {
+    effects::ArmState state = effects::gravityEquilibrium(state_.geometry, state_.at, q, carriage);
     state.pose = pose;
     state.time_s = time_s;
     return state;

@@ -19,12 +19,12 @@ namespace {
 using identification::Method;
 using identification::StiffnessEstimate;
 
-/// Calls visit(q, target, time, point) for every reading of the sweeps, in their order.
+/// Calls visit(row) for every reading of the sweeps, in their order.
 template <class Visit>
 void forEachReading(const campaign::Campaign& campaign, const Visit& visit) {
   const auto ofTable = [&](const auto& table) {
     if (!table) return;
-    for (const auto& row : table->rows) visit(row.q, row.target, row.time_s, row.point);
+    for (const auto& row : table->rows) visit(row);
   };
   ofTable(campaign.circle_sweeps);
   ofTable(campaign.wrist_sweep);
@@ -38,12 +38,14 @@ Eigen::MatrixXd columnsAtSweeps(const diagnosis::GapStudy& study, const EffectCo
   const Eigen::Matrix3d sweeps_from_r0 = state.r0_from_sweeps.linear().transpose();
   std::vector<Eigen::MatrixXd> rows;
   effects::ArmState rest;
-  forEachReading(campaign, [&](const JointVector& q, int target, double time_s, const Eigen::Vector3d& point) {
-    if (rows.empty() || rest.q != q) rest = effects::gravityEquilibrium(state.geometry, state.at, q);
+  forEachReading(campaign, [&](const auto& row) {
+    const auto standsThere = [&](double carriage) { return rest.carriage == carriage || std::isnan(carriage); };
+    if (rows.empty() || rest.q != row.q || !standsThere(row.carriage))
+      rest = effects::gravityEquilibrium(state.geometry, state.at, row.q, row.carriage);
     rest.pose = -1;
-    rest.time_s = time_s;
-    rest.targets = {target};
-    rest.points = {state.r0_from_sweeps * point};
+    rest.time_s = row.time_s;
+    rest.targets = {row.target};
+    rest.points = {state.r0_from_sweeps * row.point};
     Eigen::MatrixXd all = Eigen::MatrixXd::Zero(3, layout.end - layout.effects);
     for (const std::size_t m : columns.models) {
       const effects::EffectModel& model = study.input->models[m];

@@ -107,10 +107,16 @@ void referToCarriageAtZero(const std::optional<RailCourse>& course, campaign::Ca
     row.point -= by;
     row.from = (row.from.allFinite() ? row.from : station) - by;
   };
+  const auto keepWhere = [](auto& row) {
+    if (std::isnan(row.carriage)) row.carriage = row.rail;  // else it has been referred before
+  };
   const auto refer = [&](auto& table) {
     if (!table) return;
     const Eigen::Vector3d d = perMetre(table->frame);
-    for (auto& row : table->rows) carryBack(row, std::exchange(row.rail, 0.0) * d);
+    for (auto& row : table->rows) {
+      keepWhere(row);
+      carryBack(row, std::exchange(row.rail, 0.0) * d);
+    }
   };
   refer(campaign.circle_sweeps);
   refer(campaign.wrist_sweep);
@@ -129,6 +135,7 @@ void referToCarriageAtZero(const std::optional<RailCourse>& course, campaign::Ca
                           [](const campaign::State& a, const campaign::State& b) { return a.rail < b.rail; });
   const bool moves = first != last && last->rail > first->rail;
   for (campaign::State& row : campaign.states->rows) {
+    keepWhere(row);
     row.rail = 0.0;
     // Whether a controller counts the carriage into the poses that it states is not known.
     if (moves) row.tool_pose = {};

@@ -11,13 +11,19 @@ namespace stiffscope::simulation {
 Carriage::Carriage(const SimulationSpec& spec)
     : spec_(spec.rail), rail_(spec.nominal.rail), missed_(noiseSeed(spec), "carriage") {
   if (!rail_) return;
-  const Eigen::Vector3d along = rotationExp(spec_.tilt) * rail_->direction_in_base;
+  axes_ = railAxes(spec);
+  driveTo(spec_.sweeps_at);
+}
+
+Eigen::Matrix3d railAxes(const SimulationSpec& spec) {
+  const Eigen::Vector3d along = rotationExp(spec.rail.tilt) * spec.nominal.rail->direction_in_base;
   // Across a rail that stands upright any direction is level.
   const bool upright = along.head<2>().norm() < 1e-6;
   const Eigen::Vector3d level =
       (upright ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitZ().cross(along)).normalized();
-  axes_ << along, level, along.cross(level);
-  driveTo(spec_.sweeps_at);
+  Eigen::Matrix3d axes;
+  axes << along, level, along.cross(level);
+  return axes;
 }
 
 void Carriage::driveTo(double position) {

@@ -37,6 +37,9 @@ class Carriage {
   Eigen::Vector3d displacement_ = Eigen::Vector3d::Zero();
 };
 
+/// The true direction of the rail, level across it, and across both: columns in base_link.
+Eigen::Matrix3d railAxes(const SimulationSpec& spec);
+
 /// Where the carriage stands in so many postures, evenly at random between RailSpec::low and high (stream "rail" of the
 /// seed). Nested, as postures are.
 std::vector<double> carriagePositions(const SimulationSpec& spec, std::size_t postures);

@@ -214,7 +214,8 @@ Placement place(const ElasticMachine& machine, const JointVector& q, const Eigen
     ++next;
   };
 
-  give(-1, false);
+  give(-1, false);  // the rail
+  give(-1, false);  // the base
   placement.body_motions.push_back(motion);
   const JointVector turns = motorTurns(machine, q, x);
   const int axes = machine.axes();

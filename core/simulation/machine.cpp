@@ -8,6 +8,7 @@
 
 #include "core/io/input_error.h"
 #include "core/numerics/random.h"
+#include "core/simulation/rail_beam.h"
 #include "core/simulation/rotation.h"
 #include "core/simulation/spec.h"
 
@@ -153,7 +154,7 @@ void addCurves(ElasticMachine& machine) {
         machine.curves.push_back({machine.torsion_coordinates[joint], of_joint, std::move(curve)});
       }
     }
-    if (element.axis == -1) {
+    if (element.name == kBaseElement) {
       for (const OneSidedContact& contact : machine.truth.base_contacts) {
         const auto turn = std::find(element.free.begin(), element.free.end(), 3 + contact.axis);
         if (turn != element.free.end()) {
@@ -190,9 +191,10 @@ ElasticElement linkElement(const SimulationSpec& spec, const LinkBeam& beam) {
 
 std::vector<ElasticElement> elasticElements(const SimulationSpec& spec, const PerJoint<JointStiffness>& joints) {
   std::vector<ElasticElement> elements;
+  if (spec.nominal.rail && spec.rail.beam) elements.push_back(railElement(spec));
   if (spec.machine.base_rotation || spec.machine.base_translation) {
     ElasticElement base;
-    base.name = "base";
+    base.name = kBaseElement;
     if (spec.machine.base_translation) {
       base.free = {0, 1, 2};
       base.stiffness.diagonal().head<3>() = *spec.machine.base_translation;
@@ -239,6 +241,7 @@ ElasticMachine buildMachine(const SimulationSpec& spec) {
   machine.tool = spec.machine.tool;
   machine.targets = spec.targets;
   machine.temperature = spec.temperature;
+  if (spec.nominal.rail) machine.rail_beam = spec.rail.beam;
   machine.elements = elasticElements(spec, machine.truth.joints);
   addCurves(machine);
 

@@ -71,12 +71,15 @@ std::vector<TorqueCurve::Stage> stagesByTorque(const std::vector<double>& torque
 /// 1/2 d' K d, d = (u, r).
 struct ElasticElement {
   std::string name;
-  int axis = -1;         ///< beyond the turn of this axis, from 0; -1: the base; axes(): the tool's plate
+  int axis = -1;  ///< beyond the turn of this axis, from 0; -1: the rail, then the base; axes(): the tool's plate
   bool is_link = false;  ///< a beam's tip: follows the axis's own element and the mass of the body
   Eigen::Isometry3d base_from_element_at_zero = Eigen::Isometry3d::Identity();  ///< z along the axis or beam
   std::vector<int> free;  ///< which of (ux uy uz rx ry rz) can move
   Eigen::Matrix<double, 6, 6> stiffness = Eigen::Matrix<double, 6, 6>::Zero();  ///< K; rows not free play no part
 };
+
+inline constexpr const char* kRailElement = "rail";
+inline constexpr const char* kBaseElement = "base";
 
 /// A torque curve of one elastic coordinate, besides what K gives it.
 struct CoordinateCurve {
@@ -86,7 +89,7 @@ struct CoordinateCurve {
 };
 
 /// The machine as it truly is. Everything stands where the nominal robot has it in base_link at all joints
-/// zero; a body's place follows from the chain base element, then per axis i: frame error E_i, motor turn
+/// zero; a body's place follows from the chain rail element, base element, then per axis i: frame error E_i, motor turn
 /// about axis i by zero_i + theta_i, joint element, [mass of body i], link element; last the tool's plate. theta are
 /// the axes' angles at joint angles q (q itself but for coupled joints); a drive's torsion turns the joint's own axis
 /// in its element, and what else the joint turns with the motor's turn there. base_link here is the ground's: the
@@ -102,6 +105,7 @@ struct ElasticMachine {
   std::vector<TrueTarget> targets;
   MachineSpec truth;  ///< what it was built from, with all joints: the true stiffness values are here
   std::optional<TemperatureCourse> temperature;  ///< of the day
+  std::optional<RailBeam> rail_beam;             ///< of an arm on a rail that bends
   PerJoint<Eigen::Index> torsion_coordinates;    ///< of each joint; -1: rigid
   std::vector<CoordinateCurve> curves;
 
@@ -109,13 +113,15 @@ struct ElasticMachine {
   int axes() const { return nominal.axes(); }
   /// Turns a joint's motor by an angle besides what is reported, rad, and all axes that it turns with it.
   void turnMotor(int joint, double angle);
+  /// The rail's stiffness becomes that with the carriage at this position, m.
+  void carryTo(double position);
   int coordinateCount() const;       ///< elastic coordinates in all
   Eigen::Index sliderCount() const;  ///< of all curves
-  bool changes() const;              ///< with posture or time: see machineAt
+  bool changes() const;              ///< with posture, time or carriage: see machineAt and carryTo
 };
 
 /// The machine at a posture and a time of the day (s): thermal growth, warming drives, ripple of stiffness and all that
-/// turns a motor away from the angle reported put in, so that what is left does not change.
+/// turns a motor away from the angle reported put in, so that what is left does not change. The carriage stays.
 ElasticMachine machineAt(const ElasticMachine& machine, const JointVector& q, double time_s);
 
 /// Builds the machine of a specification, drawing what it leaves to chance from its seed (streams "geometry",

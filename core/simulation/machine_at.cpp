@@ -43,9 +43,10 @@ double angleError(const JointStiffness& joint, const std::optional<TemperatureCo
 }  // namespace
 
 bool ElasticMachine::changes() const {
-  return !truth.growths.empty() || std::any_of(truth.joints.begin(), truth.joints.end(), [](const auto& one) {
-    return one.rate_wave || one.angle_wave || one.softening || one.ratio || one.zero_jump || one.zero_warming;
-  });
+  return rail_beam || !truth.growths.empty() ||
+         std::any_of(truth.joints.begin(), truth.joints.end(), [](const auto& one) {
+           return one.rate_wave || one.angle_wave || one.softening || one.ratio || one.zero_jump || one.zero_warming;
+         });
 }
 
 ElasticMachine machineAt(const ElasticMachine& machine, const JointVector& q, double time_s) {

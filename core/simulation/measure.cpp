@@ -322,6 +322,7 @@ void Session::moveTo(const JointVector& q) {
 
 ElasticMachine Session::machineNow(const JointVector& q, const JointVector& ahead) const {
   ElasticMachine now = machine.changes() ? machineAt(machine, q, now_s) : machine;
+  if (carriage.onRail()) now.carryTo(carriage.reported());
   for (int i = 0; i < now.joints(); ++i) now.turnMotor(i, ahead[i]);
   return now;
 }

@@ -1,5 +1,6 @@
 #include "core/simulation/read_spec.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 
@@ -7,6 +8,7 @@
 #include "core/io/read_file.h"
 #include "core/io/units.h"
 #include "core/robot/read_urdf.h"
+#include "core/simulation/rail_beam.h"
 #include "core/simulation/spec_xml.h"
 
 namespace stiffscope::simulation {
@@ -289,13 +291,40 @@ std::optional<WristSweepSpec> readWristSweep(const io::XmlNode& root, int joints
   return sweep;
 }
 
+namespace {
+
+/// Throws InputError where the carriage does not stay between the supports.
+std::optional<RailBeam> readRailBeam(const io::XmlNode& of_rail, const RailSpec& rail) {
+  const std::optional<io::XmlNode> node = of_rail.child("beam");
+  if (!node) return std::nullopt;
+  refuseUnknown(*node, {"from_mm", "to_mm", "bending_up_nm2", "bending_level_nm2", "torsion_nm2"});
+  RailBeam beam;
+  beam.from = node->number("from_mm") * io::kMillimetre;
+  beam.to = node->number("to_mm") * io::kMillimetre;
+  beam.bending_up = positive(*node, "bending_up_nm2", 1.0);
+  beam.bending_level = positive(*node, "bending_level_nm2", 1.0);
+  beam.torsion = optionalPositive(*node, "torsion_nm2", 1.0);
+  for (const double position : {rail.low, rail.high, rail.sweeps_at}) {
+    if (carries(beam, position)) continue;
+    node->refuse("from_mm", node->requiredAttribute("from_mm"),
+                 fmt::format("expected supports on either side of the carriage, which also stands at {:g} mm: clear of "
+                             "them by a hundredth of the span",
+                             position / io::kMillimetre));
+  }
+  return beam;
+}
+
+}  // namespace
+
 RailSpec readRail(const io::XmlNode& root, const robot::Robot& robot) {
   RailSpec rail;
   const std::optional<io::XmlNode> node = root.child("rail");
   if (!node) return rail;
   if (!robot.rail) node->refuse("rail", "", "expected a URDF with a prismatic joint before all that turn");
-  refuseUnknown(*node, {"sweeps_at_mm", "min_mm", "max_mm", "stops", "tilt_deg", "scale_error", "straightness_um",
-                        "wave_mm", "stop_sigma_um"});
+  refuseUnknown(*node,
+                {"sweeps_at_mm", "min_mm", "max_mm", "stops", "tilt_deg", "scale_error", "straightness_um", "wave_mm",
+                 "stop_sigma_um"},
+                {"beam"});
   rail.sweeps_at = numberOr(*node, "sweeps_at_mm", io::kMillimetre, 0.0);
   rail.low = numberOr(*node, "min_mm", io::kMillimetre, 0.0);
   rail.high = numberOr(*node, "max_mm", io::kMillimetre, rail.low);
@@ -309,6 +338,7 @@ RailSpec readRail(const io::XmlNode& root, const robot::Robot& robot) {
   rail.straightness = nonNegativeOr(*node, "straightness_um", io::kMicrometre, 0.0);
   rail.wave = optionalPositive(*node, "wave_mm", io::kMillimetre).value_or(rail.wave);
   rail.stop_sigma = nonNegativeOr(*node, "stop_sigma_um", io::kMicrometre, 0.0);
+  rail.beam = readRailBeam(*node, rail);
   return rail;
 }
 

@@ -79,6 +79,7 @@ namespace stiffscope::simulation {
 ///       loaded postures) [stops=0] (of a rail sweep between those) [tilt_deg=0] (rotation vector, nominal to true)
 ///       [scale_error=0] (true travel over the reported, less 1) [straightness_um=0] [wave_mm=4000] (across the rail)
 ///       [stop_sigma_um=0] (along it)
+///     [beam]: from_mm to_mm (positions of the supports) bending_up_nm2 bending_level_nm2 [torsion_nm2]
 ///   [nests]: [interval_s=3600] [after_sweeps=false] (read once more between wrist sweep and loading)
 ///     nest...: id xyz_mm (in the base)
 ///   [times]: [reading_s=2] [move_s=10] [load_change_s=60]

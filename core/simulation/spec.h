@@ -392,6 +392,14 @@ struct WristSweepSpec {
   JointVector low, high;  ///< of the wrist's joints
 };
 
+/// A rail between two supports, on which the carriage bends it: a uniform beam, simply supported and held against
+/// twist at both. Positions of the carriage, m.
+struct RailBeam {
+  double from = 0.0, to = 0.0;                   ///< the supports
+  double bending_up = 0.0, bending_level = 0.0;  ///< EI against deflection upwards and level, across the rail; Nm^2
+  std::optional<double> torsion;                 ///< GJ, Nm^2; without it the rail does not twist
+};
+
 /// The day on a rail (robot::Rail of `nominal`), and how the true carriage differs from what the controller reports.
 struct RailSpec {
   double sweeps_at = 0.0;                          ///< where it stands in circle and wrist sweeps, m
@@ -401,6 +409,7 @@ struct RailSpec {
   double scale = 1.0;                              ///< true travel over what is reported
   double straightness = 0.0;                       ///< amplitude of its wave across the rail, level and upwards, m
   double wave = 4.0;                               ///< length of that wave, m
+  std::optional<RailBeam> beam;                    ///< without it the rail does not bend
   double stop_sigma = 0.0;                         ///< by which a stop misses what is reported, along the rail, m
 };
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <stdexcept>
 
-#include "core/effects/effect.h"
+#include "core/effects/all.h"
 #include "core/validation/effect_size.h"
 
 namespace stiffscope::validation {
@@ -25,7 +25,12 @@ Sizing sizingBy(const simulation::SimulationSpec& clean) {
 
 DayKind loadedDaysOf(MachineKind machine) {
   DayKind kind;
-  kind.vocabulary.effects.assign(effects::kEffectIds.begin(), effects::kEffectIds.end());
+  const bool on_rail = machine == MachineKind::rail;
+  for (const std::string_view id : effects::kEffectIds) {
+    if (effects::concerns(knownEffect(std::string(id)), on_rail)) kind.vocabulary.effects.emplace_back(id);
+  }
+  // A rail that bends gives at every position, here more and there less.
+  if (on_rail) kind.vocabulary.brings = {{"rail_bending", {"base_compliance"}}};
   kind.vocabulary.outside = outsideKinds();
   kind.vocabulary.placed = {"joint_coupling", "target_motion"};
   kind.vocabulary.shrinks = "deflection";

@@ -106,6 +106,23 @@ EffectDraw baseCompliance(const simulation::SimulationSpec& machine, numerics::R
   return draw;
 }
 
+/// A rail between two supports on either side of the carriage's travel: EI / L at strength 1 is joint 2's stiffness.
+EffectDraw railBending(const simulation::SimulationSpec& machine, numerics::RandomStream& random) {
+  const double before = random.uniform(0.3, 1.2), beyond = random.uniform(0.3, 1.2);  // m
+  const double level = random.uniform(0.5, 2.0), twist = random.uniform(0.3, 1.0);
+  EffectDraw draw;
+  draw.apply = [](double, simulation::SimulationSpec&) {};
+  if (!machine.nominal.rail) return draw;  // an arm on no rail has none
+  const double from = machine.rail.low - before, to = machine.rail.high + beyond;
+  const double rigidity = torsion(machine, 1) * (to - from);
+  draw.most = 5.0;
+  draw.apply = [=](double s, simulation::SimulationSpec& spec) {
+    if (s > 0.0)
+      spec.rail.beam = simulation::RailBeam{from, to, rigidity / s, level * rigidity / s, twist * rigidity / s};
+  };
+  return draw;
+}
+
 EffectDraw jointCoupling(const simulation::SimulationSpec& machine, numerics::RandomStream& random) {
   const int joints = machine.nominal.joints();
   std::vector<std::array<int, 2>> pairs{{1, 2}};  // a parallelogram, or within the wrist
@@ -347,6 +364,8 @@ EffectDraw drawOf(effects::Effect effect, const simulation::SimulationSpec& mach
       return bearingTilt(machine, random);
     case effects::Effect::base_compliance:
       return baseCompliance(machine, random);
+    case effects::Effect::rail_bending:
+      return railBending(machine, random);
     case effects::Effect::joint_coupling:
       return jointCoupling(machine, random);
     case effects::Effect::joint_hardening:

@@ -107,6 +107,13 @@ void addStructure(const simulation::SimulationSpec& spec, Json& list) {
     base["translation_n_per_m"] = machine.base_translation ? array(*machine.base_translation) : Json(nullptr);
     list.push_back(base);
   }
+  if (const auto& beam = spec.rail.beam) {
+    list.push_back({{"effect", "rail_bending"},
+                    {"supports_m", {beam->from, beam->to}},
+                    {"bending_up_nm2", beam->bending_up},
+                    {"bending_level_nm2", beam->bending_level},
+                    {"torsion_nm2", rate(beam->torsion)}});
+  }
   for (const simulation::OneSidedContact& contact : machine.base_contacts) {
     list.push_back({{"effect", "cracked_floor"},
                     {"about", std::string(1, "xyz"[contact.axis])},

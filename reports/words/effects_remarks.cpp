@@ -28,6 +28,10 @@ std::string effectsWords(effects::RemarkId id, const RemarkValues&) {
       return "one load step: two or more loads of different size in each posture are needed";
     case hysteresis_needs_return_to_zero:
       return "no return to zero: a last, unloaded step in each posture is needed";
+    case rail_bending_needs_rail:
+      return "the arm stands on no rail: the URDF has no prismatic joint before the arm's joints";
+    case rail_bending_needs_three_positions:
+      return "fewer than three positions of the carriage under load: where a rail gives more shows only against others";
     case target_needs_three_reflectors:
       return "fewer than three reflectors: one that moves shows only against two others";
     case tool_needs_reflectors_or_moments:

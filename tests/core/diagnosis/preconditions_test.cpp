@@ -15,6 +15,7 @@ effects::CampaignContents everything() {
   has.reflectors = 3;
   has.load_steps = 3;
   has.return_to_zero = has.moments = has.times = has.weights = has.absolute = has.sweeps = has.nests = true;
+  has.carriage_positions = 3;
   return has;
 }
 
@@ -47,6 +48,13 @@ TEST(Testable, SaysWhatIsMissing) {
   effects::CampaignContents no_sweeps = everything();
   no_sweeps.sweeps = false;
   EXPECT_TRUE(says(effects::Effect::frame_error, no_sweeps, effects::RemarkId::frame_needs_sweeps_and_positions));
+  effects::CampaignContents two_positions = everything();
+  two_positions.carriage_positions = 2;
+  EXPECT_TRUE(
+      says(effects::Effect::rail_bending, two_positions, effects::RemarkId::rail_bending_needs_three_positions));
+  effects::CampaignContents no_rail = everything();
+  no_rail.carriage_positions = 0;
+  EXPECT_TRUE(says(effects::Effect::rail_bending, no_rail, effects::RemarkId::rail_bending_needs_rail));
   effects::CampaignContents no_nests = everything();
   no_nests.nests = no_nests.absolute = false;
   EXPECT_TRUE(says(effects::Effect::tracker_drift, no_nests, effects::RemarkId::drift_needs_nests_or_timed_positions));

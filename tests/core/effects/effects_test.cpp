@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 #include "core/effects/all.h"
+#include "core/effects/elastic_arm.h"
 #include "core/preparation/station_course.h"
 #include "tests/fixtures/chain_arm.h"
 
@@ -99,6 +100,98 @@ TEST(BearingTilt, TurnsAcrossTheAxisByTheMomentThere) {
       const Eigen::Vector3d expected = across.cross(bench.points[static_cast<std::size_t>(t)] - origin);
       const Eigen::Vector3d found = field.block<3, 1>(3 * t, j);
       EXPECT_LT((found - expected).norm(), kRounding * expected.norm() + kRounding) << j;
+    }
+  }
+}
+
+/// On a rail along R0's x, of postures at 1, 2 and 3 m.
+Bench onRail() {
+  Bench bench;
+  bench.at.rail_in_base = Eigen::Vector3d::UnitX();
+  bench.at.rail.mean = 2.0;
+  bench.at.rail.scale = 1.0;
+  bench.at.rail.mean_square = 2.0 / 3.0;
+  return bench;
+}
+
+effects::EffectModel railModel() {
+  return effects::modelsOf(effects::railBending(), {.joints = 6, .targets = {"P1", "P2"}, .on_rail = true}).front();
+}
+
+// At 2.5 m x is 0.5 and x^2 less its mean 0.25 - 2/3. The foot is R0's origin.
+TEST(RailBending, ShiftsAndTurnsTheFootByItsLoadAndThePosition) {
+  const Bench bench = onRail();
+  effects::PostureStates posture = bench.outAndBack();
+  for (effects::ArmState& state : posture) state.carriage = 2.5;
+  const effects::EffectModel model = railModel();
+  const Eigen::MatrixXd field = model.columns(bench.at, posture, 2);
+  ASSERT_EQ(field.cols(), 16);
+  const Eigen::Vector3d force = bench.load.force, moment = bench.momentAt(Eigen::Vector3d::Zero());
+  const double linear = 0.5, square = 0.25 - 2.0 / 3.0;
+  const Eigen::Vector3d y = Eigen::Vector3d::UnitY(), z = Eigen::Vector3d::UnitZ();
+  for (int t = 0; t < 2; ++t) {
+    const Eigen::Vector3d point = bench.points[static_cast<std::size_t>(t)];
+    const auto expect = [&](int column, const Eigen::Vector3d& expected) {
+      const Eigen::Vector3d found = field.block<3, 1>(3 * t, column);
+      EXPECT_LT((found - expected).norm(), kRounding) << column;
+    };
+    expect(2, linear * force.z() * z);                // shift off the rail by position
+    expect(3, square * force.z() * z);                // by its square
+    expect(6, linear * moment.y() * y.cross(point));  // rocking across the rail
+    expect(9, square * moment.z() * z.cross(point));  // turn on the rail
+    const Eigen::Vector3d coupled = force.z() * y.cross(point) + moment.y() * z;
+    expect(10, coupled);
+    expect(11, linear * coupled);
+    expect(12, square * coupled);
+  }
+  // Where nothing says where the carriage stands the mean over the positions is left.
+  for (effects::ArmState& state : posture) state.carriage = campaign::kNotGiven;
+  const Eigen::MatrixXd unknown = model.columns(bench.at, posture, 2);
+  EXPECT_EQ(unknown.leftCols(10).norm(), 0.0);
+  EXPECT_EQ((unknown.col(10) - field.col(10)).norm(), 0.0);
+}
+
+// Reflectors at (2, 0, 1.5) m in the rail's sweep under 8 kN of own weight: a shift off the rail that grows with the
+// position by 1e-9 m/N is 8 um a metre of the line's slope. What it shifts at 2.5 m is taken off again in full.
+TEST(RailBending, WhatTheRailsLineHasTakenInIsNoShift) {
+  Bench bench = onRail();
+  bench.at.rail.line_by_x = 1.0;
+  bench.at.rail.weight_at_sweep = {Eigen::Vector3d::Zero(), {0.0, 0.0, -8000.0}, Eigen::Vector3d::Zero()};
+  bench.at.rail.reflectors_at_sweep = {2.0, 0.0, 1.5};
+  effects::PostureStates posture = bench.outAndBack();
+  for (effects::ArmState& state : posture) {
+    state.carriage = 2.5;
+    state.load = {};
+    state.weight_from_body.assign(state.weight_from_body.size(), bench.at.rail.weight_at_sweep);
+  }
+  const effects::EffectModel model = railModel();
+  EXPECT_LT(model.columns(bench.at, posture, 0).col(2).norm(), kRounding);
+  // Coupled, that weight turns the arm as well: reflectors elsewhere than in the sweep move.
+  const Eigen::MatrixXd coupled = model.columns(bench.at, posture, 0);
+  const Eigen::Vector3d turned =
+      0.5 * -8000.0 * Eigen::Vector3d::UnitY().cross(bench.points[0] - Eigen::Vector3d(2.0, 0.0, 1.5));
+  EXPECT_LT((coupled.block<3, 1>(0, 11) - turned).norm(), kRounding * turned.norm());
+}
+
+// By how much the loaded arm at rest moves with a small size of each parameter, against the columns.
+TEST(RailBending, ItsColumnsAreTheDerivativesOfTheElasticArm) {
+  const Bench bench = onRail();
+  effects::PostureStates posture = bench.outAndBack();
+  for (effects::ArmState& state : posture) state.carriage = 2.7;
+  const effects::EffectModel model = railModel();
+  const JointVector rigid = JointVector::Zero(6);
+  const effects::ElasticArm without(bench.geometry, rigid, bench.at, {});
+  const Eigen::Isometry3d plain = *without.toolMotion(posture, 2, nullptr);
+  const effects::ToolLoad load{plain.inverse() * bench.load.point, bench.load.force, bench.load.moment};
+  const Eigen::MatrixXd field = model.columns(bench.at, posture, 2);
+  constexpr double kSize = 1e-10;  // moves by less than a micrometre: the square of it is below 1e-12 m
+  for (Eigen::Index k = 0; k < field.cols(); ++k) {
+    const effects::ElasticArm with(bench.geometry, rigid, bench.at, {{&model, kSize * Eigen::VectorXd::Unit(16, k)}});
+    const Eigen::Isometry3d moved = *with.toolMotion(posture, 2, &load);
+    for (int t = 0; t < 2; ++t) {
+      const Eigen::Vector3d at_zero = plain.inverse() * bench.points[static_cast<std::size_t>(t)];
+      const Eigen::Vector3d by = (moved * at_zero - plain * at_zero) / kSize;
+      EXPECT_LT((by - field.block<3, 1>(3 * t, k)).norm(), 1e-3 * field.col(k).norm() + 1e-3) << k;
     }
   }
 }

@@ -301,7 +301,7 @@ TEST(EffectNature, EveryEffectHasOneAndMeasurementsStayOutOfCompensation) {
                                                        effects::natureOf(effect) == effects::EffectNature::load);
     entering += effects::entersCompensation(effect);
   }
-  EXPECT_EQ(entering, 10);
+  EXPECT_EQ(entering, 11);
   for (const effects::Effect effect :
        {effects::Effect::tracker_drift, effects::Effect::frame_error, effects::Effect::target_motion,
         effects::Effect::load_cell_bias, effects::Effect::load_cell_misalignment}) {

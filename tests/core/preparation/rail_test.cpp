@@ -145,8 +145,15 @@ TEST(Rail, ReadingsAreReferredToTheCarriageAtZero) {
   for (const campaign::LoadingReading& row : day.loading->rows) EXPECT_LT((row.point - place).norm(), 1e-12);
   for (const campaign::State& row : day.states->rows) {
     EXPECT_EQ(row.rail, 0.0);
+    EXPECT_EQ(row.carriage, 0.5 + row.pose);
     EXPECT_FALSE(row.tool_pose.hasPosition());
   }
+  // Once more changes nothing.
+  const campaign::Campaign once = day;
+  preparation::referToCarriageAtZero(preparation::fitRailCourse(day, std::nullopt), day);
+  for (std::size_t i = 0; i < once.loading->rows.size(); ++i)
+    EXPECT_EQ(day.loading->rows[i].point, once.loading->rows[i].point);
+  for (const campaign::State& row : day.states->rows) EXPECT_EQ(row.carriage, 0.5 + row.pose);
   // Points of base_link go by the URDF's direction.
   in_base.loading->frame = campaign::PointFrame::base_link;
   for (int pose = 0; pose < 3; ++pose)

@@ -1,12 +1,15 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 #include "core/audit/audit.h"
 #include "core/diagnosis/diagnose.h"
 #include "core/identification/identify.h"
 #include "core/preparation/prepare.h"
+#include "core/simulation/equilibrium.h"
 #include "core/simulation/measure.h"
+#include "core/simulation/rail_beam.h"
 #include "core/validation/machine_kinds.h"
 #include "reports/words/remark_words.h"
 
@@ -123,6 +126,75 @@ TEST(RailDay, ACrookedRailIsAWarning) {
   spec.rail.straightness = 0.6e-3;
   const preparation::AuditCheck check = named(audit::audit(simulation::simulate(spec)), "rail_straight");
   EXPECT_EQ(check.verdict, preparation::AuditVerdict::warn) << reports::words(check.message);
+}
+
+bool names(const diagnosis::Diagnosis& diagnosis, effects::Effect effect) {
+  for (const auto& entry : diagnosis.verdict.entries) {
+    if (std::find(entry.effects.begin(), entry.effects.end(), effect) != entry.effects.end()) return true;
+  }
+  return false;
+}
+
+/// Supports 0.8 m beyond either end of the travel, E I / L as joint 2's stiffness: some 60 um under the load.
+simulation::SimulationSpec onBendingRail(std::uint64_t seed) {
+  simulation::SimulationSpec spec = noisySpec(seed);
+  const double from = spec.rail.low - 0.8, to = spec.rail.high + 0.8;
+  const double rigidity = *spec.machine.joints[1].torsion * (to - from);
+  spec.rail.beam = simulation::RailBeam{from, to, rigidity, rigidity, 0.5 * rigidity};
+  return spec;
+}
+
+// The foot of the arm on a rigid machine under a force: what the beam alone gives, by the formulas that rail_beam_test
+// holds against a textbook.
+TEST(RailDay, TheSimulatedFootMovesAsTheBeamDoes) {
+  simulation::SimulationSpec spec = onBendingRail(63);
+  spec.rail.tilt.setZero();
+  for (simulation::JointStiffness& joint : spec.machine.joints) joint = {};
+  simulation::ElasticMachine machine = simulation::buildMachine(spec);
+  machine.gravity_in_base.setZero();
+  const double at = spec.rail.low + 0.4;
+  machine.carryTo(at);
+  const Eigen::Vector3d force(0.0, 300.0, -1000.0), hook = spec.loading->hook_in_flange;
+  const JointVector q = JointVector::Zero(6);
+  const simulation::MachineState state = simulation::equilibrium(machine, q, simulation::DeadForce{hook, force, {}});
+  Vector6d load;
+  load << force, state.load_point_in_base.cross(force);
+  const Vector6d expected = simulation::railCompliance(*spec.rail.beam, at) * load;
+  const Eigen::Isometry3d& foot = state.body_motions[0];
+  const Eigen::AngleAxisd turn(foot.linear());
+  // Of second order in turns of 1e-4.
+  EXPECT_LT((foot.translation() - expected.head<3>()).norm(), 1e-3 * expected.head<3>().norm());
+  EXPECT_LT((turn.angle() * turn.axis() - expected.tail<3>()).norm(), 1e-3 * expected.tail<3>().norm());
+}
+
+TEST(RailDay, ARailThatBendsIsNamedAndNoOtherDayIsBlamedForIt) {
+  int named_bending = 0, named_clean = 0, named_base = 0;
+  for (std::uint64_t seed = 70; seed < 74; ++seed) {
+    const diagnosis::Diagnosis bending = diagnosis::diagnose(simulation::simulate(onBendingRail(seed)));
+    named_bending += names(bending, effects::Effect::rail_bending);
+    EXPECT_GT(bending.gap.before, 1.3 * bending.gap.after) << seed;
+    named_clean += names(diagnosis::diagnose(simulation::simulate(noisySpec(seed))), effects::Effect::rail_bending);
+    simulation::SimulationSpec based = noisySpec(seed);
+    const double rate = 4.0 * *based.machine.joints[1].torsion;
+    based.machine.base_rotation = rate * Eigen::Vector3d(1.0, 1.0, 20.0);
+    based.machine.base_translation = rate * Eigen::Vector3d(1.0, 20.0, 20.0);
+    named_base += names(diagnosis::diagnose(simulation::simulate(based)), effects::Effect::rail_bending);
+  }
+  EXPECT_EQ(named_bending, 4);
+  EXPECT_EQ(named_clean, 0);
+  EXPECT_EQ(named_base, 0);
+}
+
+TEST(RailDay, TwoPositionsAreTooFewToTellItsBending) {
+  campaign::Campaign day = simulation::simulate(onBendingRail(64));
+  preparation::PreparedCampaign prepared = preparation::prepareCampaign(day);
+  for (campaign::State& row : prepared.campaign.states->rows) row.carriage = row.pose % 2 == 0 ? 2.0 : 3.0;
+  const diagnosis::Diagnosis diagnosis = diagnosis::diagnose(prepared);
+  const auto found = std::find_if(diagnosis.not_testable.begin(), diagnosis.not_testable.end(),
+                                  [](const auto& one) { return one.effect == effects::Effect::rail_bending; });
+  ASSERT_NE(found, diagnosis.not_testable.end());
+  EXPECT_TRUE(found->missing.is(effects::RemarkId::rail_bending_needs_three_positions));
+  EXPECT_FALSE(names(diagnosis, effects::Effect::rail_bending));
 }
 
 }  // namespace rail_day_test
