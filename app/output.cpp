@@ -241,7 +241,8 @@ Outlet commandLineOutlet(const std::string& json_file) {
 
 void printText(std::string_view text) {
   clearProgress();
-  const std::string clean = io::withoutControls(text);
+  std::string clean = io::withoutControls(text);
+  if (showsUtf8()) clean = reports::plusMinusSigns(clean);
   printBytes(coloursText() ? withVerdictColours(clean) : clean);
 }
 

@@ -9,6 +9,7 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <cctype>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -67,12 +68,17 @@ std::string painted(std::string_view word, const char* colour) {
   return std::string(colour).append(word).append(kPlain);
 }
 
-/// "  station_drift        ": the first column of a table of checks.
+/// "  station drift        ": the first column of a table of checks.
 bool isCheckName(std::string_view before) {
   const std::size_t begin = before.find_first_not_of(' ');
   if (begin != 2) return false;
-  const std::size_t end = before.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_", begin);
-  return end != std::string_view::npos && end > begin && before.find_first_not_of(' ', end) == std::string_view::npos;
+  const std::size_t end = before.find_last_not_of(' ') + 1;
+  const std::string_view name = before.substr(begin, end - begin);
+  if (name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_ ") != std::string_view::npos) return false;
+  // Words of prose have one blank between them, as a name has that fills its column of 21 letters.
+  constexpr std::size_t kVerdictColumn = 23;
+  const bool one_word = name.find(' ') == std::string_view::npos;
+  return end < before.size() && (one_word || before.size() > end + 1 || before.size() == kVerdictColumn);
 }
 
 /// Where a verdict may stand in a line: behind the name of a check in a table, or between "NAME: " and its end or a
@@ -104,6 +110,17 @@ std::string paintedLine(std::string_view line) {
 bool coloursText() {
   if (manner().colour != "auto") return manner().colour == "always";
   return isatty(STDOUT_FILENO) != 0 && !isSet("NO_COLOR") && !isDumb();
+}
+
+bool showsUtf8() {
+  if (isatty(STDOUT_FILENO) == 0) return false;
+  for (const char* variable : {"LC_ALL", "LC_CTYPE", "LANG"}) {  // the first that is set decides (POSIX)
+    if (!isSet(variable)) continue;
+    std::string charset(std::getenv(variable));
+    std::transform(charset.begin(), charset.end(), charset.begin(), [](unsigned char c) { return std::tolower(c); });
+    return charset.ends_with("utf-8") || charset.ends_with("utf8") || charset.find("utf-8@") != std::string::npos;
+  }
+  return false;
 }
 
 std::string withVerdictColours(std::string_view text) {

@@ -32,6 +32,10 @@ void addMannerOptions(CLI::App& app);
 /// (https://no-color.org) or the terminal is dumb.
 bool coloursText();
 
+/// Whether standard output is a terminal that shows UTF-8, by LC_ALL, LC_CTYPE or LANG. Files and pipes keep to what any
+/// program reads alike.
+bool showsUtf8();
+
 /// The text with its verdicts in colour: `pass` green, `warn` and cautions yellow, `fail` red. Letters stay the same.
 std::string withVerdictColours(std::string_view text);
 

@@ -48,8 +48,8 @@ std::string longestWords(const reports::ReportCampaign& one, CalibratedModel mod
   const calibration::Calibration& calibration = one.accuracy->calibration;
   const std::vector<ReadingError> worst = calibration::worstPostures(calibration::readingErrors(calibration), model, 1);
   const int pose = calibration.day.postures[worst.front().posture].pose;
-  return fmt::format("the longest of the day is {}\u00a0µm, of {} in posture {}",
-                     reports::significant(worst.front().of(model).norm() / io::kMicrometre, 2),
+  return fmt::format("the longest of the day is {}, of {} in posture {}",
+                     reports::shownLength(worst.front().of(model).norm(), 2),
                      reports::pointName(calibration.day.targets[static_cast<std::size_t>(worst.front().target)]),
                      reports::asIs(calibration.day.pose_ids[static_cast<std::size_t>(pose)]));
 }

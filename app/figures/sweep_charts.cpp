@@ -89,9 +89,10 @@ render::ShapePanel circlePanel(const reports::ReportCampaign& one, const frames:
     }
     panel.series.push_back(std::move(series));
   }
-  const double bar_um = render::roundUp125(std::max(1e-3, largest / io::kMicrometre));
-  panel.scale_bar = magnified * bar_um * io::kMicrometre;
-  panel.scale_name = fmt::format("{} µm", render::shortNumber(bar_um));
+  const double bar = io::kMicrometre * render::roundUp125(std::max(1e-3, largest / io::kMicrometre));
+  const reports::LengthUnit unit = reports::lengthUnit(bar);
+  panel.scale_bar = magnified * bar;
+  panel.scale_name = fmt::format("{} {}", render::shortNumber(bar / unit.size), unit.name);
   return panel;
 }
 
@@ -127,9 +128,9 @@ reports::Figure describeSweepCircles(const reports::ReportCampaign& one) {
   figure.title = "Circles of the axes";
   figure.caption = fmt::format(
       "Radial residuals of the circle-point fits against the joint's angle. The largest rms, radial and axial, is "
-      "{}\u00a0µm, of axis {}. Scatter is noise; a ring that is bent the same way for all reflectors is an axis that "
+      "{}, of axis {}. Scatter is noise; a ring that is bent the same way for all reflectors is an axis that "
       "moves as it turns.",
-      reports::significant(worst / io::kMicrometre, 2), at + 1);
+      reports::shownLength(worst, 2), at + 1);
   figure.alt = "Rings by axis and reflector: readings of the sweeps about the fitted circles, residuals magnified.";
   return figure;
 }
@@ -140,10 +141,11 @@ constexpr std::size_t kMostReadings = 1000;  // of a reflector
 
 struct SphereResidual {
   int target = 0;
-  double azimuth_deg = 0.0, elevation_deg = 0.0, residual_um = 0.0;
+  double azimuth_deg = 0.0, elevation_deg = 0.0, residual = 0.0;  // in the chart's unit
 };
 
-std::vector<SphereResidual> residualsOf(const reports::ReportCampaign& one, const frames::RigidPoints& points) {
+std::vector<SphereResidual> residualsOf(const reports::ReportCampaign& one, const frames::RigidPoints& points,
+                                        const reports::LengthUnit& unit) {
   std::vector<SphereResidual> residuals;
   const frames::WristCentre& wrist = one.identification.frames.wrist;
   const auto r0_from_points = frames::r0FromTable(one.identification.frames, one.campaign.wrist_sweep->frame);
@@ -155,7 +157,7 @@ std::vector<SphereResidual> residualsOf(const reports::ReportCampaign& one, cons
     if (!std::isfinite(radius)) continue;
     residuals.push_back({rows[i].target, std::atan2(arm.y(), arm.x()) / io::kDegree,
                          std::asin(std::clamp(arm.z() / arm.norm(), -1.0, 1.0)) / io::kDegree,
-                         (arm.norm() - radius) / io::kMicrometre});
+                         (arm.norm() - radius) / unit.size});
   }
   return residuals;
 }
@@ -164,7 +166,7 @@ std::vector<SphereResidual> residualsOf(const reports::ReportCampaign& one, cons
 render::PointSeries sectorMeans(const std::vector<SphereResidual>& residuals, double SphereResidual::*angle,
                                 double lower, double upper, std::size_t sectors) {
   std::vector<render::PlotPoint> points;
-  for (const SphereResidual& one : residuals) points.push_back({one.*angle, one.residual_um});
+  for (const SphereResidual& one : residuals) points.push_back({one.*angle, one.residual});
   render::PointSeries means = meansOver(points, lower, upper, sectors);
   means.name = "mean in sectors";
   return means;
@@ -182,7 +184,7 @@ render::PointPanel spherePanel(const reports::ReportCampaign& one, const std::ve
     series.name = reports::pointName(one.campaign.targets[target].id);
     for (const std::size_t k : preparation::evenlySpreadIndices(readings[target].size(), kMostReadings)) {
       const SphereResidual& at = residuals[readings[target][k]];
-      series.points.push_back({at.*angle, at.residual_um});
+      series.points.push_back({at.*angle, at.residual});
     }
     if (!series.points.empty()) panel.series.push_back(std::move(series));
   }
@@ -193,7 +195,8 @@ render::PointPanel spherePanel(const reports::ReportCampaign& one, const std::ve
 
 std::optional<render::PointChart> wristSphere(const reports::ReportCampaign& one, const frames::RigidPoints& points) {
   if (!one.campaign.wrist_sweep || !one.identification.frames.wrist.measured) return std::nullopt;
-  const std::vector<SphereResidual> residuals = residualsOf(one, points);
+  const reports::LengthUnit unit = reports::lengthUnit(one.identification.frames.wrist.spheres.rms);
+  const std::vector<SphereResidual> residuals = residualsOf(one, points, unit);
   if (residuals.empty()) return std::nullopt;
   render::PointChart chart;
   chart.title = "Radial residuals of the wrist's spheres";
@@ -202,7 +205,7 @@ std::optional<render::PointChart> wristSphere(const reports::ReportCampaign& one
   render::PointPanel azimuth = spherePanel(one, residuals, &SphereResidual::azimuth_deg);
   azimuth.series.push_back(sectorMeans(residuals, &SphereResidual::azimuth_deg, -180.0, 180.0, 18));
   azimuth.x_title = "Azimuth about P_{wrist} (°)";
-  azimuth.y_title = "Radial residual (µm)";
+  azimuth.y_title = fmt::format("Radial residual ({})", unit.name);
   render::PointPanel elevation = spherePanel(one, residuals, &SphereResidual::elevation_deg);
   elevation.series.push_back(sectorMeans(residuals, &SphereResidual::elevation_deg, -90.0, 90.0, 9));
   elevation.x_title = "Elevation (°)";
@@ -222,8 +225,7 @@ reports::Figure describeWristSphere(const reports::ReportCampaign& one) {
       "miss.",
       one.campaign.wrist_sweep->rows.size(),
       wrist.table.size() == 1 ? "one reflector" : fmt::format("{} reflectors", wrist.table.size()),
-      wrist.spheres.rms < io::kMillimetre ? reports::significant(wrist.spheres.rms / io::kMicrometre, 2) + "\u00a0µm"
-                                          : reports::significant(wrist.spheres.rms / io::kMillimetre, 2) + "\u00a0mm");
+      reports::shownLength(wrist.spheres.rms, 2));
   std::size_t most = 0;
   for (const frames::WristTableRow& of : wrist.table) most = std::max(most, static_cast<std::size_t>(of.readings));
   const std::string drawn = drawnWords(most, kMostReadings, "readings of a reflector");

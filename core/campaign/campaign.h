@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <limits>
@@ -279,6 +280,7 @@ struct Campaign {
   robot::Robot robot;
   std::string base_link, flange_link;
   DoubleEncoder double_encoder = DoubleEncoder::unspecified;
+  std::vector<int> double_encoder_joints;  ///< from 0, rising: which have one, whatever its state; none: not stated
   Eigen::Vector3d gravity_in_base{0.0, 0.0, -9.80665};  ///< m/s^2
   double mass_sigma = 0.0;  ///< standard uncertainty of the URDF's masses, common to all, a share; 0: not stated
 
@@ -302,6 +304,15 @@ struct Campaign {
   std::vector<std::string> nest_ids;
   std::vector<StationPlace> stations;  ///< none where no table names one: the day has one then
   std::vector<InputFile> inputs;
+
+  /// The state of the double encoder as it matters to this joint: one that is stated to have none is controlled by its
+  /// motor alone, as with an inactive one.
+  DoubleEncoder doubleEncoderOf(int joint) const {
+    const bool has_none = !double_encoder_joints.empty() &&
+                          std::find(double_encoder_joints.begin(), double_encoder_joints.end(), joint) ==
+                              double_encoder_joints.end();
+    return has_none ? DoubleEncoder::inactive : double_encoder;
+  }
 };
 
 /// By what the pose of a reading's station is uncertain there, m^2; zero for the first station, and of a day of one.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -179,6 +180,26 @@ int jointNumbered(const io::XmlNode& node, const std::string& attribute) {
 
 }  // namespace
 
+std::vector<JointNumber> readDoubleEncoderJoints(const io::XmlNode& node) {
+  constexpr const char* kAttribute = "double_encoder_joints";
+  std::vector<JointNumber> numbers;
+  if (!node.has(kAttribute)) return numbers;
+  const std::string text = node.requiredAttribute(kAttribute);
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    // One digit: kMostJoints is less than ten.
+    if (word.size() != 1 || word[0] < '1' || word[0] > '0' + kMostJoints)
+      node.refuse(kAttribute, word, fmt::format("expected joints' numbers, 1 to {}, with blanks between", kMostJoints));
+    const int joint = word[0] - '1';
+    if (std::any_of(numbers.begin(), numbers.end(), [joint](const JointNumber& one) { return one.joint == joint; }))
+      node.refuse(kAttribute, word, "expected a joint that does not repeat");
+    numbers.push_back({joint, node.file(), node.line(), kAttribute, word});
+  }
+  if (numbers.empty()) node.refuse(kAttribute, text, "expected joints' numbers, as 1 2 3, or no such attribute");
+  std::sort(numbers.begin(), numbers.end(), [](const auto& a, const auto& b) { return a.joint < b.joint; });
+  return numbers;
+}
+
 JointReading readJointReading(const io::XmlNode& node, std::vector<std::string>& warnings) {
   io::warnOfUnknown(node, {"joint", "sign", "offset_deg", "plus"}, {}, warnings);
   JointReading reading;
@@ -284,12 +305,17 @@ void readJointReadings(const io::XmlNode& root, Campaign& campaign, std::vector<
 void readRobotElement(const io::XmlNode& node, CampaignXml& xml, std::vector<std::string>& warnings) {
   io::warnOfUnknown(
       node,
-      {"urdf", "base_link", "flange_link", "double_encoder", "gravity_m_s2", "mass_sigma_percent", "controller_model"},
+      {"urdf", "base_link", "flange_link", "double_encoder", "double_encoder_joints", "gravity_m_s2",
+       "mass_sigma_percent", "controller_model"},
       {}, warnings);
   xml.urdf = {node.requiredName("urdf"), "urdf", node.line()};
   xml.campaign.base_link = node.requiredName("base_link");
   xml.campaign.flange_link = node.requiredName("flange_link");
   xml.campaign.double_encoder = readDoubleEncoder(node);
+  for (JointNumber& number : readDoubleEncoderJoints(node)) {
+    xml.campaign.double_encoder_joints.push_back(number.joint);
+    xml.joint_numbers.push_back(std::move(number));
+  }
   xml.campaign.controller_model = readControllerModel(node);
   constexpr double kMostMassPercent = 50.0;
   xml.campaign.mass_sigma = declaredSigma(node, "mass_sigma_percent", kMostMassPercent, 0.01);

@@ -1,6 +1,7 @@
 #include "core/campaign/write_campaign.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <tinyxml2.h>
 #include <algorithm>
 #include <cmath>
@@ -148,6 +149,11 @@ void writeRobot(tinyxml2::XMLPrinter& printer, const Campaign& campaign) {
   Element robot(printer, "robot");
   robot.set("urdf", "robot.urdf").set("base_link", campaign.base_link).set("flange_link", campaign.flange_link);
   robot.set("double_encoder", double_encoder);
+  if (!campaign.double_encoder_joints.empty()) {
+    std::vector<int> numbers;
+    for (const int joint : campaign.double_encoder_joints) numbers.push_back(joint + 1);
+    robot.set("double_encoder_joints", fmt::format("{}", fmt::join(numbers, " ")));
+  }
   if (campaign.gravity_in_base != Campaign().gravity_in_base) {
     robot.set("gravity_m_s2", campaign.gravity_in_base);
   }

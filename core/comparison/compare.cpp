@@ -149,7 +149,7 @@ void judge(const PairedFit& fit, int joint, double avoided_by_unit, JointChange&
 identification::HeldSide heldSide(const campaign::Campaign& campaign, const identification::Identification& one,
                                   std::size_t joint) {
   if (one.transmission && one.transmission->joints[joint].measured) return one.transmission->joints[joint].held;
-  return identification::declaredSide(campaign.double_encoder);
+  return identification::declaredSide(campaign.doubleEncoderOf(static_cast<int>(joint)));
 }
 
 /// The joint's gear by its encoders; of the two campaigns that which has it with the smaller uncertainty.

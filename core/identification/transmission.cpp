@@ -254,8 +254,8 @@ Transmission measureTransmission(const campaign::Campaign& campaign, const frame
     describeJoint(joint, columns, own, out);
     const Slope link = slopeOf(joint, columns.torque, columns.reported);
     out.link_turn = link.value, out.link_turn_sd = link.sd;
-    out.held = heldSide({own, std::sqrt(estimate.covariance(j, j))}, link, campaign.double_encoder);
-    out.caution = loopCaution(out.held, campaign.double_encoder, j);
+    out.held = heldSide({own, std::sqrt(estimate.covariance(j, j))}, link, campaign.doubleEncoderOf(j));
+    out.caution = loopCaution(out.held, campaign.doubleEncoderOf(j), j);
     const double width = out.lost_motion ? out.lost_motion->width : 0.0;
     describeOffset(joint, j, weight, own, width, out);
     out.offset_holds_weight = !geometry.weight.links_known;

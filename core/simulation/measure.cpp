@@ -415,6 +415,7 @@ campaign::Campaign declared(const ElasticMachine& machine, const SimulationSpec&
   campaign.base_link = spec.base_link;
   campaign.flange_link = spec.flange_link;
   campaign.double_encoder = spec.double_encoder;
+  campaign.double_encoder_joints = spec.double_encoder_joints;
   if (spec.machine.base_tilt_declared) campaign.gravity_in_base = machine.gravity_in_base;
   campaign.tracker = spec.tracker.declared;
   for (const auto& target : spec.targets) campaign.targets.push_back({target.id, std::nullopt});

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <string>
 
+#include "core/campaign/campaign_xml.h"
 #include "core/io/input_error.h"
 #include "core/io/read_file.h"
 #include "core/io/units.h"
@@ -369,8 +371,10 @@ namespace {
 void readRobot(const io::XmlNode& root, const std::filesystem::path& folder, SimulationSpec& spec) {
   using namespace simulation;
   const io::XmlNode node = root.requiredChild("robot");
-  refuseUnknown(node, {"urdf", "base_link", "flange_link", "double_encoder", "read_back_resolution_deg"},
-                {"early_log"});
+  refuseUnknown(
+      node,
+      {"urdf", "base_link", "flange_link", "double_encoder", "double_encoder_joints", "read_back_resolution_deg"},
+      {"early_log"});
   spec.urdf_file = folder / node.requiredName("urdf");
   spec.base_link = node.requiredName("base_link");
   spec.flange_link = node.requiredName("flange_link");
@@ -382,7 +386,23 @@ void readRobot(const io::XmlNode& root, const std::filesystem::path& folder, Sim
   }
   spec.read_back_resolution = nonNegativeOr(node, "read_back_resolution_deg", io::kDegree, 0.0);
   spec.nominal = robot::readUrdf(spec.urdf_file, spec.base_link, spec.flange_link);
+  const std::vector<campaign::JointNumber> encoders = campaign::readDoubleEncoderJoints(node);
+  campaign::requireJoints(encoders, spec.nominal.joints());
+  for (const campaign::JointNumber& encoder : encoders) spec.double_encoder_joints.push_back(encoder.joint);
   spec.early_log = readEarlyLog(node, spec.nominal.joints());
+}
+
+/// A gear is what lies before the second encoder.
+void requireEncodersOfGears(const io::XmlNode& root, const SimulationSpec& spec) {
+  const std::vector<int>& encoders = spec.double_encoder_joints;
+  if (encoders.empty()) return;
+  for (int joint = 0; joint < static_cast<int>(spec.machine.joints.size()); ++joint) {
+    const bool has = std::find(encoders.begin(), encoders.end(), joint) != encoders.end();
+    if (has || !spec.machine.joints[static_cast<std::size_t>(joint)].gear) continue;
+    const io::XmlNode robot = root.requiredChild("robot");
+    robot.refuse("double_encoder_joints", robot.requiredAttribute("double_encoder_joints"),
+                 "expected joint " + std::to_string(joint + 1) + " among them: it has a gear");
+  }
 }
 
 }  // namespace
@@ -412,6 +432,7 @@ SimulationSpec parseSimulationSpec(std::string_view bytes, const std::filesystem
   readRobot(root, file.parent_path(), spec);
   spec.temperature = readTemperature(root);
   spec.machine = readMachine(root, spec.nominal.joints());
+  requireEncodersOfGears(root, spec);
   spec.targets = readTargets(root);
   spec.tracker = readTracker(root);
   spec.station = readStation(root);

@@ -14,7 +14,8 @@ namespace stiffscope::simulation {
 ///
 ///   simulation: format="1" name date seed (64 bit)
 ///       [measurement=1] (another one draws other noise on the same machine)
-///   robot: urdf base_link flange_link [double_encoder=unspecified] [read_back_resolution_deg=0]
+///   robot: urdf base_link flange_link [double_encoder=unspecified] [double_encoder_joints] (1 to n)
+///       [read_back_resolution_deg=0]
 ///   [joints]: [mass_relative_sigma=0] (of the URDF's link masses)
 ///     [joint]...: index (1 to n, the joints of the URDF; one that is not listed is rigid, and `rigidJoints` names it)
 ///     [stiffness_nm_per_rad=rigid] [bearing_nm_per_rad=rigid] (across the axis)

@@ -446,6 +446,7 @@ struct SimulationSpec {
   robot::Robot nominal;  ///< what urdf_file says
   std::string base_link, flange_link;
   campaign::DoubleEncoder double_encoder = campaign::DoubleEncoder::unspecified;
+  std::vector<int> double_encoder_joints;  ///< from 0; all with a gear are among them; none: not stated
   double read_back_resolution = 0.0;  ///< of reported joint angles, rad; 0: as exact as a double
 
   std::optional<EarlyLog> early_log;

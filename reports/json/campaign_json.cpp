@@ -70,6 +70,12 @@ const char* nameOf(campaign::DoubleEncoder state) {
   return "unspecified";
 }
 
+Json jointNumbers(const std::vector<int>& joints) {
+  Json numbers = Json::array();
+  for (const int joint : joints) numbers.push_back(joint + 1);
+  return numbers;
+}
+
 Json campaignJson(const campaign::Campaign& campaign) {
   Json inputs = Json::array();
   for (const campaign::InputFile& input : campaign.inputs)
@@ -79,6 +85,7 @@ Json campaignJson(const campaign::Campaign& campaign) {
             {"robot", campaign.robot.name},
             {"double_encoder", nameOf(campaign.double_encoder)},
             {"inputs", inputs}};
+  if (!campaign.double_encoder_joints.empty()) json["double_encoder_joints"] = jointNumbers(campaign.double_encoder_joints);
   if (!campaign.texts.robot_serial.empty()) json["robot_serial"] = campaign.texts.robot_serial;
   return json;
 }

@@ -13,6 +13,7 @@ Json campaignJson(const campaign::Campaign& campaign);
 
 /// `active`, `inactive` or `unspecified`, as the campaign format spells it.
 const char* nameOf(campaign::DoubleEncoder state);
+Json jointNumbers(const std::vector<int>& joints);  ///< from 1
 
 /// What was done to the readings: raw, rejected readings with file, line and reason, and the drift of
 /// the station that they were corrected for, or why not.

@@ -356,6 +356,8 @@ Json truthJson(const simulation::SimulationSpec& spec) {
               {"double_encoder", nameOf(spec.double_encoder)}}},
             {"seed", spec.seed},
             {"measurement", spec.measurement}};
+  if (!spec.double_encoder_joints.empty())
+    json["campaign"]["double_encoder_joints"] = jointNumbers(spec.double_encoder_joints);
   Json stiffness = Json::array(), compliances = Json::array();
   for (const simulation::JointStiffness& joint : spec.machine.joints) {
     stiffness.push_back(rate(joint.torsion));

@@ -67,7 +67,10 @@
         const right = mark[0] > 0.6;
         this.tip.style.left = right ? '' : 100 * mark[0] + '%';
         this.tip.style.right = right ? 100 * (1 - mark[0]) + '%' : '';
-        this.tip.style.top = 100 * mark[1] + '%';
+        // Above a mark of the lower half: a chart that scrolls shows nothing beside itself.
+        const low = mark[1] > 0.5;
+        this.tip.style.top = low ? '' : 100 * mark[1] + '%';
+        this.tip.style.bottom = low ? 100 * (1 - mark[1]) + '%' : '';
       }
       this.draw();
     }

@@ -7,7 +7,12 @@
 
 namespace stiffscope::page {
 
-std::string inUm(double metres) { return reports::fixed(metres / io::kMicrometre, 1); }
+std::string inUm(double metres) { return lengthIn(metres, {}); }
+
+std::string lengthIn(double metres, const reports::LengthUnit& unit) {
+  // To a tenth of a micrometre, or three places of a millimetre.
+  return reports::fixed(metres / unit.size, unit.size < io::kMillimetre ? 1 : 3);
+}
 
 std::string shareOf(double shrink, int decimals) {
   return shrink < -1.0 ? "below −100" : reports::fixed(100.0 * shrink, decimals);
@@ -31,15 +36,29 @@ const diagnosis::WhereRow* rowOf(const std::vector<diagnosis::WhereTable>& table
   return nullptr;
 }
 
+reports::LengthUnit unitOf(const std::vector<diagnosis::WhereTable>& tables) {
+  double largest = 0.0;
+  for (const diagnosis::WhereTable& table : tables) {
+    for (const diagnosis::WhereRow& row : table.rows) largest = std::max(largest, row.rms);
+  }
+  return reports::lengthUnit(largest);
+}
+
 }  // namespace
 
 reports::Table whereTable(const std::string& caption, const std::string& heading,
                           const std::vector<diagnosis::WhereTable>& where, const WhereBeside& beside) {
+  const reports::LengthUnit unit = unitOf(where), unit_beside = unitOf(beside.tables);
+  const auto headed = [](const std::string& name, const reports::LengthUnit& of) {
+    return fmt::format("{} ({})", name, of.name);
+  };
   reports::Table table{
-      caption, {"By", "Part", heading, "Noise (µm)", "Share (%)", "Above noise (sd)"}, {}, false, "gap"};
+      caption, {"By", "Part", headed(heading, unit), headed("Noise", unit), "Share (%)", "Above noise (sd)"},
+      {},      false,
+      "gap"};
   const bool more = !beside.tables.empty();
-  if (more) table.columns.push_back(beside.heading);
-  if (more && beside.noise) table.columns.emplace_back("Noise (µm)");
+  if (more) table.columns.push_back(headed(beside.heading, unit_beside));
+  if (more && beside.noise) table.columns.push_back(headed("Noise", unit_beside));
   reports::DataTable& data = table.data.emplace();
   data.columns = {"by", "part", "rms_um", "noise_um", "share_percent", "above_noise_sd"};
   if (more) data.columns.emplace_back("beside_rms_um");
@@ -62,11 +81,11 @@ reports::Table whereTable(const std::string& caption, const std::string& heading
     if (one.by == "posture") continue;  // a figure, and results.json
     reports::RowGroup group{one.by, {}};
     for (const diagnosis::WhereRow& row : one.rows) {
-      reports::Row cells{reports::asIs(row.name), inUm(row.rms), inUm(row.noise), reports::fixed(100.0 * row.share, 0),
+      reports::Row cells{reports::asIs(row.name), lengthIn(row.rms, unit), lengthIn(row.noise, unit), reports::fixed(100.0 * row.share, 0),
                          reports::asIs(reports::deviateWords(row.significance))};
       const diagnosis::WhereRow* other = more ? rowOf(beside.tables, one.by, row.name) : nullptr;
-      if (more) cells.emplace_back(other ? inUm(other->rms) : "–");
-      if (more && beside.noise) cells.emplace_back(other ? inUm(other->noise) : "–");
+      if (more) cells.emplace_back(other ? lengthIn(other->rms, unit_beside) : "–");
+      if (more && beside.noise) cells.emplace_back(other ? lengthIn(other->noise, unit_beside) : "–");
       group.rows.push_back(std::move(cells));
     }
     table.groups.push_back(std::move(group));

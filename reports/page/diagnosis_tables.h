@@ -17,6 +17,7 @@
 namespace stiffscope::page {
 
 std::string inUm(double metres);
+std::string lengthIn(double metres, const reports::LengthUnit& unit);  ///< without the unit's name
 std::string shareOf(double shrink,
                     int decimals);  ///< in percent; a gap that more than doubles has no size worth reading
 std::string interval(const diagnosis::Shrink& shrink);

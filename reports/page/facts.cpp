@@ -73,8 +73,9 @@ std::string instrument(const std::string& model, const std::string& serial, cons
                                       : fmt::format("; certificate {}", reports::asIs(certificate)));
 }
 
-/// Their state, and on which joints the readings have a second encoder: a campaign states the state alone.
+/// Their state and their joints: as the campaign states them, else those of which the readings have both sides.
 std::string encoderFact(const reports::ReportCampaign& one) {
+  if (!one.campaign.double_encoder_joints.empty()) return reports::encoderWordsOf(one.campaign);
   const std::string state = reports::encoderState(one.campaign.double_encoder);
   std::vector<std::string> joints;
   if (one.identification.transmission) {

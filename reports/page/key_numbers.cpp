@@ -108,7 +108,7 @@ std::vector<KeyNumber> sweepNumbers(const frames::Frames& frames) {
   return {{fmt::format("{} of {}", measured, frames.axes.size()), "joint axes found from their sweeps"},
           {fmt::format("{}\u00a0mm", reports::significant(reports::kMmPerM * off, 2)),
            "largest difference of a distance between axes from the nominal one"},
-          {fmt::format("{}\u00a0µm", reports::significant(1e6 * rms, 2)),
+          {reports::shownLength(rms, 2),
            "rms by which readings leave their circles, of the worst axis"}};
 }
 

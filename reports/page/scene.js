@@ -307,8 +307,7 @@
       this.live = element('div', { class: 'scene-live' });
       this.live.append(this.bar, this.room, this.status);
       this.fillBar();
-      const picture = this.figure.querySelector('img');
-      picture.after(this.live);
+      this.figure.querySelector('.picture').after(this.live);
       this.figure.classList.add('live');
     }
 
@@ -902,7 +901,7 @@
       button.remove();
       start(figure, data).then((scene) => scene && scene.canvas.focus());
     });
-    figure.querySelector('img').after(button);
+    figure.querySelector('.picture').after(button);
   }
 
   for (const script of scenes) {

@@ -13,12 +13,16 @@ namespace stiffscope::page {
 
 namespace {
 
-void writeFigure(Html& html, const reports::Figure& figure, int number) {
+void writeFigure(Html& html, const reports::Figure& figure, int number, bool has_scene) {
   const auto element = html.element("figure", {{"id", figure.id}});
-  html.voidElement("img", {{"src", "data:image/png;base64," + base64(figure.png)},
+  {
+    // Of a chart a narrow screen shows a part, as large as can be read; the rest comes by scrolling. A scene fits it.
+    const auto holder = html.element("div", {{"class", has_scene ? "picture" : "picture readable"}});
+    html.voidElement("img", {{"src", "data:image/png;base64," + base64(figure.png)},
                            {"alt", figure.alt},
                            {"width", std::to_string(figure.width)},
                            {"height", std::to_string(figure.height)}});
+  }
   const auto caption = html.element("figcaption");
   html.leaf("b", fmt::format("Figure {}. {}.", number, figure.title));
   html.text(" ");
@@ -49,7 +53,9 @@ void writeChosen(Html& html, const reports::ReportContent& content, const std::s
   for (const reports::Figure& figure : content.figures) {
     if (figure.section != section) continue;
     ++number;
-    if (chosen(figure)) writeFigure(html, figure, number);
+    const bool has_scene = std::any_of(content.scenes.begin(), content.scenes.end(),
+                                       [&](const reports::PageScene& scene) { return scene.figure == figure.id; });
+    if (chosen(figure)) writeFigure(html, figure, number, has_scene);
   }
 }
 

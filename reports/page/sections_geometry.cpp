@@ -4,6 +4,7 @@
 
 #include "core/io/units.h"
 #include "reports/csv/csv_table.h"
+#include "reports/page/diagnosis_tables.h"
 #include "reports/page/facts.h"
 #include "reports/page/html.h"
 #include "reports/page/sections.h"
@@ -74,7 +75,7 @@ reports::RowGroup conditions(const reports::ReportCampaign& one) {
   reports::RowGroup group;
   add(group, "Machine", own(campaign.robot.name));
   add(group, "Measured on", own(campaign.date));
-  add(group, "Double encoders", reports::encoderState(campaign.double_encoder));
+  add(group, "Double encoders", reports::encoderWordsOf(campaign));
   add(group, "Item", own(campaign.texts.item));
   add(group, "Laboratory", own(campaign.texts.laboratory));
   add(group, "Customer", own(campaign.texts.customer));
@@ -179,7 +180,12 @@ reports::Table linkTable(const frames::Frames& frames, Notes& notes) {
 }
 
 reports::Table axisTable(const frames::Frames& frames) {
-  reports::Table table{"Circle-point: the sweeps of each axis", {"Axis", "Arc (°)", "Circles", "rms (µm)"}, {{}}};
+  double largest = 0.0;
+  for (const frames::MeasuredAxis& axis : frames.axes) largest = std::max(largest, axis.measured ? axis.fit.rms : 0.0);
+  const reports::LengthUnit unit = reports::lengthUnit(largest);
+  reports::Table table{"Circle-point: the sweeps of each axis",
+                       {"Axis", "Arc (°)", "Circles", fmt::format("rms ({})", unit.name)},
+                       {{}}};
   table.id = "axes";
   // In the file besides: where the axes run, in R0 with all joints at zero.
   reports::DataTable& data = table.data.emplace();
@@ -194,7 +200,7 @@ reports::Table axisTable(const frames::Frames& frames) {
     for (const metrology::AxisCircle& circle : axis.fit.circles) arc = std::max(arc, circle.arc);
     table.groups.front().rows.push_back({std::to_string(i + 1), reports::fixed(arc / io::kDegree, 0),
                                          std::to_string(axis.fit.circles.size()),
-                                         reports::fixed(axis.fit.rms / io::kMicrometre, 1)});
+                                         lengthIn(axis.fit.rms, unit)});
     data.rows.push_back({static_cast<double>(i + 1), arc / io::kDegree, static_cast<double>(axis.fit.circles.size()),
                          axis.fit.rms / io::kMicrometre});
     const metrology::Line& line = frames.arm.arm.axes_in_base_at_zero[i];
@@ -240,9 +246,44 @@ void addPoint(reports::Row& row, const Eigen::Vector3d& point) {
   for (int k = 0; k < 3; ++k) row.emplace_back(reports::fixed(point[k] / io::kMillimetre, 3));
 }
 
+/// The file of table I where people read its rms in mm: the same columns as where they read it in µm.
+reports::DataTable wristSpheres(const reports::ReportCampaign& one, const frames::WristCentre& wrist) {
+  reports::DataTable data;
+  data.columns = {"Reflector"};
+  for (const char* axis : {"X (mm)", "Y (mm)", "Z (mm)"}) {
+    data.columns.emplace_back(axis);
+    data.columns.push_back(fmt::format("± of {}", axis));
+  }
+  for (const char* column : {"Offset (mm)", "Radius (mm)", "rms (µm)", "Count"}) data.columns.emplace_back(column);
+  for (const frames::WristTableRow& line : wrist.table) {
+    std::vector<reports::DataCell> row{one.campaign.targets[static_cast<std::size_t>(line.target)].id};
+    for (int k = 0; k < 3; ++k) {
+      row.emplace_back(line.centre_in_r0[k] / io::kMillimetre);
+      row.emplace_back();
+    }
+    row.emplace_back(line.offset / io::kMillimetre);
+    row.emplace_back(line.radius / io::kMillimetre);
+    row.emplace_back(line.rms / io::kMicrometre);
+    row.emplace_back(static_cast<double>(line.readings));
+    data.rows.push_back(std::move(row));
+  }
+  std::vector<reports::DataCell> mean{std::string("Mean of them")};
+  for (int k = 0; k < 3; ++k) {
+    mean.emplace_back(wrist.table_mean_in_r0[k] / io::kMillimetre);
+    mean.emplace_back(reports::expanded(std::sqrt(wrist.table_mean_covariance(k, k))) / io::kMillimetre);
+  }
+  mean.resize(data.columns.size());
+  data.rows.push_back(std::move(mean));
+  return data;
+}
+
 reports::Table tableOne(const reports::ReportCampaign& one, const frames::WristCentre& wrist) {
+  double largest = 0.0;
+  for (const frames::WristTableRow& line : wrist.table) largest = std::max(largest, line.rms);
+  const reports::LengthUnit unit = reports::lengthUnit(largest);
   reports::Table table{"Table I: centre of the sphere of each reflector's own sweep, in R_{0}",
-                       {"Reflector", "X (mm)", "Y (mm)", "Z (mm)", "Offset (mm)", "Radius (mm)", "rms (µm)", "Count"},
+                       {"Reflector", "X (mm)", "Y (mm)", "Z (mm)", "Offset (mm)", "Radius (mm)",
+                        fmt::format("rms ({})", unit.name), "Count"},
                        {{}}};
   table.id = "wrist-spheres";
   for (const frames::WristTableRow& line : wrist.table) {
@@ -250,7 +291,7 @@ reports::Table tableOne(const reports::ReportCampaign& one, const frames::WristC
     addPoint(row, line.centre_in_r0);
     row.emplace_back(reports::fixed(line.offset / io::kMillimetre, 3));
     row.emplace_back(reports::fixed(line.radius / io::kMillimetre, 3));
-    row.emplace_back(reports::fixed(line.rms / io::kMicrometre, 1));
+    row.emplace_back(lengthIn(line.rms, unit));
     row.emplace_back(std::to_string(line.readings));
     table.groups.front().rows.push_back(std::move(row));
   }
@@ -262,6 +303,7 @@ reports::Table tableOne(const reports::ReportCampaign& one, const frames::WristC
   }
   for (int k = 0; k < 4; ++k) mean_row.emplace_back("–");
   table.groups.push_back({"", {std::move(mean_row)}});
+  if (unit.size == io::kMillimetre) table.data = wristSpheres(one, wrist);
   return table;
 }
 

@@ -23,8 +23,8 @@ std::string findingOf(const diagnosis::Diagnosis& diagnosis) {
   if (entries.empty()) {
     return fmt::format(
         "Joint springs are enough for this machine on this day: what they leave is noise, or too small to "
-        "matter (below {}\u00a0µm rms).",
-        inUm(diagnosis.size_limit));
+        "matter (below {} rms).",
+        reports::withMicro(reports::lengthWords(diagnosis.size_limit, 1)));
   }
   const std::string present =
       fmt::format("Besides joint springs the readings show {}", reports::presentWords(diagnosis.verdict));
@@ -41,17 +41,18 @@ std::string findingOf(const diagnosis::Diagnosis& diagnosis) {
 
 std::string figuresOf(const diagnosis::Diagnosis& diagnosis) {
   const bool named = !reports::namedWords(diagnosis.verdict).empty();
-  const std::string noise = fmt::format("of which noise is {}\u00a0µm", inUm(diagnosis.gap.noise));
+  const auto shown = [](double metres) { return reports::withMicro(reports::lengthWords(metres, 1)); };
+  const std::string noise = fmt::format("of which noise is {}", shown(diagnosis.gap.noise));
   if (!named) {
-    return fmt::format("The gap is {}\u00a0µm rms per coordinate, {}.", inUm(diagnosis.gap.before), noise);
+    return fmt::format("The gap is {} rms per coordinate, {}.", shown(diagnosis.gap.before), noise);
   }
   const auto entries = std::count_if(diagnosis.verdict.entries.begin(), diagnosis.verdict.entries.end(),
                                      [](const diagnosis::VerdictEntry& entry) { return !entry.effects.empty(); });
   return fmt::format(
-      "With {} in the model the gap falls from {} to {}\u00a0µm rms per coordinate, {}; on postures that "
+      "With {} in the model the gap falls from {} to {} rms per coordinate, {}; on postures that "
       "took no part "
       "it shrinks by {}\u00a0% (95\u00a0%: {}\u00a0%).",
-      entries > 1 ? "them" : "it", inUm(diagnosis.gap.before), inUm(diagnosis.gap.after), noise,
+      entries > 1 ? "them" : "it", shown(diagnosis.gap.before), shown(diagnosis.gap.after), noise,
       reports::fixed(100.0 * diagnosis.shrink_together.value, 0), interval(diagnosis.shrink_together));
 }
 
@@ -99,7 +100,7 @@ std::string fallOf(const diagnosis::EffectClass& one) {
 reports::Table gapTable(const diagnosis::Diagnosis& diagnosis) {
   std::string caption = "Where the gap lies that joint stiffnesses leave, rms per coordinate";
   if (!diagnosis.as_measured.rows.empty()) caption += ", the station's motion taken off";
-  return whereTable(caption, "Deflection (µm)", diagnosis.where, {diagnosis.where_positions, "Unloaded (µm)"});
+  return whereTable(caption, "Deflection", diagnosis.where, {diagnosis.where_positions, "Unloaded"});
 }
 
 reports::Table stiffnessTable(const diagnosis::Diagnosis& diagnosis) {

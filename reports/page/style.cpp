@@ -102,10 +102,13 @@ constexpr const char* kScreen =
     "align-items:start;margin-top:1rem}"
     // A wide figure has its caption beside it.
     "figure{margin:0;padding:0;container-type:inline-size}"
-    "figure img{display:block;width:100%;height:auto;background:#fff;border:1px solid var(--line)}"
-    "@media screen{@container (min-width:56rem){figure>img,figure>.chart,figure>.scene-live{float:left;width:68%}"
+    "figure img{display:block;width:100%;height:auto;background:#fff}.picture{border:1px solid var(--line)}"
+    "@media screen{@container (min-width:56rem){figure>.picture,figure>.scene-live{float:left;width:68%}"
     "figcaption{margin:0 0 0 70%}}}"
-    "@media screen and (prefers-color-scheme:dark){figure img{filter:invert(.905) hue-rotate(180deg)}}"
+    // Letters of a chart stay readable on a phone: the figure scrolls in its frame, the page does not.
+    "@media screen and (max-width:40rem){.readable{overflow-x:auto;overflow-y:hidden}.readable>img,.readable>.chart{"
+    "width:44rem;max-width:none}}"
+    "@media screen and (prefers-color-scheme:dark){figure img{filter:invert(.905) hue-rotate(180deg) brightness(1.35)}}"
     "figcaption{font-size:.92rem;margin-top:.5rem;max-width:56rem;overflow-wrap:anywhere}"
     "code{font-family:ui-monospace,monospace;font-size:.85em;overflow-wrap:anywhere}";
 
@@ -120,7 +123,7 @@ constexpr const char* kScripted =
     "0}.filter input{font:inherit;color:var(--ink);"
     "background:var(--band);border:1px solid var(--faint);padding:.05rem .3rem}"
     "tr.marked th,tr.marked td{background:#e8a82044}tr.filtered{display:none}"
-    "figure.live img,figure.live .chart{display:none}.scene-live{border:1px solid var(--line)}"
+    "figure.live .picture{display:none}.scene-live{border:1px solid var(--line)}"
     ".bar{display:flex;flex-wrap:wrap;gap:.25rem .5rem;align-items:center;padding:.3rem .5rem;font-size:.82rem;"
     "background:var(--band)}.bar button,.bar select{font:inherit;color:var(--ink);background:var(--paper);border:1px "
     "solid "
@@ -140,7 +143,7 @@ constexpr const char* kPrint =
     "@media print{"
     ":root{--paper:#fff;--ink:#000;--faint:#444;--line:#bbb;--band:#f4f6f8;--accent:#1c4a96}"
     "body{font-size:9.5pt}nav,.skip,details,.scene-live,.csv,.offer,canvas.marks,.tip{display:none}"
-    "figure.live img,figure.live .chart{display:block}.first{grid-template-columns:9fr 11fr;gap:0 6mm}.first "
+    "figure.live .picture{display:block}.first{grid-template-columns:9fr 11fr;gap:0 6mm}.first "
     ".figures{display:block}.first table{font-size:7.5pt}.first .figures{grid-row:1}.first .told{grid-column:1 / span "
     "2}tr.filtered{display:table-row}"
     "main,header{max-width:none;padding:0}"
@@ -159,7 +162,7 @@ constexpr const char* kPrint =
     "table,.each table{font-size:7.5pt;line-height:1.3}.each table{min-width:95mm}th,td{padding:.1rem .36rem}"
     ".figures{margin:0}figure{margin:3mm 0}"
     // The caption beside the figure: three fit on a page whatever their captions, and no half of it is empty.
-    "figure{container-type:normal}figure img{border:0}main figure{display:grid;grid-template-columns:128mm "
+    "figure{container-type:normal}.picture{border:0}main figure{display:grid;grid-template-columns:128mm "
     "minmax(0,1fr);gap:5mm;align-items:start}figcaption{margin:0}"
     "main figure img{max-height:74mm;object-fit:contain;object-position:left top}.first "
     "figcaption{margin-top:1mm;font-size:7.5pt}"

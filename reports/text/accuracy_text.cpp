@@ -12,6 +12,7 @@
 #include "reports/words/calibration_words.h"
 #include "reports/words/numbers.h"
 #include "reports/words/remark_words.h"
+#include "reports/words/unloaded_effect_words.h"
 
 namespace stiffscope::reports {
 
@@ -20,19 +21,12 @@ namespace {
 using accuracy::AccuracyDiagnosis;
 using Out = std::back_insert_iterator<std::string>;
 
-std::string idsOf(const std::vector<accuracy::UnloadedEffect>& effects) {
-  std::string names;
-  for (const accuracy::UnloadedEffect effect : effects)
-    names += (names.empty() ? "" : " or ") + std::string(idOf(effect));
-  return names;
-}
-
 std::string verdictLine(const AccuracyDiagnosis& accuracy) {
   if (accuracy.verdict.empty()) return "none";
   std::string line;
   for (const accuracy::AccuracyEntry& entry : accuracy.verdict) {
     line += line.empty() ? "" : ", and ";
-    line += entry.effects.empty() ? "unknown" : idsOf(entry.effects);
+    line += entry.effects.empty() ? "unknown" : effectNames(entry.effects);
     if (!entry.detail.empty()) line += " (" + entry.detail + ")";
   }
   return line;
@@ -57,7 +51,7 @@ void writeClasses(const AccuracyDiagnosis& accuracy, Out out) {
   fmt::format_to(out, "  {:<2}{:<44}{:>12}{:>9}  {:<17}{:>10}\n", "", "effect", "score", "shrink", "95 %", "explained");
   for (const accuracy::AccuracyClass& one : accuracy.classes) {
     fmt::format_to(out, "  {:<2}{:<44}{:>12.0f}{:>9.3f}  {:<17}{:>10.3f}\n", one.in_verdict ? "*" : "",
-                   idsOf(one.effects), unsignedZero(one.score, 0), unsignedZero(one.shrink.value, 3),
+                   effectNames(one.effects), unsignedZero(one.score, 0), unsignedZero(one.shrink.value, 3),
                    shrinkInterval(one.shrink), unsignedZero(one.explained, 3));
     if (!one.detail.empty()) fmt::format_to(out, "    {}\n", wrapped(one.detail, 4));
     writeTerms(one, out);
@@ -68,12 +62,12 @@ void writeLimits(const AccuracyDiagnosis& accuracy, Out out) {
   fmt::format_to(out, "\nSmallest size that would have been seen, µm rms per coordinate:\n");
   std::string sizes;
   for (const accuracy::DetectableEffect& one : accuracy.detectable) {
-    if (one.size) sizes += fmt::format("{}{} {:.1f}", sizes.empty() ? "" : ", ", idOf(one.effect), um(*one.size));
+    if (one.size) sizes += fmt::format("{}{} {:.1f}", sizes.empty() ? "" : ", ", effectName(one.effect), um(*one.size));
   }
   fmt::format_to(out, "  {}\n", wrapped(sizes, 2));
   for (const accuracy::UntestableEffect& one : accuracy.not_testable)
     fmt::format_to(out, "  {}\n",
-                   wrapped(fmt::format("{} not testable here: {}", idOf(one.effect), words(one.missing)), 4));
+                   wrapped(fmt::format("{} not testable here: {}", effectName(one.effect), words(one.missing)), 4));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "reports/json/json.h"
 #include "reports/words/audit_figures.h"
 #include "reports/words/listed.h"
+#include "reports/words/names.h"
 #include "reports/words/numbers.h"
 #include "reports/words/preparation_words.h"
 #include "reports/words/remark_words.h"
@@ -30,7 +31,7 @@ void writeChecks(const audit::AuditReport& report, Out out) {
   for (const preparation::AuditCheck& check : report.checks) {
     const AuditFigures figures = figuresOf(check);
     std::string line =
-        fmt::format("  {:<21}{:<13}{:>10}{:>10}  {:<16}{}", check.id, worded(check.verdict), figureCell(figures.value),
+        fmt::format("  {:<21}{:<13}{:>10}{:>10}  {:<16}{}", auditName(check.id), worded(check.verdict), figureCell(figures.value),
                     figureCell(figures.limit), figures.unit, words(check.where));
     line.erase(line.find_last_not_of(' ') + 1);
     fmt::format_to(out, "{}\n", line);
@@ -83,7 +84,7 @@ void writeShortArcs(const audit::AuditReport& report, Out out) {
 void writeDetails(const audit::AuditReport& report, Out out) {
   for (const preparation::AuditCheck& check : report.checks) {
     if (check.details.empty()) continue;
-    fmt::format_to(out, "\n{}, in detail\n", check.id);
+    fmt::format_to(out, "\n{}, in detail\n", auditName(check.id));
     for (const std::string& detail : listed(
              check.details, [](const Remark& one) { return words(one); }, kListedInJson))
       fmt::format_to(out, "  {}\n", wrapped(detail, 4));
@@ -96,7 +97,7 @@ void writeMessages(const audit::AuditReport& report, preparation::AuditVerdict v
     if (check.verdict != verdict) continue;
     if (first) fmt::format_to(out, "\n{}\n", title);
     first = false;
-    fmt::format_to(out, "  {}\n", wrapped(fmt::format("{}: {}", check.id, words(check.message)), 4));
+    fmt::format_to(out, "  {}\n", wrapped(fmt::format("{}: {}", auditName(check.id), words(check.message)), 4));
     if (!check.limit_source.empty()) {
       fmt::format_to(out, "    {}\n", wrapped(fmt::format("Limit: {}.", words(check.limit_source)), 6));
     }

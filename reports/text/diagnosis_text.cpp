@@ -21,25 +21,15 @@
 
 namespace stiffscope::reports {
 
-/// "bearing_tilt or link_compliance".
-std::string effectIds(const std::vector<effects::Effect>& effects);
-
 /// What is present, in one line: "hysteresis (joint 2), and unknown"; "none" where nothing is.
 std::string verdictWords(const diagnosis::Verdict& verdict);
-
-std::string effectIds(const std::vector<effects::Effect>& effects) {
-  std::string names;
-  for (const effects::Effect effect : effects)
-    names += (names.empty() ? "" : " or ") + std::string(effects::idOf(effect));
-  return names;
-}
 
 std::string verdictWords(const diagnosis::Verdict& verdict) {
   if (verdict.entries.empty()) return "none";
   std::string line;
   for (const diagnosis::VerdictEntry& entry : verdict.entries) {
     line += line.empty() ? "" : ", and ";
-    line += entry.effects.empty() ? "unknown" : effectIds(entry.effects);
+    line += entry.effects.empty() ? "unknown" : effectNames(entry.effects);
     if (!entry.detail.empty()) line += " (" + entry.detail + ")";
   }
   return line;
@@ -55,7 +45,7 @@ void writeClasses(const diagnosis::Diagnosis& diagnosis, Out out) {
   fmt::format_to(out, "  {:<2}{:<44}{:>12}{:>9}  {:<17}{:>10}\n", "", "effect", "score", "shrink", "95 %", "explained");
   for (const diagnosis::EffectClass& one : diagnosis.classes) {
     fmt::format_to(out, "  {:<2}{:<44}{:>12.0f}{:>9.3f}  {:<17}{:>10.3f}\n", one.in_verdict ? "*" : "",
-                   effectIds(one.effects), unsignedZero(one.score, 0), unsignedZero(one.shrink.value, 3),
+                   effectNames(one.effects), unsignedZero(one.score, 0), unsignedZero(one.shrink.value, 3),
                    shrinkInterval(one.shrink), unsignedZero(one.explained, 3));
     if (!one.in_verdict) continue;
     if (!one.detail.empty()) fmt::format_to(out, "    {}\n", wrapped(one.detail, 4));
@@ -103,20 +93,20 @@ void writeStiffnesses(const diagnosis::Diagnosis& diagnosis, Out out) {
 }
 
 void writeLimits(const diagnosis::Diagnosis& diagnosis, Out out) {
-  fmt::format_to(out, "\nNoise: {:.1f} µm rms in one state's displacement; {}.\n", um(diagnosis.state_noise),
+  fmt::format_to(out, "\nNoise: {} rms in one state's displacement; {}.\n", withMicro(lengthWords(diagnosis.state_noise, 1)),
                  words(diagnosis.noise_source));
-  fmt::format_to(out, "Limits: a fall of BIC of {:.0f}, and {:.1f} µm rms after the stiffnesses.\n",
-                 diagnosis.significance_limit, um(diagnosis.size_limit));
+  fmt::format_to(out, "Limits: a fall of BIC of {:.0f}, and {} rms after the stiffnesses.\n",
+                 diagnosis.significance_limit, withMicro(lengthWords(diagnosis.size_limit, 1)));
   fmt::format_to(out, "Smallest size that would have been seen, µm rms per coordinate:\n");
   std::string sizes;
   for (const diagnosis::DetectableSize& one : diagnosis.detectable) {
     if (one.size)
-      sizes += fmt::format("{}{} {:.0f}", sizes.empty() ? "" : ", ", effects::idOf(one.effect), um(*one.size));
+      sizes += fmt::format("{}{} {:.0f}", sizes.empty() ? "" : ", ", effectName(one.effect), um(*one.size));
   }
   fmt::format_to(out, "  {}\n", wrapped(sizes, 2));
   for (const diagnosis::NotTestable& one : diagnosis.not_testable)
     fmt::format_to(out, "  {}\n",
-                   wrapped(fmt::format("{} not testable here: {}", effects::idOf(one.effect), words(one.missing)), 4));
+                   wrapped(fmt::format("{} not testable here: {}", effectName(one.effect), words(one.missing)), 4));
 }
 
 }  // namespace
@@ -127,16 +117,16 @@ std::string diagnosisText(const campaign::Campaign& campaign, const diagnosis::D
   if (!diagnosis.usable) return fmt::format("{}: no diagnosis: {}\n", campaign.name, words(diagnosis.unusable_reason));
   fmt::format_to(out, "{}: {}\n\n", campaign.name, verdictWords(diagnosis.verdict));
   fmt::format_to(out, "{}\n", wrapped(reasonWords(diagnosis.verdict), 0));
-  fmt::format_to(out, "\nGap of the deflection ({:.0f} µm rms): {:.1f} µm before, {:.1f} µm after, noise {:.1f} µm\n",
-                 um(diagnosis.gap.deflection), um(diagnosis.gap.before), um(diagnosis.gap.after),
-                 um(diagnosis.gap.noise));
+  fmt::format_to(out, "\nGap of the deflection ({} rms): {} before, {} after, noise {}\n",
+                 withMicro(lengthWords(diagnosis.gap.deflection, 0)), withMicro(lengthWords(diagnosis.gap.before, 1)), withMicro(lengthWords(diagnosis.gap.after, 1)),
+                 withMicro(lengthWords(diagnosis.gap.noise, 1)));
   if (diagnosis.positions_tested) {
-    fmt::format_to(out, "Gap of unloaded positions: {:.1f} µm before, {:.1f} µm after, noise {:.1f} µm\n",
-                   um(diagnosis.positions.before), um(diagnosis.positions.after), um(diagnosis.positions.noise));
+    fmt::format_to(out, "Gap of unloaded positions: {} before, {} after, noise {}\n",
+                   withMicro(lengthWords(diagnosis.positions.before, 1)), withMicro(lengthWords(diagnosis.positions.after, 1)), withMicro(lengthWords(diagnosis.positions.noise, 1)));
   }
   writeClasses(diagnosis, out);
   for (const auto& group : diagnosis.aliases)
-    fmt::format_to(out, "  These postures and loads cannot always separate: {}\n", wrapped(effectIds(group), 4));
+    fmt::format_to(out, "  These postures and loads cannot always separate: {}\n", wrapped(effectNames(group), 4));
   text += whereText(diagnosis.where, "Where the deflection's gap lies");
   text += whereText(diagnosis.where_positions, "Where the gap of unloaded positions lies");
   writeStiffnesses(diagnosis, out);
@@ -157,7 +147,7 @@ std::string ofDraws(int count, const diagnosis::SpikeCounts& at) {
   return at.draws == 0 ? "-" : fmt::format("{}/{}", count, at.draws);
 }
 
-/// "base_compliance 3, unknown 1": what was said besides, and how often over all sizes.
+/// "base compliance 3, unknown 1": what was said besides, and how often over all sizes.
 std::string saidBesides(const diagnosis::SpikedEffect& one) {
   std::string text;
   std::vector<std::pair<std::string, int>> sums;
@@ -171,7 +161,7 @@ std::string saidBesides(const diagnosis::SpikedEffect& one) {
     }
   };
   for (const diagnosis::SpikeCounts& at : one.sizes) {
-    for (const auto& [effect, count] : at.others) add(std::string(effects::idOf(effect)), count);
+    for (const auto& [effect, count] : at.others) add(effectName(effect), count);
     add("unknown", at.unknown);
   }
   for (const auto& [name, count] : sums) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, count);
@@ -179,7 +169,7 @@ std::string saidBesides(const diagnosis::SpikedEffect& one) {
 }
 
 void writeSpikedEffect(const diagnosis::SpikedEffect& one, Out out) {
-  const std::string name = fmt::format("{}{}", effects::idOf(one.effect), one.in_baseline ? " *" : "");
+  const std::string name = fmt::format("{}{}", effectName(one.effect), one.in_baseline ? " *" : "");
   if (!one.detectable) {
     fmt::format_to(out, "  {}\n", wrapped(fmt::format("{:<25} not added: {}", name, words(one.reason)), 4));
     return;

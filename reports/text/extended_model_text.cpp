@@ -30,7 +30,7 @@ extended_model::EffectParameter inTextUnits(extended_model::EffectParameter para
 }
 
 void writeEffect(const extended_model::AddedEffect& one, Out out) {
-  fmt::format_to(out, "  {}{}{}\n", effects::idOf(one.effect), one.detail.empty() ? "" : " (" + one.detail + ")",
+  fmt::format_to(out, "  {}{}{}\n", effectName(one.effect), one.detail.empty() ? "" : " (" + one.detail + ")",
                  one.shape.empty() ? "" : ", " + one.shape);
   fmt::format_to(out, "    {}\n", wrapped(reports::effectUse(one.effect), 4));
   for (const extended_model::EffectParameter& own : one.parameters) {
@@ -157,7 +157,7 @@ std::string addedEffectsText(const extended_model::EffectFit& effects) {
   const auto out = std::back_inserter(text);
   for (const extended_model::AddedEffect& one : effects.added) writeEffect(one, out);
   for (const effects::Effect effect : effects.geometry)
-    fmt::format_to(out, "  {}\n", wrapped(fmt::format("{}: {}", effects::idOf(effect), reports::effectUse(effect)), 4));
+    fmt::format_to(out, "  {}\n", wrapped(fmt::format("{}: {}", effectName(effect), reports::effectUse(effect)), 4));
   for (const std::string& note : words(effects.notes)) fmt::format_to(out, "  {}\n", wrapped("Note: " + note + ".", 4));
   if (!effects.added.empty()) fmt::format_to(out, "{}\n", wrapped(explainedWords(effects), 0));
   return text;

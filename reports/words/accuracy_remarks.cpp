@@ -22,14 +22,14 @@ std::string accuracyWords(accuracy::RemarkId id, const RemarkValues& values) {
   switch (id) {
     case RemarkId::left_by_geometry:
       return fmt::format(
-          "The calibrated geometry leaves {:.1f} um rms per coordinate; the readings' noise alone would "
-          "leave {:.1f} um.",
-          um(values.number(0)), um(values.number(1)));
+          "The calibrated geometry leaves {} rms per coordinate; the readings' noise alone would "
+          "leave {}.",
+          lengthWords(values.number(0), 1), lengthWords(values.number(1), 1));
     case RemarkId::no_effect_passes:
       return fmt::format(
           "No effect of the vocabulary is beyond chance, predicts postures that were held out, and moves "
-          "the reflectors by {:.1f} um rms or more.",
-          um(values.number(0)));
+          "the reflectors by {} rms or more.",
+          lengthWords(values.number(0), 1));
     case RemarkId::geometry_off_nominal:
       return fmt::format(
           "The URDF's geometry misses by {:.2f} mm rms per coordinate, more than the {:.2f} mm of arms as "
@@ -37,9 +37,9 @@ std::string accuracyWords(accuracy::RemarkId id, const RemarkValues& values) {
           values.number(0) / io::kMillimetre, values.number(1) / io::kMillimetre);
     case RemarkId::not_explained:
       return fmt::format(
-          "{:.1f} um rms per coordinate beyond noise stay that no effect of the vocabulary explains "
-          "({:.1f} um may).",
-          um(values.number(0)), um(values.number(1)));
+          "{} rms per coordinate beyond noise stay that no effect of the vocabulary explains "
+          "({} may).",
+          lengthWords(values.number(0), 1), lengthWords(values.number(1), 1));
     case RemarkId::candidates_only:
       return fmt::format(
           "Beside that, {} {} no more than candidates: with them in the model {:.0f} % of the gap's "
@@ -51,15 +51,15 @@ std::string accuracyWords(accuracy::RemarkId id, const RemarkValues& values) {
                          capitalised(effect()));
     case RemarkId::less_than_unknown:
       return fmt::format(
-          "{} moves the reflectors by {:.1f} um rms, less than the {:.1f} um that nothing explains and "
+          "{} moves the reflectors by {} rms, less than the {} that nothing explains and "
           "that it may be a part of: a candidate only.",
-          capitalised(effect()), um(values.number(1)), um(values.number(2)));
+          capitalised(effect()), lengthWords(values.number(1), 1), lengthWords(values.number(2), 1));
     case RemarkId::too_small:
-      return fmt::format("{} is beyond chance but moves the reflectors by {:.1f} um rms only ({:.1f} um would matter).",
-                         capitalised(effect()), um(values.number(1)), um(values.number(2)));
+      return fmt::format("{} is beyond chance but moves the reflectors by {} rms only ({} would matter).",
+                         capitalised(effect()), lengthWords(values.number(1), 1), lengthWords(values.number(2), 1));
     case RemarkId::nests_show_station:
-      return fmt::format("The floor nests show that the station {}, by up to {:.0f} um where the arm was read.",
-                         values.count(0) != 0 ? "jumped" : "drifted", um(values.number(1)));
+      return fmt::format("The floor nests show that the station {}, by up to {} where the arm was read.",
+                         values.count(0) != 0 ? "jumped" : "drifted", lengthWords(values.number(1), 0));
     case RemarkId::nests_stand:
       return "The floor nests stand still: the station did not move.";
     case RemarkId::needs_masses:

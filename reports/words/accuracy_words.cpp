@@ -138,12 +138,12 @@ std::vector<std::string> accuracyMeanings(const accuracy::AccuracyDiagnosis& acc
 std::string accuracyFigures(const accuracy::AccuracyDiagnosis& accuracy) {
   const accuracy::AccuracyGap& gap = accuracy.gap;
   if (!(gap.before > 0.0)) return {};
-  const auto um = [](double metres) { return fixed(metres / io::kMicrometre, 1) + "\u00a0µm"; };
-  std::string text = fmt::format("Held out, the calibrated geometry leaves {} rms per coordinate", um(gap.before));
-  if (gap.nominal > 0.0) text += fmt::format(" of the nominal arm's {}", um(gap.nominal));
-  if (gap.noise > 0.0) text += fmt::format("; noise alone is {}", um(gap.noise));
+  const auto shown = [](double metres) { return withMicro(lengthWords(metres, 1)); };
+  std::string text = fmt::format("Held out, the calibrated geometry leaves {} rms per coordinate", shown(gap.before));
+  if (gap.nominal > 0.0) text += fmt::format(" of the nominal arm's {}", shown(gap.nominal));
+  if (gap.noise > 0.0) text += fmt::format("; noise alone is {}", shown(gap.noise));
   if (namedWords(accuracy.verdict).empty() || !(gap.after > 0.0)) return text + ".";
-  text += fmt::format(". With the verdict's effects in the model {} are left", um(gap.after));
+  text += fmt::format(". With the verdict's effects in the model {} are left", shown(gap.after));
   const diagnosis::Shrink& shrink = accuracy.shrink_together;
   if (shrink.high > shrink.low) {
     text += fmt::format(": it shrinks by {} (95\u00a0%: {} to {})", percent(shrink.value, 0),

@@ -61,9 +61,9 @@ std::string auditLimitWords(audit::LimitId id, const RemarkValues& values) {
     case audit::LimitId::arc_practice:
       return fmt::format(
           "circle-point practice: warn below {:.0f} deg, fail below {:.0f} deg, unless the axis is still "
-          "known at the arm's reach to {:.0f} um, a third of the {:.1f} mm to which identification trusts "
+          "known at the arm's reach to {}, a third of the {:.1f} mm to which identification trusts "
           "places",
-          values.number(0) / io::kDegree, values.number(1) / io::kDegree, 1e6 * values.number(2),
+          values.number(0) / io::kDegree, values.number(1) / io::kDegree, lengthWords(values.number(2), 0),
           1e3 * values.number(3));
     case audit::LimitId::circle_redundancy:
       return "three readings make a circle, twice as many leave as many again to check it by";

@@ -104,25 +104,25 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
     case audit::RemarkId::at_load_cell:
       return "load cell";
     case audit::RemarkId::unknown_if_it_identifies:
-      return "whether postures and loads identify any joint (posture_set): measure `states` with a load cell, and "
+      return "whether postures and loads identify any joint (posture set): measure `states` with a load cell, and "
              "`loading` or `displacements`, unloaded and under load";
     case audit::RemarkId::unknown_size:
-      return "whether displacements are of the size that forces make (load_size): measure `loading` or "
+      return "whether displacements are of the size that forces make (load size): measure `loading` or "
              "`displacements` under a known force";
     case audit::RemarkId::unknown_worth_of_readings:
-      return "what a reading under load is worth (one of repeatability, rigid_tool, unloaded_positions, "
-             "return_to_zero): read each state of `loading` twice or more, or several reflectors in each, and add a "
+      return "what a reading under load is worth (one of repeatability, rigid tool, unloaded positions, "
+             "return to zero): read each state of `loading` twice or more, or several reflectors in each, and add a "
              "last "
              "step without load, which `displacements` may have, too";
     case audit::RemarkId::unknown_load_cell:
-      return "whether the load cell shows the load (one of tare, gravity_direction, moment_lever): state "
+      return "whether the load cell shows the load (one of tare, gravity direction, moment lever): state "
              "force_sigma_n and moment_sigma_nm, and write what the cell shows unloaded and its moments as they were "
              "read; or let the load hang";
     case audit::RemarkId::unknown_arm:
-      return "whether the readings are those of the URDF's arm (arm_model): read one reflector or more in postures in "
+      return "whether the readings are those of the URDF's arm (arm model): read one reflector or more in postures in "
              "which every joint stands at several angles";
     case audit::RemarkId::unknown_worth_unloaded:
-      return "what a reading is worth (one of repeatability, rigid_tool, return_to_zero): read postures twice or more, "
+      return "what a reading is worth (one of repeatability, rigid tool, return to zero): read postures twice or more, "
              "or three reflectors in each";
     case audit::RemarkId::too_few_to_calibrate:
       return fmt::format(
@@ -153,8 +153,8 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
       return fmt::format("pose {}: no readings", values.name(0));
     case audit::RemarkId::repeats_scatter:
       return fmt::format(
-          "repeats scatter {} the beam by {:.1f} um (one sigma), {:.2f} of what is declared{}",
-          values.count(0) != 0 ? "along" : "across", 1e6 * values.number(1), values.number(2),
+          "repeats scatter {} the beam by {} (one sigma), {:.2f} of what is declared{}",
+          values.count(0) != 0 ? "along" : "across", lengthWords(values.number(1), 1), values.number(2),
           values.count(3) != 0
               ? ": every stated uncertainty is too small by as much; the other checks take the noise as the "
                 "repeats show it"
@@ -200,8 +200,8 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
     case audit::RemarkId::declare_load_cell_noise:
       return fmt::format("multiply force_sigma_n and moment_sigma_nm by {:.2g}", values.numbers(0).at(0));
     case audit::RemarkId::distance_changes:
-      return fmt::format("largest change of a distance: {} to {} by {:.0f} um at {}{}", values.name(0), values.name(1),
-                         1e6 * values.number(2), values.name(3), more(values, 4));
+      return fmt::format("largest change of a distance: {} to {} by {} at {}{}", values.name(0), values.name(1),
+                         lengthWords(values.number(2), 0), values.name(3), more(values, 4));
     case audit::RemarkId::distances_scatter:
       return fmt::format("; over all states distances scatter {:.2f} times as far as noise alone", values.number(0));
     case audit::RemarkId::reflectors_exchanged:
@@ -212,12 +212,12 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
              "than declared";
     case audit::RemarkId::reflector_moves:
       return fmt::format(
-          "; reflector {} moves: the distances between the others hold, its own change by {:.0f} um rms "
-          "under load and {:.0f} um without",
-          values.name(0), 1e6 * values.number(1), 1e6 * values.number(2));
+          "; reflector {} moves: the distances between the others hold, its own change by {} rms "
+          "under load and {} without",
+          values.name(0), lengthWords(values.number(1), 0), lengthWords(values.number(2), 0));
     case audit::RemarkId::station_moved:
-      return fmt::format("at the arm the station moved by {:.0f} um and turned by {:.1f} urad at most, at {:.0f} s{}",
-                         1e6 * values.number(0), 1e6 * values.number(1), values.number(2), more(values, 3));
+      return fmt::format("at the arm the station moved by {} and turned by {:.1f} urad at most, at {:.0f} s{}",
+                         lengthWords(values.number(0), 0), 1e6 * values.number(1), values.number(2), more(values, 3));
     case audit::RemarkId::station_drifts:
       return fmt::format("; a drift of {:.2f} um/min on average",
                          1e6 * values.number(0) / (values.number(1) / kMinute));
@@ -232,8 +232,8 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
                          more(values, 1));
     case audit::RemarkId::nest_moved:
       return fmt::format(
-          "; nest {} moved by up to {:.0f} um against the others and is left out of the station's motion",
-          values.name(0), 1e6 * values.number(1));
+          "; nest {} moved by up to {} against the others and is left out of the station's motion",
+          values.name(0), lengthWords(values.number(1), 0));
     case audit::RemarkId::nests_not_mended:
       return "; leaving out any one nest does not mend it: more than one moved, or the readings are wrong";
     case audit::RemarkId::of_station:
@@ -243,29 +243,29 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
                          more(values, 1));
     case audit::RemarkId::station_at_arm:
       return fmt::format(
-          "{}, by {} nests in common: where the arm was read its frame is known to {:.1f} um and {:.1f} urad (one "
+          "{}, by {} nests in common: where the arm was read its frame is known to {} and {:.1f} urad (one "
           "sigma, "
           "the largest of all directions), common to all that was read from it",
-          values.name(0), values.count(1), 1e6 * values.number(2), 1e6 * values.number(3));
+          values.name(0), values.count(1), lengthWords(values.number(2), 1), 1e6 * values.number(3));
     case audit::RemarkId::nest_read_apart:
       return fmt::format(
-          "; nest {} as {} read it stands {:.0f} um from where the others put it, and is left out: it moved between "
+          "; nest {} as {} read it stands {} from where the others put it, and is left out: it moved between "
           "the "
           "stations",
-          values.name(0), values.name(1), 1e6 * values.number(2));
+          values.name(0), values.name(1), lengthWords(values.number(2), 0));
     case audit::RemarkId::reading_read_apart:
-      return fmt::format("; the reading of nest {} from {} in line {} is {:.0f} um off the others, and is left out",
-                         values.name(1), values.name(2), values.count(0), 1e6 * values.number(3));
+      return fmt::format("; the reading of nest {} from {} in line {} is {} off the others, and is left out",
+                         values.name(1), values.name(2), values.count(0), lengthWords(values.number(3), 0));
     case audit::RemarkId::stations_not_mended:
       return "; leaving out single nests does not mend it: several moved between the stations, or a station drifted "
              "while "
              "its nests were read";
     case audit::RemarkId::arc_known:
       return fmt::format(
-          "axis {}: arc of {:.1f} deg; known to {:.1f} urad in direction and {:.1f} um in place (one sigma), "
-          "{:.0f} um at the reach of {:.2f} m{}",
-          values.count(0), values.number(1) / io::kDegree, 1e6 * values.number(2), 1e6 * values.number(3),
-          1e6 * values.number(4), values.number(5), more(values, 6));
+          "axis {}: arc of {:.1f} deg; known to {:.1f} urad in direction and {} in place (one sigma), "
+          "{} at the reach of {:.2f} m{}",
+          values.count(0), values.number(1) / io::kDegree, 1e6 * values.number(2), lengthWords(values.number(3), 1),
+          lengthWords(values.number(4), 0), values.number(5), more(values, 6));
     case audit::RemarkId::wide_not_enough:
       return "; does not suffice for identification, wide as it is: take more readings, or reflectors farther "
              "from the axis and along it";
@@ -291,7 +291,7 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
           "widened by it{}",
           joined(values, 0, ", "), more(values, 1));
     case audit::RemarkId::axis_off_circles:
-      return fmt::format("axis {} by {:.1f} um rms, {:.2f} of the noise", values.count(0), 1e6 * values.number(1),
+      return fmt::format("axis {} by {} rms, {:.2f} of the noise", values.count(0), lengthWords(values.number(1), 1),
                          values.number(2));
     case audit::RemarkId::one_reading_off:
       return fmt::format("; most of that of axis {} is the one reading {}", values.count(0), values.name(1));
@@ -308,7 +308,7 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
       return fmt::format(
           "reflectors that turn about one axis place it apart by {:.2f} of the difference's sd: the own "
           "weight bends more than the joints (bearings, links) or is not what the URDF's masses make it, or "
-          "a reflector moved (rigid_tool then shows it too)",
+          "a reflector moved (rigid tool then shows it too)",
           values.number(0));
     case audit::RemarkId::well_off_axes:
       return "every reflector stands well off the axes";
@@ -325,9 +325,9 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
                              : "");
     case audit::RemarkId::wrist_residuals:
       return fmt::format(
-          "radial residuals of {:.1f} um rms, of which the axes' missing each other leaves {:.1f} um, {:.2f} "
+          "radial residuals of {} rms, of which the axes' missing each other leaves {}, {:.2f} "
           "of the noise{}",
-          1e6 * values.number(0), 1e6 * values.number(1), values.number(2), more(values, 3));
+          lengthWords(values.number(0), 1), lengthWords(values.number(1), 1), values.number(2), more(values, 3));
     case audit::RemarkId::wrist_reading_off:
       return fmt::format(
           "; farthest {}: a wrong reading, or the own weight bends more than the joints (bearings, links)",
@@ -341,10 +341,10 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
       return "; Decoupled Partial Pose takes them to meet in one point";
     case audit::RemarkId::rail_leaves:
       return fmt::format(
-          "from {:.1f} to {:.1f} mm the carriage leaves a straight line by {:.1f} um rms across it, and what is "
-          "reported by {:.1f} um along it; at most {:.1f} um",
-          values.number(2) / io::kMillimetre, values.number(3) / io::kMillimetre, 1e6 * values.number(1),
-          1e6 * values.number(0), 1e6 * values.number(4));
+          "from {:.1f} to {:.1f} mm the carriage leaves a straight line by {} rms across it, and what is "
+          "reported by {} along it; at most {}",
+          values.number(2) / io::kMillimetre, values.number(3) / io::kMillimetre, lengthWords(values.number(1), 1),
+          lengthWords(values.number(0), 1), lengthWords(values.number(4), 1));
     case audit::RemarkId::rail_travels:
       return fmt::format("a reported metre is {:.6f} +- {:.6f} m of travel, and is taken as that", values.number(0),
                          values.number(1));
@@ -392,16 +392,16 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
       return "no reported angle changes under load";
     case audit::RemarkId::comes_back:
       return fmt::format(
-          "unloaded again, reflectors stand {:.2f} times as far from step 0 as noise alone; farthest {:.0f} "
-          "um at pose {}, step {}{}",
-          values.number(0), 1e6 * values.number(1), values.name(2), values.count(3), more(values, 4));
+          "unloaded again, reflectors stand {:.2f} times as far from step 0 as noise alone; farthest {}"
+          " at pose {}, step {}{}",
+          values.number(0), lengthWords(values.number(1), 0), values.name(2), values.count(3), more(values, 4));
     case audit::RemarkId::do_not_come_back:
       return fmt::format(
           "; {} of {} postures do not come back{}{}; friction, backlash, a slipping part, or drift that "
           "nests do not show",
           values.remarks(0).size(), values.count(1), values.remarks(0).empty() ? "" : ": ", joined(values, 0, ", "));
     case audit::RemarkId::posture_off:
-      return fmt::format("{} by {:.0f} um", values.name(0), 1e6 * values.number(1));
+      return fmt::format("{} by {}", values.name(0), lengthWords(values.number(1), 0));
     case audit::RemarkId::unloaded_reading:
       return unloadedReading(values);
     case audit::RemarkId::not_tared:

@@ -63,10 +63,10 @@ std::string comparisonWords(comparison::RemarkId id, const RemarkValues& values)
           values.count(0));
     case difference_above_noise:
       return fmt::format(
-          "changes of joint compliances leave {:.0f} µm per coordinate of the difference between the states, {:.0f} "
+          "changes of joint compliances leave {} per coordinate of the difference between the states, {:.0f} "
           "times "
           "the tracker's noise: something else changed too, and does not cancel",
-          values.number(0) / io::kMicrometre, values.number(0) / values.number(1));
+          withMicro(lengthWords(values.number(0), 0)), values.number(0) / values.number(1));
     case geometry_of_other_postures:
       return fmt::format(
           "{} postures correspond, too few to compare on these alone: what the model misses does not cancel, and "

@@ -52,12 +52,12 @@ std::string diagnosisWords(diagnosis::RemarkId id, const RemarkValues& values) {
                          1e3 * values.number(1));
     case left_by_stiffnesses:
       return fmt::format(
-          "Stiffnesses alone leave {:.1f} um rms per coordinate of the deflection, noise alone {:.1f} um (chi2 per "
+          "Stiffnesses alone leave {} rms per coordinate of the deflection, noise alone {} (chi2 per "
           "equation {:.{}f}).",
-          1e6 * values.number(0), 1e6 * values.number(1), values.number(2), values.number(2) < 100.0 ? 2 : 0);
+          lengthWords(values.number(0), 1), lengthWords(values.number(1), 1), values.number(2), values.number(2) < 100.0 ? 2 : 0);
     case no_effect_passes:
-      return fmt::format("No effect passes both limits: a fall of BIC of {:.0f}, {:.1f} um rms after the stiffnesses.",
-                         values.number(0), 1e6 * values.number(1));
+      return fmt::format("No effect passes both limits: a fall of BIC of {:.0f}, {} rms after the stiffnesses.",
+                         values.number(0), lengthWords(values.number(1), 1));
     case geometry_off_nominal:
       return fmt::format(
           "Besides, the axes found by the sweeps and the unloaded positions put the reflectors {:.2f} mm rms from "
@@ -68,12 +68,12 @@ std::string diagnosisWords(diagnosis::RemarkId id, const RemarkValues& values) {
                          values.name(0), words(values.remark(1)));
     case deflection_not_explained:
       return fmt::format(
-          "Besides, {:.1f} um rms of the deflection at the largest load are explained by no effect of the vocabulary.",
-          1e6 * values.number(0));
+          "Besides, {} rms of the deflection at the largest load are explained by no effect of the vocabulary.",
+          lengthWords(values.number(0), 1));
     case positions_not_explained:
       return fmt::format(
-          "Besides, {:.1f} um rms of the unloaded positions are explained by no effect (limit {:.1f} um).",
-          1e6 * values.number(0), 1e6 * values.number(1));
+          "Besides, {} rms of the unloaded positions are explained by no effect (limit {}).",
+          lengthWords(values.number(0), 1), lengthWords(values.number(1), 1));
     case candidates_only:
       return fmt::format(
           "Beside that, {} {} no more than {}: with {} in the model {:.0f} % of the gap's squares beyond noise stay "
@@ -86,10 +86,10 @@ std::string diagnosisWords(diagnosis::RemarkId id, const RemarkValues& values) {
              "body.";
     case moves_while_load_stands:
       return fmt::format(
-          "While a load stood the readings moved on by {:.1f} um rms (t = {:.0f}): {} does not do that, and what "
+          "While a load stood the readings moved on by {} rms (t = {:.0f}): {} does not do that, and what "
           "creeps "
           "looks like it.",
-          1e6 * values.number(1), values.number(2), values.name(0));
+          lengthWords(values.number(1), 1), values.number(2), values.name(0));
     case chi_square_significant:
       return fmt::format(
           "What is left is small and yet more than noise: chi2 per equation {:.2f}, by chance no more than {:.2f}.",

@@ -16,8 +16,8 @@ std::string addedNames(const extended_model::EffectFit& effects) {
   if (effects.added.empty()) return "nothing";
   std::vector<std::string> names;
   for (const extended_model::AddedEffect& one : effects.added) {
-    names.push_back(one.detail.empty() ? std::string(effects::idOf(one.effect))
-                                       : fmt::format("{} ({})", effects::idOf(one.effect), one.detail));
+    names.push_back(one.detail.empty() ? effectName(one.effect)
+                                       : fmt::format("{} ({})", effectName(one.effect), one.detail));
   }
   return fmt::format("{}", fmt::join(names, " and "));
 }
@@ -26,12 +26,12 @@ std::string explainedWords(const extended_model::EffectFit& effects) {
   const diagnosis::Gap& gap = effects.gap;
   const diagnosis::Shrink& shrink = effects.shrink;
   return fmt::format(
-      "Stiffnesses alone leave {:.1f} µm rms per coordinate of the deflection in all load steps, {} {:.1f} µm; noise "
+      "Stiffnesses alone leave {} rms per coordinate of the deflection in all load steps, {} {}; noise "
       "alone "
-      "{:.1f} µm. On postures held out the rms shrinks by {:.0f} % ({:.0f} to {:.0f} %), and {} % of what is above "
+      "{}. On postures held out the rms shrinks by {:.0f} % ({:.0f} to {:.0f} %), and {} % of what is above "
       "the noise "
       "is explained.",
-      gap.before / io::kMicrometre, "with the effects", gap.after / io::kMicrometre, gap.noise / io::kMicrometre,
+      withMicro(lengthWords(gap.before, 1)), "with the effects", withMicro(lengthWords(gap.after, 1)), withMicro(lengthWords(gap.noise, 1)),
       100.0 * shrink.value, 100.0 * shrink.low, 100.0 * shrink.high, percentNumber(effects.explained, 0));
 }
 

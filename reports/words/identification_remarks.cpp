@@ -80,8 +80,8 @@ std::string outlyingWords(const RemarkValues& values) {
   const bool one = names.size() == 1, left_out = values.count(3) != 0;
   std::vector<std::string> postures;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    postures.push_back(fmt::format("{} ({:.0f} µm per coordinate against {:.0f} µm of the others)", names[i],
-                                   left[i] / io::kMicrometre, others[i] / io::kMicrometre));
+    postures.push_back(fmt::format("{} ({} per coordinate against {} of the others)", names[i],
+                                   withMicro(lengthWords(left[i], 0)), withMicro(lengthWords(others[i], 0))));
   }
   return fmt::format("outlying posture{}: {}: the springs of the other postures do not explain {}; {}", one ? "" : "s",
                      fmt::join(postures, ", "), one ? "it" : "them",
@@ -186,8 +186,8 @@ std::string identificationWords(identification::RemarkId id, const RemarkValues&
     case RemarkId::no_wrist_point:
       return "no P_wrist from reflectors of known radius";
     case RemarkId::disagrees:
-      return fmt::format("disagrees with the other postures by {:.0f} µm per coordinate, {:.1f} times theirs",
-                         values.number(0) / io::kMicrometre, values.number(1));
+      return fmt::format("disagrees with the other postures by {} per coordinate, {:.1f} times theirs",
+                         withMicro(lengthWords(values.number(0), 0)), values.number(1));
     case RemarkId::in_step:
       return fmt::format("{} (step {})", words(values.remark(0)), values.count(1));
     case RemarkId::geometry_missed:
@@ -203,10 +203,10 @@ std::string identificationWords(identification::RemarkId id, const RemarkValues&
              "robot";
     case RemarkId::residual_above_noise:
       return fmt::format(
-          "the residual of {:.0f} µm per coordinate is {:.0f} times the {:.1f} µm of the tracker's noise: something "
+          "the residual of {} per coordinate is {:.0f} times the {} of the tracker's noise: something "
           "other than joint springs is in the data, and the stated uncertainties hold it only as far as it scatters "
           "between postures",
-          values.number(0) / io::kMicrometre, values.number(0) / values.number(1), values.number(1) / io::kMicrometre);
+          withMicro(lengthWords(values.number(0), 0)), values.number(0) / values.number(1), withMicro(lengthWords(values.number(1), 1)));
     case RemarkId::too_few_postures:
       return fmt::format("{} posture{} too few to state uncertainties from scatter", values.count(0),
                          values.count(0) == 1 ? " is" : "s are");
@@ -226,9 +226,9 @@ std::string identificationWords(identification::RemarkId id, const RemarkValues&
           values.number(0) / io::kMillimetre);
     case RemarkId::sweep_above_noise:
       return fmt::format(
-          "the circles of axis {} leave {:.0f} µm, {:.0f} times the tracker's noise: the axis bent during its sweep or "
+          "the circles of axis {} leave {}, {:.0f} times the tracker's noise: the axis bent during its sweep or "
           "a reading is wrong, and its uncertainty is of scatter only",
-          values.count(0), values.number(1) / io::kMicrometre, values.number(2));
+          values.count(0), withMicro(lengthWords(values.number(1), 0)), values.number(2));
     case RemarkId::shown_compensates_most:
       return fmt::format("{}, which compensates most of the deflection at {} on postures held out ({})",
                          briefOf(values.count(1)), judgedAt(values.count(0)),

@@ -105,6 +105,17 @@ std::string encoderState(campaign::DoubleEncoder state) {
   return state == campaign::DoubleEncoder::active ? "active" : "inactive";
 }
 
+std::string encoderWordsOf(const campaign::Campaign& campaign) {
+  const std::string state = encoderState(campaign.double_encoder);
+  const std::vector<int>& joints = campaign.double_encoder_joints;
+  if (joints.empty()) return state;
+  std::vector<std::string> numbers;
+  for (const int joint : joints) numbers.push_back(std::to_string(joint + 1));
+  const bool in_a_row = joints.size() > 1 && joints.back() - joints.front() + 1 == static_cast<int>(joints.size());
+  return fmt::format("{}, on joint{} {}", state, joints.size() > 1 ? "s" : "",
+                     in_a_row ? countsFromTo(joints.front() + 1, joints.back() + 1) : fmt::format("{}", fmt::join(numbers, ", ")));
+}
+
 std::string encoderWords(campaign::DoubleEncoder state) {
   return state == campaign::DoubleEncoder::unspecified ? std::string()
                                                        : fmt::format("double encoders {}", encoderState(state));

@@ -59,6 +59,24 @@ StiffnessUnit stiffnessUnit(const diagnosis::Diagnosis& diagnosis) {
   return stiffnessUnit(stiffnesses);
 }
 
+LengthUnit lengthUnit(double largest) {
+  // Neither 1000 nor 1000.0 µm.
+  if (!(std::abs(largest) >= 0.9995 * io::kMillimetre)) return {};
+  return {io::kMillimetre, "mm", "mm"};
+}
+
+std::string lengthWords(double metres, int decimals) {
+  const LengthUnit unit = lengthUnit(metres);
+  const double size = std::abs(metres) / io::kMillimetre;
+  const int places = unit.size < io::kMillimetre ? decimals : size < 100.0 ? 2 : 1;
+  return fmt::format("{:.{}f} {}", metres / unit.size, places, unit.text);
+}
+
+std::string shownLength(double metres, int digits) {
+  const LengthUnit unit = lengthUnit(metres);
+  return fmt::format("{}\u00a0{}", significant(metres / unit.size, digits), unit.name);
+}
+
 Coverage coverageOf(const identification::StiffnessEstimate& estimate, int joint) {
   if (!estimate.stated.empty())  // an interval of its own: no Student's t
     return {identification::expandedUncertainty(estimate, joint) / estimate.stiffnessSd(joint), 0.0};
@@ -178,6 +196,41 @@ std::string microUnits(const std::string& text) {
     const bool counts = before != std::string::npos && (std::isdigit(static_cast<unsigned char>(text[before])) != 0 ||
                                                         text[before] == '(' || text[before] == '?');
     changed += counts ? "µ" : "u";
+  }
+  return changed;
+}
+
+namespace {
+
+/// "+-" of a line as ±: before a number "± ", as wide; elsewhere a column narrower, which the last gap of two blanks
+/// before it takes.
+void replacePlusMinus(std::string& line) {
+  for (std::size_t at = line.find("+-"); at != std::string::npos; at = line.find("+-", at + 1)) {
+    const bool begins = at == 0 || line[at - 1] == ' ' || line[at - 1] == '(';
+    if (!begins) continue;
+    const char next = at + 2 < line.size() ? line[at + 2] : ' ';
+    if (std::isdigit(static_cast<unsigned char>(next)) != 0 || next == '?' || next == '-') {
+      line.replace(at, 2, "± ");
+      continue;
+    }
+    line.replace(at, 2, "±");
+    const std::size_t gap = line.rfind("  ", at);
+    // Blanks at the beginning are no gap between columns.
+    if (gap != std::string::npos && line.find_first_not_of(' ') < gap) line.insert(gap, 1, ' ');
+  }
+}
+
+}  // namespace
+
+std::string plusMinusSigns(const std::string& text) {
+  std::string changed;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    std::string line = text.substr(begin, end - begin);
+    replacePlusMinus(line);
+    changed += line;
+    if (end < text.size()) changed += '\n';
+    begin = end + 1;
   }
   return changed;
 }

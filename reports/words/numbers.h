@@ -35,6 +35,21 @@ StiffnessUnit stiffnessUnit(const identification::Identification& result);      
 StiffnessUnit stiffnessUnit(const identification::Transmission& transmission);  ///< of the gears that are measured
 StiffnessUnit stiffnessUnit(const diagnosis::Diagnosis& diagnosis);             ///< with the verdict's effects
 
+/// The unit in which small lengths of a size are printed, so that none has five digits before its point.
+struct LengthUnit {
+  double size = 1e-6;  ///< m
+  const char* name = "µm";
+  const char* text = "um";  ///< on a terminal
+};
+/// Of the largest of them, m: what would print as 1000 µm or more is in mm.
+LengthUnit lengthUnit(double largest);
+
+/// "9.4 um" with `decimals` places; from a millimetre on "58.05 mm". In a text; withMicro for the page.
+std::string lengthWords(double metres, int decimals);
+
+/// "9.4 µm", "58 mm": as many significant digits, a no-break space before the unit. On the page.
+std::string shownLength(double metres, int digits);
+
 /// From standard to expanded uncertainty, U = k u (GUM, annex G): Student's t for 95 % at the effective degrees of
 /// freedom of a joint's compliance. NaN where none is left.
 struct Coverage {
@@ -76,6 +91,10 @@ std::string withMicro(const std::string& text);
 /// For a terminal: "um" and "urad" behind a number or an opening bracket as µm and µrad; the rest stays as wide as it
 /// is, so that columns stay under each other.
 std::string microUnits(const std::string& text);
+
+/// For a terminal that shows UTF-8: "+-" as ±. Columns stay under each other: where ± is a letter narrower the gap before
+/// its column is a blank wider.
+std::string plusMinusSigns(const std::string& text);
 
 /// `value` for printing with `decimals` places: what rounds to zero is zero, without the sign that would
 /// print as -0.000.

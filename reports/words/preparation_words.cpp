@@ -40,8 +40,8 @@ std::string stationsWords(const std::optional<preparation::JoinedStations>& stat
   for (std::size_t s = 1; s < stations->network.stations.size(); ++s) {
     const preparation::StationPose& pose = stations->network.stations[s];
     const preparation::PoseUncertainty at_arm = preparation::poseUncertainty(pose);
-    known.push_back(fmt::format("{} ({} readings) to {:.1f} um and {:.1f} urad by {} nests",
-                                preparation::shownStation(pose), stations->readings[s], 1e6 * at_arm.position,
+    known.push_back(fmt::format("{} ({} readings) to {} and {:.1f} urad by {} nests",
+                                preparation::shownStation(pose), stations->readings[s], lengthWords(at_arm.position, 1),
                                 1e6 * at_arm.turn, pose.common_nests));
   }
   return fmt::format(

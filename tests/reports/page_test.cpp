@@ -311,6 +311,12 @@ TEST(Page, BeginsWithTheNoteAndSaysWhatIsNotStated) {
   EXPECT_FALSE(has(page, "class=\"stated\""));
   EXPECT_TRUE(has(page, "<th scope=\"row\">Measured by</th><td>not stated</td>"));
   EXPECT_TRUE(has(page, "active; on which joints is not stated"));
+  small.campaign.double_encoder_joints = {0, 1, 2};
+  page = page::reportPage(content);
+  EXPECT_FALSE(has(page, "is not stated"));
+  EXPECT_TRUE(has(page, "<td>active, on joints 1 to 3</td>"));
+  small.campaign.double_encoder_joints = {0, 3};
+  EXPECT_TRUE(has(page::reportPage(content), "<td>active, on joints 1, 4</td>"));
   small.campaign.texts.note = "simulated; <no> machine";
   small.campaign.texts.operator_name = "A. Person";
   page = page::reportPage(content);

@@ -54,6 +54,20 @@ TEST(ReadCampaign, ReadsEverySectionInSi) {
   EXPECT_NEAR(c.tool->com_in_flange.z(), 0.1, kRounding);
 }
 
+// Files from before say nothing of the joints. A joint without a second encoder is its motor's alone.
+TEST(ReadCampaign, SaysWhichJointsHaveDoubleEncoders) {
+  const SmallCampaign files;
+  const campaign::Campaign before = campaign::readCampaign(files.folder()).campaign;
+  EXPECT_TRUE(before.double_encoder_joints.empty());
+  EXPECT_EQ(before.doubleEncoderOf(5), campaign::DoubleEncoder::active);
+  files.alter("campaign.xml", "double_encoder=\"active\"", "double_encoder=\"active\" double_encoder_joints=\" 3 1\t2\"");
+  const campaign::CampaignReading reading = campaign::readCampaign(files.folder());
+  EXPECT_TRUE(reading.warnings.empty()) << shown(reading.warnings);
+  EXPECT_EQ(reading.campaign.double_encoder_joints, (std::vector<int>{0, 1, 2}));
+  EXPECT_EQ(reading.campaign.doubleEncoderOf(2), campaign::DoubleEncoder::active);
+  EXPECT_EQ(reading.campaign.doubleEncoderOf(3), campaign::DoubleEncoder::inactive);
+}
+
 // A day of unloaded postures has less: no forces, no times, no repeats, no encoders' state.
 TEST(ReadCampaign, AnUnloadedDayLacksForcesTimesAndRepeats) {
   const SmallCampaign files;

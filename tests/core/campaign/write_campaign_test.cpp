@@ -98,6 +98,7 @@ void expectSame(const campaign::Campaign& a, const campaign::Campaign& b) {
   EXPECT_EQ(a.texts.laboratory, b.texts.laboratory);
   EXPECT_EQ(a.texts.operator_name, b.texts.operator_name);
   EXPECT_EQ(a.double_encoder, b.double_encoder);
+  EXPECT_EQ(a.double_encoder_joints, b.double_encoder_joints);
   EXPECT_EQ(a.gravity_in_base, b.gravity_in_base);
   ASSERT_EQ(a.tracker.has_value(), b.tracker.has_value());
   if (a.tracker) {

@@ -59,6 +59,17 @@ class SimulationSpecFile : public testing::Test {
   }
 };
 
+// A gear is what lies between the motor and a second encoder.
+TEST_F(SimulationSpecFile, aJointWithAGearHasADoubleEncoder) {
+  const std::string text = bytesOf(kSamples / "inactive.xml");
+  const std::size_t at = text.find("<joint index=\"4\"");
+  const std::string joint = text.substr(at, text.find("/>", at) + 2 - at);
+  const std::string with_gear = joint.substr(0, joint.size() - 2) + "><gear stiffness_nm_per_rad=\"1e6\"/></joint>";
+  EXPECT_EQ(complaint(joint, with_gear), "double_encoder_joints: '1 2 3': expected joint 4 among them: it has a gear");
+  EXPECT_EQ(complaint("double_encoder_joints=\"1 2 3\"", "double_encoder_joints=\"1 2 7\""),
+            "double_encoder_joints: '7': expected a joint's number, 1 to 6");
+}
+
 TEST_F(SimulationSpecFile, aJointLeftOutIsRigidAndNamed) {
   EXPECT_TRUE(simulation::rigidJoints(simulation::readSimulationSpec(kSamples / "inactive.xml")).empty());
   const std::string text = bytesOf(kSamples / "inactive.xml");
@@ -74,6 +85,7 @@ TEST(SimulationSpec, samplesAreOneMachineInTwoStates) {
   const simulation::SimulationSpec active = simulation::readSimulationSpec(kSamples / "active.xml");
   EXPECT_EQ(inactive.double_encoder, campaign::DoubleEncoder::inactive);
   EXPECT_EQ(active.double_encoder, campaign::DoubleEncoder::active);
+  EXPECT_EQ(active.double_encoder_joints, (std::vector<int>{0, 1, 2}));  // the paper's "3 first axis"
   EXPECT_EQ(inactive.seed, active.seed);
   EXPECT_NE(inactive.measurement, active.measurement);
   // Table II of the paper, rows DPP.
