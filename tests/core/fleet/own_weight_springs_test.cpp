@@ -21,7 +21,7 @@ std::function<JointVector(const JointVector&)> sagging(const ChainArm& built, co
                                                        double uneven) {
   return [=](const JointVector& q) {
     JointVector errors = JointVector::Zero(6);
-    errors[1] = uneven * std::cos(q[1]);
+    errors[1] = uneven * std::sin(q[1]);
     const JointVector gear = errors;
     for (int turn = 0; turn < 6; ++turn) errors = gear + compliance.cwiseProduct(built.weightTorque(q + errors));
     return errors;
