@@ -141,5 +141,5 @@ sleep 3
 scontrol update nodename="$(hostname -s)" state=resume 2>/dev/null || true
 idle
 took "fleet in four shards, with a failed node"
-same one many "fleet.csv fleet.jsonl changes.csv steps.csv needs.csv fleet.html"
+same one many "fleet.csv fleet.jsonl changes.csv steps.csv detectable.csv needs.csv fleet.html"
 echo "passed"

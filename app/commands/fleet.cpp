@@ -41,10 +41,10 @@ struct FleetFile {
   const char* name;
   std::string (*bytes)(const fleet::Fleet& fleet);
 };
-constexpr std::array kTables{FleetFile{"fleet.csv", &reports::fleetCsv},
-                             FleetFile{"fleet.jsonl", &reports::fleetJsonLines},
-                             FleetFile{"changes.csv", &reports::changesCsv}, FleetFile{"steps.csv", &reports::stepsCsv},
-                             FleetFile{"needs.csv", &reports::needsCsv}};
+constexpr std::array kTables{
+    FleetFile{"fleet.csv", &reports::fleetCsv},           FleetFile{"fleet.jsonl", &reports::fleetJsonLines},
+    FleetFile{"changes.csv", &reports::changesCsv},       FleetFile{"steps.csv", &reports::stepsCsv},
+    FleetFile{"detectable.csv", &reports::detectableCsv}, FleetFile{"needs.csv", &reports::needsCsv}};
 constexpr const char* kPage = "fleet.html";
 
 /// The machines that need something, a line each.
@@ -127,7 +127,7 @@ void addFleet(CLI::App& app, Run& run) {
       "fails costs its own row. What is done is kept in the folder and not done again. A campaign is of the machine "
       "that\n"
       "its robot_serial names, else its item, else the folder above it. Writes fleet.html, fleet.csv, fleet.jsonl,\n"
-      "changes.csv, steps.csv and needs.csv (docs/fleet.md).");
+      "changes.csv, steps.csv, detectable.csv and needs.csv (docs/fleet.md).");
   command->add_option("DIR", arguments->request.folders, "folders with campaigns in or below them")->required();
   command->add_option("--out", arguments->out, "folder for the page, the tables, and what is done")->required();
   constexpr int kMostJobs = 1024;

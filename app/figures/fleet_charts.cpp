@@ -71,7 +71,8 @@ reports::Figure controlFigure(const fleet::Fleet& fleet, const fleet::SeriesChar
   const std::string encoders = reports::encoderWords(series.encoders);
   render::PointChart chart;
   chart.title = reports::asIs(series.machine) + (encoders.empty() ? "" : ", " + encoders);
-  chart.subtitle = reports::longName(charts.method) + ", joint springs alone" +
+  chart.subtitle = (charts.method ? reports::longName(*charts.method) + ", joint springs alone"
+                                  : std::string("Calibration, by the arm's own weight")) +
                    (charts.same_postures ? "" : "; postures are not the same on all dates");
   chart.columns = 3;
   for (std::size_t joint = 0; joint < charts.joints.size(); ++joint) {

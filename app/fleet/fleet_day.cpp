@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "app/model.h"
 #include "app/output.h"
@@ -9,6 +10,7 @@
 #include "core/audit/audit.h"
 #include "core/campaign/state_points.h"
 #include "core/comparison/geometry_change.h"
+#include "core/fleet/own_weight_springs.h"
 #include "core/identification/load_case.h"
 #include "core/preparation/prepare.h"
 #include "reports/words/geometry_change_words.h"
@@ -106,11 +108,33 @@ Stated heldOutError(const calibration::Calibration& calibration, calibration::Ca
   return {std::sqrt(mean), std::sqrt(std::max(0.0, mean - u)), std::sqrt(mean + u)};
 }
 
+/// Compliances by own weight, and of those that it can tell the stiffnesses.
+void keepOwnWeight(const calibration::Calibration& calibration, CampaignResult& result) {
+  result.own_weight = fleet::ownWeightSprings(calibration);
+  for (const calibration::Posture& posture : calibration.day.postures) {
+    result.loaded_postures.push_back(
+        {calibration.day.pose_ids[static_cast<std::size_t>(posture.pose)], posture.q, Eigen::Vector3d::Zero()});
+  }
+  const fleet::SpringsOfDay& springs = result.own_weight;
+  for (std::size_t j = 0; j < result.stiffness.size(); ++j) {
+    const auto joint = static_cast<Eigen::Index>(j);
+    if (!springs.identifiable[j]) continue;
+    double variance = springs.shared[joint];
+    for (const JointVector& one : springs.influences) variance += one[joint] * one[joint];
+    const double c = springs.compliance[joint];
+    const double u =
+        std::sqrt(variance) * identification::studentFactor(springs.dof[joint], identification::kStatedCoverage);
+    constexpr double kOpen = std::numeric_limits<double>::infinity();
+    result.stiffness[j] = {1.0 / c, 1.0 / (c + u), u < c ? 1.0 / (c - u) : kOpen};
+  }
+}
+
 void keepAccuracy(const preparation::PreparedCampaign& prepared, CampaignResult& result) {
   const accuracy::AccuracyDiagnosis diagnosis = accuracy::diagnoseAccuracy(prepared);
   result.kind = fleet::DayKind::unloaded;
   result.postures = diagnosis.postures;
   if (!diagnosis.calibration.reason.empty()) return;
+  keepOwnWeight(diagnosis.calibration, result);
   result.nominal = heldOutError(diagnosis.calibration, calibration::CalibratedModel::nominal);
   result.calibrated = heldOutError(diagnosis.calibration, diagnosis.calibration.best().model);
   if (!diagnosis.usable) return;

@@ -287,6 +287,7 @@ fleet::Fleet fleetFrom(const FleetRequest& request, const std::vector<FoundCampa
     else
       pair.failure = json ? json->at("failure").get<std::string>() : readMessage(fileOf(pair)).value_or("");
   }
+  fleet::compareUnloaded(campaigns, pairs);
   return fleet::studyFleet(std::move(campaigns), std::move(pairs));
 }
 

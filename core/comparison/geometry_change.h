@@ -64,10 +64,11 @@ struct GeometryChange {
 
 /// Fits both days, each by the geometry with its base and reflectors, and tests the difference of what a machine keeps
 /// (GeometryNumbers): d = n_after - n_before, covariance C from both fits; chi2 = d^T C^-1 d against F. Where half of
-/// the postures or more are in both days, these alone are fitted, without effects, and C is by what the
-/// difference of the two residuals leaves, in which what the model misses cancels; else effects of either day that are
-/// the machine's are fitted in both, with the same sizes unless these differ. Effects of time (drift, jumps, growth)
-/// are each day's own. Causes: d = G s, s by generalised least squares, each alone.
+/// the postures or more are in both days, these alone are fitted, with the joints' compliances by own weight where the
+/// URDF has masses, and C is by what the difference of the two residuals leaves, in which what the model misses
+/// cancels; else effects of either day that are the machine's are fitted in both. Either way they have the same sizes
+/// in both days unless these differ: a joint that has become softer is no change of the geometry. Effects of time
+/// (drift, jumps, growth) are each day's own. Causes: d = G s, s by generalised least squares, each alone.
 GeometryChange compareGeometry(const campaign::Campaign& before, const campaign::Campaign& after);
 
 }  // namespace stiffscope::comparison

@@ -113,7 +113,13 @@ std::vector<EffectPart> PairedDays::partsOf(std::size_t k) const {
   for (const EffectPart& part : days_[k].best().fit.parts) {
     if (!ofMachine(part)) parts.push_back(part);
   }
-  if (same_postures) return parts;
+  if (same_postures) {
+    // Not chosen: what joints give by own weight is the one effect that a change of the machine shows beside geometry.
+    if (day(0).masses_known && day(1).masses_known) {
+      for (EffectPart& part : calibration::jointCompliances(day(k))) parts.push_back(std::move(part));
+    }
+    return parts;
+  }
   for (std::size_t other = 0; other < 2; ++other) {
     for (const EffectPart& part : days_[other].best().fit.parts) {
       if (ofMachine(part) &&

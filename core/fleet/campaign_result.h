@@ -24,16 +24,16 @@ struct Stated {
   double value = kUnknown, low = kUnknown, high = kUnknown;
 };
 
-/// A posture under the load that identified: what says whether another day has it too.
+/// A posture under the load that identified, or without any: what says whether another day has it too.
 struct LoadedPosture {
   std::string pose;
   JointVector q;                                    ///< rad
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< R0, N
 };
 
-/// Compliances of one day by one method and joint springs alone, with what makes differences of days: the influences of
-/// its postures, in which what the model misses is the same on every day (comparison::PairedFit), and the variances
-/// that its postures share and other days do not.
+/// Compliances of one day by one method and joint springs alone, or by the arm's own weight, with what makes
+/// differences of days: the influences of its postures, in which what the model misses is the same on every day
+/// (comparison::PairedFit), and the variances that its postures share and other days do not.
 struct SpringsOfDay {
   explicit SpringsOfDay(int joints)
       : compliance(JointVector::Zero(joints)),
@@ -59,7 +59,8 @@ struct EffectFound {
 struct CampaignResult {
   explicit CampaignResult(int joints)
       : stiffness(static_cast<std::size_t>(joints)),
-        springs{SpringsOfDay(joints), SpringsOfDay(joints), SpringsOfDay(joints)} {}
+        springs{SpringsOfDay(joints), SpringsOfDay(joints), SpringsOfDay(joints)},
+        own_weight(joints) {}
 
   int joints() const { return static_cast<int>(stiffness.size()); }
 
@@ -72,15 +73,17 @@ struct CampaignResult {
   int postures = 0;
 
   // Of a day with loads.
-  std::optional<identification::Method> method;          ///< shown first
-  PerJoint<Stated> stiffness;                            ///< of the day's model, Nm/rad; high infinite where it is open
+  std::optional<identification::Method> method;  ///< shown first
+  /// Of the day's model, of a day without loads by own weight, Nm/rad; high infinite where it is open.
+  PerJoint<Stated> stiffness;
   double deflection = kUnknown;                          ///< mean at the reflectors, m
   Stated compensated;                                    ///< share of it on postures held out
   std::array<SpringsOfDay, 3> springs;                   ///< by Method
   std::optional<identification::Method> springs_method;  ///< shown first of these
-  std::vector<LoadedPosture> loaded_postures;
+  std::vector<LoadedPosture> loaded_postures;            ///< of the influences, in their order, of either kind of day
 
-  // Of a day without: rms per coordinate, m.
+  // Of a day without. Accuracies: rms per coordinate, m.
+  SpringsOfDay own_weight;     ///< see ownWeightSprings
   Stated nominal, calibrated;  ///< the URDF's arm with base and reflectors fitted; the calibrated one, held out
 
   // What the model misses: rms per coordinate, m.
@@ -103,13 +106,13 @@ struct PairResult {
   bool same_postures = false;
   int postures = 0;  ///< of both
 
-  // Of days with loads: c_after - c_before by joint, rad/Nm (comparison::StiffnessChange).
+  // c_after - c_before by joint, rad/Nm (comparison::StiffnessChange); without a method by own weight.
   std::optional<identification::Method> method;
   PerJoint<Stated> difference;  ///< not a number where the joint cannot be compared
   PerJoint<Stated> taken;       ///< share of the compliance before that is gone
   PerJoint<double> p_value;
 
-  // Of days without (comparison::GeometryChange).
+  // Of days without loads, beside the compliances (comparison::GeometryChange).
   double machine_p = kUnknown;   ///< of an unchanged machine
   double at_targets = kUnknown;  ///< rms of the 3-D position by the change, m
   double at_targets_sd = kUnknown;

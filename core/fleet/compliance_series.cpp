@@ -37,7 +37,8 @@ Stated Step::share() const {
   return {value, value - u, value + u};
 }
 
-ComplianceSeries::ComplianceSeries(const std::vector<const CampaignResult*>& days, identification::Method method)
+ComplianceSeries::ComplianceSeries(const std::vector<const CampaignResult*>& days,
+                                   std::optional<identification::Method> method)
     : days_(days), method_(method) {
   std::map<std::string, std::vector<std::pair<const LoadedPosture*, std::size_t>>> known;
   for (const CampaignResult* day : days_) {
@@ -61,7 +62,7 @@ ComplianceSeries::ComplianceSeries(const std::vector<const CampaignResult*>& day
 }
 
 const SpringsOfDay& ComplianceSeries::springs(std::size_t day) const {
-  return days_[day]->springs[static_cast<std::size_t>(method_)];
+  return method_ ? days_[day]->springs[static_cast<std::size_t>(*method_)] : days_[day]->own_weight;
 }
 
 double ComplianceSeries::pOfNothing(const comparison::Uncertain& number) {
@@ -177,6 +178,17 @@ std::vector<Step> ComplianceSeries::steps(int joint, double level) const {
   std::vector<Step> found;
   if (has(joint)) findSteps(joint, 0, days(), level, found);
   return found;
+}
+
+double ComplianceSeries::detectableStep(int joint, std::size_t first, double level) const {
+  if (!has(joint) || first == 0 || first >= days()) return kUnknown;
+  const comparison::Uncertain step = contrast(joint, stepWeights(days(), 0, first, days()), {0, first});
+  if (!(step.sd > 0.0) || !(step.dof > 0.0)) return kUnknown;
+  constexpr double kNineInTen = 1.2815515655;  // standard deviations
+  const double limit = numerics::studentLimit(level / static_cast<double>(days() - 1), step.dof) + kNineInTen;
+  double mean = 0.0;
+  for (std::size_t t = 0; t < days(); ++t) mean += springs(t).compliance[joint] / static_cast<double>(days());
+  return mean > 0.0 ? limit * step.sd / mean : kUnknown;
 }
 
 ControlChart ComplianceSeries::chart(int joint, const std::vector<Step>& steps) const {

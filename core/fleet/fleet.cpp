@@ -96,33 +96,45 @@ Stated statedOf(const comparison::Uncertain& number) {
   return {number.value, number.value - u, number.value + u};
 }
 
-PairResult comparedLoaded(const CampaignResult& before, const CampaignResult& after) {
-  PairResult result(after.joints());
-  result.method = commonMethod({&before, &after});
-  if (!result.method) return result;
-  const ComplianceSeries both({&before, &after}, *result.method);
-  result.same_postures = both.samePostures();
-  result.postures = static_cast<int>(both.posturesOfAll());
+/// Fills difference, share taken and p-value of each joint that both days see.
+void compareCompliances(const CampaignResult& before, const CampaignResult& after, const ComplianceSeries& both,
+                        PairResult& result) {
   for (int joint = 0; joint < after.joints(); ++joint) {
     if (!both.has(joint)) continue;
     const std::size_t j = static_cast<std::size_t>(joint);
     const comparison::Uncertain difference = both.contrast(joint, Eigen::Vector2d(-1.0, 1.0), {0, 1});
     result.difference[j] = statedOf(difference);
     result.p_value[j] = both.pOfNothing(difference);
-    const std::size_t m = static_cast<std::size_t>(*result.method);
-    const double c_before = before.springs[m].compliance[joint], c_after = after.springs[m].compliance[joint];
+    const auto complianceOn = [&](const CampaignResult& day) {
+      return (result.method ? day.springs[static_cast<std::size_t>(*result.method)] : day.own_weight).compliance[joint];
+    };
+    const double c_before = complianceOn(before), c_after = complianceOn(after);
     comparison::Uncertain taken =
         both.contrast(joint, Eigen::Vector2d(c_after / (c_before * c_before), -1.0 / c_before), {0, 1});
     taken.value = 1.0 - c_after / c_before;
     if (c_before > 0.0) result.taken[j] = statedOf(taken);
   }
+}
+
+PairResult comparedLoaded(const CampaignResult& before, const CampaignResult& after) {
+  PairResult result(after.joints());
+  result.method = commonMethod({&before, &after});
+  if (!result.method) return result;
+  const ComplianceSeries both({&before, &after}, result.method);
+  result.same_postures = both.samePostures();
+  result.postures = static_cast<int>(both.posturesOfAll());
+  compareCompliances(before, after, both, result);
   return result;
+}
+
+bool showsOwnWeight(const std::vector<const CampaignResult*>& days) {
+  return std::all_of(days.begin(), days.end(), [](const CampaignResult* day) { return day->own_weight.available; });
 }
 
 /// A series whose compliances can be held against each other.
 struct Charted {
   std::size_t series = 0;
-  Method method = Method::partial_pose;
+  std::optional<Method> method;  ///< none: by own weight
   ComplianceSeries compliances;
   int joints = 0;
 };
@@ -130,11 +142,12 @@ struct Charted {
 std::vector<Charted> chartedSeries(const Fleet& fleet) {
   std::vector<Charted> charted;
   for (std::size_t s = 0; s < fleet.series.size(); ++s) {
-    if (fleet.series[s].kind != DayKind::loaded) continue;
     std::vector<const CampaignResult*> days;
     for (const std::size_t one : fleet.series[s].campaigns) days.push_back(&*fleet.campaigns[one].result);
-    if (const auto method = commonMethod(days))
-      charted.push_back({s, *method, ComplianceSeries(days, *method), fleet.series[s].joints});
+    const bool loaded = fleet.series[s].kind == DayKind::loaded;
+    const auto method = loaded ? commonMethod(days) : std::nullopt;
+    if (loaded ? method.has_value() : showsOwnWeight(days))
+      charted.push_back({s, method, ComplianceSeries(days, method), fleet.series[s].joints});
   }
   return charted;
 }
@@ -227,6 +240,11 @@ void studySeries(Fleet& fleet) {
     for (int joint = 0; joint < one.joints; ++joint) {
       charts.joints.push_back(one.compliances.chart(
           joint, found == steps.end() ? std::vector<Step>{} : found->second[static_cast<std::size_t>(joint)]));
+      // What the first of Holm's questions is held to.
+      const double level = kFleetLevel / static_cast<double>(std::max<std::size_t>(1, questions.size()));
+      const std::size_t days = one.compliances.days();
+      charts.detectable.push_back({one.compliances.detectableStep(joint, days / 2, level),
+                                   one.compliances.detectableStep(joint, days - 1, level)});
     }
     fleet.charts.push_back(charts);
   }
@@ -313,6 +331,7 @@ Need needOf(const Fleet& fleet, const FleetStep& step) {
 
 std::vector<int> impreciseJoints(const CampaignResult& day) {
   std::vector<int> joints;
+  if (day.kind != DayKind::loaded) return joints;  // own weight shows what it shows
   for (int j = 0; j < day.joints(); ++j) {
     const Stated& k = day.stiffness[static_cast<std::size_t>(j)];
     if (!std::isfinite(k.value)) continue;
@@ -385,6 +404,14 @@ void compareLoaded(const std::vector<FleetCampaign>& campaigns, std::vector<Flee
   for (FleetPair& pair : pairs) {
     const CampaignResult &before = *campaigns[pair.before].result, &after = *campaigns[pair.after].result;
     if (before.kind == DayKind::loaded) pair.result = comparedLoaded(before, after);
+  }
+}
+
+void compareUnloaded(const std::vector<FleetCampaign>& campaigns, std::vector<FleetPair>& pairs) {
+  for (FleetPair& pair : pairs) {
+    const CampaignResult &before = *campaigns[pair.before].result, &after = *campaigns[pair.after].result;
+    if (before.kind != DayKind::unloaded || !pair.result || !showsOwnWeight({&before, &after})) continue;
+    compareCompliances(before, after, ComplianceSeries({&before, &after}, std::nullopt), *pair.result);
   }
 }
 

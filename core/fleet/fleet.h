@@ -42,8 +42,8 @@ struct ControlChart {
 /// Chance that a day of an unchanged machine is outside the limits of one joint's chart: three standard deviations.
 inline constexpr double kOutside = 0.0027;
 
-/// The compliances of one machine over its days, by one method and joint springs alone. A day's compliance errs by
-/// sum_p g_p over its postures and by what they share. With weights w_t that sum to zero
+/// The compliances of one machine over its days, by one method and joint springs alone, or by own weight. A day's
+/// compliance errs by sum_p g_p over its postures and by what they share. With weights w_t that sum to zero
 ///
 ///   d = sum_t w_t c_t,   u^2(d) = sum_p (sum_t w_t g_t,p)^2 + sum_t w_t^2 v_t,
 ///
@@ -58,8 +58,8 @@ inline constexpr double kOutside = 0.0027;
 /// error of several days in a row (a load cell recalibrated) is a change like any other.
 class ComplianceSeries {
  public:
-  /// Days in the order of time; `method` is available in all of them.
-  ComplianceSeries(const std::vector<const CampaignResult*>& days, identification::Method method);
+  /// Days in the order of time; `method`, or without one the own weight, is available in all of them.
+  ComplianceSeries(const std::vector<const CampaignResult*>& days, std::optional<identification::Method> method);
 
   std::size_t days() const { return days_.size(); }
   /// Whether all days have all postures: pose id, angles and force, as comparison::matchPostures asks.
@@ -83,6 +83,11 @@ class ComplianceSeries {
   /// and after it.
   std::vector<Step> steps(int joint, double level) const;
 
+  /// Share of the mean compliance that a step from day `first` on has to have so that nine times in ten its p-value,
+  /// times the dates at which it could be, is at most `level`: (t + 1.28) u of the contrast. Not a number where the
+  /// joint is not seen on every day, or no uncertainty can be stated.
+  double detectableStep(int joint, std::size_t first, double level) const;
+
   /// Two-sided p-value of a number that is zero; 1 where it has no uncertainty.
   static double pOfNothing(const comparison::Uncertain& number);
 
@@ -97,7 +102,7 @@ class ComplianceSeries {
   void findSteps(int joint, std::size_t begin, std::size_t end, double level, std::vector<Step>& found) const;
 
   std::vector<const CampaignResult*> days_;
-  identification::Method method_;
+  std::optional<identification::Method> method_;
   std::vector<std::vector<std::size_t>> places_;  ///< by day and posture: equal where postures correspond
   std::size_t place_count_ = 0;
   bool same_postures_ = true;
@@ -153,12 +158,19 @@ struct FleetStep {
   double p_holm = kUnknown;          ///< of compliances and geometry
 };
 
+/// Smallest share of a joint's compliance by which it has to change to be found nine times in ten, among all questions
+/// of the fleet: in the middle of the dates, and on the last one alone. Not numbers of joints that the days do not see.
+struct Detectable {
+  double middle = kUnknown, last = kUnknown;
+};
+
 /// The control charts of a series, by joint; those without points are of joints that its days do not see.
 struct SeriesCharts {
   std::size_t series = 0;
-  identification::Method method = identification::Method::partial_pose;
+  std::optional<identification::Method> method;  ///< none: by own weight
   bool same_postures = false;
   PerJoint<ControlChart> joints;
+  PerJoint<Detectable> detectable;
 };
 
 /// What a machine needs, the most urgent first in the order of this list.
@@ -192,10 +204,11 @@ struct Fleet {
   std::vector<DaySeries> series;
   std::vector<FleetPair> pairs;
   std::vector<SeriesCharts> charts;
-  std::vector<FleetStep> steps;     ///< by machine, date
-  std::vector<Machine> machines;    ///< those that need most first
-  std::size_t pair_questions = 0;   ///< that Holm's correction of the pairs is for
-  std::size_t chart_questions = 0;  ///< of the charts: a joint of a series each, and a pair of days without a load each
+  std::vector<FleetStep> steps;    ///< by machine, date
+  std::vector<Machine> machines;   ///< those that need most first
+  std::size_t pair_questions = 0;  ///< that Holm's correction of the pairs is for
+  /// Of the charts: a joint of a series each; and the geometry of each pair of days without a load.
+  std::size_t chart_questions = 0;
 };
 
 /// The order of machine, date (as texts: 2026-11-24) and folder, which is that of everything that follows.
@@ -212,13 +225,17 @@ std::vector<FleetPair> pairsOf(const std::vector<DaySeries>& series);
 /// comparison::PairedFit has them, of all postures of both.
 void compareLoaded(const std::vector<FleetCampaign>& campaigns, std::vector<FleetPair>& pairs);
 
+/// The same by own weight, into the results that the pairs of days without a load have of their geometry.
+void compareUnloaded(const std::vector<FleetCampaign>& campaigns, std::vector<FleetPair>& pairs);
+
 /// What follows from the results of all campaigns (sorted) and pairs.
 ///
-/// A compliance has changed where the likeliest step of its series (ComplianceSeries) has a p-value, corrected for the
-/// dates at which it could have been and by Holm for the joints of all series of the fleet and its pairs of days
-/// without a load, of kFleetLevel at most. A geometry has changed where the pair's has. An effect has appeared where
-/// the diagnosis of no day before, two or more, and of every day from then on, two or more, names it, gone the other
-/// way round; a diagnosis names an effect that is not there on one day in a hundred or fewer.
+/// A compliance, of days without a load that by own weight, has changed where the likeliest step of its series
+/// (ComplianceSeries) has a p-value, corrected for the dates at which it could have been and by Holm for the joints of
+/// all series of the fleet and its pairs of days without a load, of kFleetLevel at most. A geometry has changed where
+/// the pair's has. An effect has appeared where the diagnosis of no day before, two or more, and of every day from then
+/// on, two or more, names it, gone the other way round; a diagnosis names an effect that is not there on one day in a
+/// hundred or fewer.
 Fleet studyFleet(std::vector<FleetCampaign> campaigns, std::vector<FleetPair> pairs);
 
 }  // namespace stiffscope::fleet

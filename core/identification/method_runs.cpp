@@ -204,6 +204,8 @@ void runPartialPose(MethodRuns& runs, Identification& result) {
   if (!out.reason.empty()) return;
   PointEquations equations = solve(Method::partial_pose, arm, runs, result);
   std::vector<NormalEquations> normal = normalByPosture(equations.reflectors);
+  // A long day's cases are a tenth of its memory, and what follows takes the most of all.
+  if (runs.campaign.loading && !runs.swept.cases.empty()) std::vector<LoadCase>().swap(own.cases);
   evaluateMethod(arm.geometry, std::move(equations), std::move(normal), false, runs.options, out);
   if (!runs.campaign.loading)
     solveLoadedArm(arm, false, [](const LoadedArm&) { return JointVector(); });  // unloaded again

@@ -80,8 +80,8 @@ std::string changesCsv(const fleet::Fleet& fleet) {
       row.push_back(pair.result ? DataCell(pair.result->machine_p) : DataCell());
       row.insert(row.end(), {pair.machine_p_holm, failure});
       table.rows.push_back(std::move(row));
-      continue;
     }
+    if (!pair.result) continue;
     for (std::size_t j = 0; j < pair.result->difference.size(); ++j) {
       if (!std::isfinite(pair.result->difference[j].value)) continue;
       DataRow row = head;
@@ -90,6 +90,23 @@ std::string changesCsv(const fleet::Fleet& fleet) {
       addStated(row, pair.result->taken[j]);
       row.insert(row.end(), {std::monostate(), pair.result->p_value[j], pair.p_holm[j], std::monostate()});
       table.rows.push_back(std::move(row));
+    }
+  }
+  return csvTable(table);
+}
+
+std::string detectableCsv(const fleet::Fleet& fleet) {
+  DataTable table{{"machine", "kind", "double_encoders", "joint", "dates", "same_postures", "compliance_rad_per_nm",
+                   "in_the_middle", "on_the_last_date"},
+                  {}};
+  for (const fleet::SeriesCharts& charts : fleet.charts) {
+    const fleet::DaySeries& series = fleet.series[charts.series];
+    for (std::size_t j = 0; j < charts.joints.size(); ++j) {
+      const fleet::Detectable& one = charts.detectable[j];
+      table.rows.push_back({series.machine, std::string(keyOf(series.kind)), std::string(nameOf(series.encoders)),
+                            static_cast<double>(j + 1), static_cast<double>(series.campaigns.size()),
+                            std::string(charts.same_postures ? "yes" : "no"), charts.joints[j].centre, one.middle,
+                            one.last});
     }
   }
   return csvTable(table);

@@ -146,6 +146,7 @@ Json keptJson(const CampaignResult& result) {
   json["springs_method"] = methodJson(result.springs_method);
   json["springs"] = Json::array();
   for (const SpringsOfDay& one : result.springs) json["springs"].push_back(springsJson(one));
+  json["own_weight"] = springsJson(result.own_weight);
   json["loaded_postures"] = Json::array();
   for (const fleet::LoadedPosture& one : result.loaded_postures)
     json["loaded_postures"].push_back({{"pose", one.pose}, {"q_rad", array(one.q)}, {"force_n", array(one.force)}});
@@ -174,6 +175,7 @@ CampaignResult keptCampaign(const Json& json) {
     result.effects.push_back({one.at("effects").get<std::vector<std::string>>(), one.at("detail")});
   result.springs_method = methodOf(json.at("springs_method"));
   for (std::size_t m = 0; m < 3; ++m) result.springs[m] = springsOf(json.at("springs").at(m), joints);
+  result.own_weight = springsOf(json.at("own_weight"), joints);
   for (const Json& one : json.at("loaded_postures")) {
     const Json& force = one.at("force_n");
     result.loaded_postures.push_back({one.at("pose"),

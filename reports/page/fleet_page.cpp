@@ -136,6 +136,41 @@ void writeSteps(Html& html, const Fleet& fleet) {
   writeTable(html, table);
 }
 
+std::string detectableCell(const fleet::Detectable& one) {
+  if (!std::isfinite(one.middle) && !std::isfinite(one.last)) return "–";
+  return fmt::format("{} ({})", reports::percent(one.middle), reports::percent(one.last));
+}
+
+/// What a change has to be to be found: what is not said to have changed may have changed by less.
+void writeDetectable(Html& html, const Fleet& fleet) {
+  const auto section = html.element("section", {{"id", "detectable"}});
+  html.leaf("h2", "What a change has to be to be found");
+  html.paragraph(
+      "A joint's compliance has to change by so much from the middle of the dates on (in brackets: on the last date "
+      "alone) to be found nine times in ten, among all questions of the fleet, by the uncertainties of these days. –: "
+      "these days do not see the joint. Days without a load see joints that the arm's own weight turns by more in some "
+      "postures than in others, and another tool or weight on the arm as if joints had changed.");
+  reports::Table table{"", {"", "dates", "days"}, {{"", {}}}};
+  const int joints = reports::mostJointsOf(fleet);
+  for (int joint = 0; joint < joints; ++joint) table.columns.push_back(reports::jointName(joint));
+  for (const fleet::Machine& machine : fleet.machines) {
+    for (const fleet::SeriesCharts& charts : fleet.charts) {
+      const fleet::DaySeries& series = fleet.series[charts.series];
+      if (series.machine != machine.name || series.campaigns.size() < 2) continue;
+      if (table.groups[0].rows.size() == kMostMachinesShown) break;
+      reports::Row row{asIs(series.machine), std::to_string(series.campaigns.size()),
+                       std::string(series.kind == fleet::DayKind::unloaded ? "without a load" : "with loads") +
+                           (charts.same_postures ? "" : ", other postures")};
+      for (const fleet::Detectable& one : charts.detectable) row.push_back(detectableCell(one));
+      row.resize(table.columns.size(), "–");
+      table.groups[0].rows.push_back(std::move(row));
+    }
+  }
+  if (table.groups[0].rows.empty())
+    return html.paragraph("No machine has two dates that can be held against each other.");
+  writeTable(html, table);
+}
+
 void writeCharts(Html& html, const Fleet& fleet, const std::vector<reports::Figure>& figures) {
   if (figures.empty()) return;
   const auto section = html.element("section", {{"id", "charts"}});
@@ -246,6 +281,7 @@ std::string fleetPage(const Fleet& fleet, const std::vector<reports::Figure>& fi
     writeFleetOpening(html, fleet);
     writeNeeds(html, fleet);
     writeSteps(html, fleet);
+    writeDetectable(html, fleet);
     writeCharts(html, fleet, figures);
     writeDays(html, fleet);
   }

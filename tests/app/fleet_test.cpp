@@ -12,8 +12,8 @@ namespace fleet_command_test {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> kResults{"fleet.csv", "fleet.jsonl", "changes.csv",
-                                        "steps.csv", "needs.csv",   "fleet.html"};
+const std::vector<std::string> kResults{"fleet.csv",      "fleet.jsonl", "changes.csv", "steps.csv",
+                                        "detectable.csv", "needs.csv",   "fleet.html"};
 
 /// A small day of the sample's machine.
 void simulateDay(const fs::path& scratch, const fs::path& folder, int machine, int measurement) {
@@ -112,6 +112,41 @@ TEST_F(FleetCommand, ACrashCostsItsRow) {
   ASSERT_EQ(runProgram(merge.substr(0, merge.find(" --merge")), scratch.path()).status, 0);
   EXPECT_FALSE(fs::exists(message));
   EXPECT_EQ(contentsOf(scratch.path() / "out" / "fleet.csv").find("signal"), std::string::npos);
+}
+
+/// A day without a load of the sample's machine, in the same 40 postures, joint 2 of this stiffness.
+void simulateUnloadedDay(const fs::path& scratch, const fs::path& folder, int measurement, const char* stiffness) {
+  std::string spec = contentsOf(STIFFSCOPE_SOURCE_DIR "/samples/unloaded.xml");
+  const std::pair<const char*, std::string> changes[] = {
+      {"urdf=\"", "urdf=\"" STIFFSCOPE_SOURCE_DIR "/samples/"},
+      {"seed=\"20261123\"", fmt::format("seed=\"7\" measurement=\"{}\"", measurement)},
+      {"count=\"100\"", "count=\"40\""},
+      {"stiffness_nm_per_rad=\"5.6e6\"", fmt::format("stiffness_nm_per_rad=\"{}\"", stiffness)},
+      {"date=\"2026-11-23\"", fmt::format("date=\"2026-01-1{}\"", measurement)}};
+  for (const auto& [from, to] : changes) spec = std::regex_replace(spec, std::regex(from), to);
+  std::ofstream(scratch / "spec.xml") << spec;
+  const Ran ran =
+      runProgram(fmt::format("simulate '{}' --out '{}'", (scratch / "spec.xml").string(), folder.string()), scratch);
+  ASSERT_EQ(ran.status, 0) << ran.err;
+}
+
+// Four days, joint 2 softer by 6 % (compliance by 6.4 %) from the third on: that joint, that date and nothing else.
+TEST(FleetOfDaysWithoutALoad, AJointThatSoftensIsFound) {
+  const ScratchFolder scratch;
+  const fs::path fleet = scratch.path() / "fleet", out = scratch.path() / "out";
+  for (int day = 1; day <= 4; ++day)
+    simulateUnloadedDay(scratch.path(), fleet / "M1" / ("day" + std::to_string(day)), day,
+                        day < 3 ? "5.6e6" : "5.264e6");
+  const Ran ran = runProgram(fmt::format("fleet '{}' --out '{}'", fleet.string(), out.string()), scratch.path());
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  const std::string steps = contentsOf(out / "steps.csv");
+  EXPECT_EQ(std::count(steps.begin(), steps.end(), '\n'), 2) << steps;
+  EXPECT_NE(steps.find("M1,2026-01-13,compliance,2,,0.06"), std::string::npos) << steps;
+  EXPECT_NE(ran.out.find("joint 2 softer from 2026-01-13 on"), std::string::npos) << ran.out;
+  // Joint 1 stands upright: its row says that nothing is told of it.
+  EXPECT_NE(contentsOf(out / "detectable.csv").find("M1,unloaded,unspecified,1,4,yes,,,"), std::string::npos);
+  EXPECT_NE(contentsOf(out / "changes.csv").find("2026-01-12,2026-01-13,compliance,2,"), std::string::npos);
+  EXPECT_NE(contentsOf(out / "changes.csv").find("2026-01-12,2026-01-13,geometry,"), std::string::npos);
 }
 
 TEST(FleetOptions, AreRefusedByTheirNames) {

@@ -30,6 +30,8 @@ void readAsTable(char kind, std::string_view bytes) {
       return readAs(campaign::loadingLayout(), bytes);
     case 's':
       return readAs(campaign::statesLayout(joints), bytes);
+    case 'r':
+      return readAs(campaign::railSweepLayout(), bytes);
     case 'd':
       return readAs(campaign::displacementsLayout(), bytes);
     default:

@@ -18,6 +18,7 @@ CampaignResult fullDay() {
   CampaignResult day = fleet::dayOf({0.1, 1.0 / 3.0}, 100.0 / 7.0);
   day.name = "a \"day\"", day.date = "2026-01-05", day.robot = "arm", day.encoders = campaign::DoubleEncoder::active;
   day.audit = preparation::AuditVerdict::fail, day.failed_checks = {"tare"}, day.warned_checks = {"drift_nests"};
+  day.own_weight = day.springs[1], day.own_weight.compliance[1] = 100.0 / 9.0;
   day.stiffness[1] = {1e6 / 3.0, 2e5, std::numeric_limits<double>::infinity()};
   day.stiffness[2] = {2e6, 1e6, 3e6};
   day.deflection = 1e-3 / 3.0, day.compensated = {0.9, 0.8, 0.95};
@@ -38,6 +39,8 @@ TEST(FleetResults, AreKeptWhole) {
   EXPECT_TRUE(std::isnan(back.gap_after));
   EXPECT_EQ(back.springs[1].influences[1], day.springs[1].influences[1]);
   EXPECT_EQ(back.loaded_postures[1].q, day.loaded_postures[1].q);
+  EXPECT_EQ(back.own_weight.influences[1], day.own_weight.influences[1]);
+  EXPECT_FALSE(keptCampaign(Json::parse(keptJson(CampaignResult(6)).dump())).own_weight.available);
   EXPECT_EQ(back.audit, day.audit);
   EXPECT_TRUE(back.hasUnknown());
 }
@@ -79,7 +82,12 @@ TEST(FleetResults, TablesAndPageSayWhatChangedAndWhatFailed) {
       << needs;
   EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 6);
   EXPECT_EQ(Json::parse(lines.substr(0, lines.find('\n'))).at("machine"), "A, <1>");
+  const std::string detectable = detectableCsv(fleet);
+  EXPECT_EQ(std::count(detectable.begin(), detectable.end(), '\n'), 1 + 6);
+  EXPECT_NE(detectable.find("\"A, <1>\",loaded,unspecified,1,5,yes,,,"), std::string::npos) << detectable;
+  EXPECT_NE(detectable.find("\"A, <1>\",loaded,unspecified,2,5,yes,"), std::string::npos) << detectable;
   const std::string page = page::fleetPage(fleet, {}, "0123456789ab");
+  EXPECT_NE(page.find("What a change has to be to be found"), std::string::npos);
   EXPECT_NE(page.find("A, &lt;1&gt;"), std::string::npos);
   EXPECT_NE(page.find("href=\"reports/2026-01-04/report.html\""), std::string::npos);
   EXPECT_NE(page.find("states.csv:3: q1_deg"), std::string::npos);

@@ -156,6 +156,64 @@ TEST(Fleet, DaysThatFollowEachOtherAreComparedFromWhatIsKept) {
   EXPECT_FALSE(std::isfinite(result.difference[0].value));
 }
 
+/// The same days without a load, what they show shown by own weight.
+std::vector<FleetCampaign> unloaded(std::vector<FleetCampaign> all) {
+  for (FleetCampaign& one : all) {
+    one.result->kind = DayKind::unloaded;
+    one.result->own_weight = springs(one);
+    for (SpringsOfDay& of_method : one.result->springs) of_method = SpringsOfDay(6);
+    one.result->springs_method = one.result->method = std::nullopt;
+  }
+  return all;
+}
+
+// A joint of days without a load is judged as one of days with loads is, beside the geometry of each pair.
+TEST(Fleet, AJointThatSoftensBetweenDaysWithoutALoadIsAChange) {
+  std::mt19937_64 draws(6);
+  std::vector<FleetCampaign> softer = unloaded(campaignsOf("softer", unchangedDays(draws, 6, 12)));
+  for (std::size_t t = 3; t < 6; ++t) softer[t].result->own_weight.compliance[1] += 20.0;
+  std::vector<FleetCampaign> all = softer;
+  add(all, unloaded(campaignsOf("well", unchangedDays(draws, 6, 12))));
+  sortCampaigns(all);
+  std::vector<FleetPair> pairs = pairsOf(seriesOf(all));
+  for (FleetPair& pair : pairs) {
+    pair.result.emplace(6).kind = DayKind::unloaded;
+    pair.result->machine_p = 0.4;
+  }
+  compareUnloaded(all, pairs);
+  const Fleet fleet = studyFleet(all, pairs);
+  ASSERT_EQ(fleet.steps.size(), 1u);
+  EXPECT_EQ(fleet.steps[0].what, FleetStep::What::compliance);
+  EXPECT_EQ(fleet.steps[0].machine, "softer");
+  EXPECT_EQ(fleet.campaigns[fleet.steps[0].campaign].date, "2026-01-13");
+  EXPECT_EQ(fleet.steps[0].compliance.joint, 1);
+  EXPECT_EQ(fleet.chart_questions, 2u + 10u);
+  EXPECT_EQ(fleet.pair_questions, 10u + 10u);
+  EXPECT_TRUE(machine(fleet, "softer").needs.front().reason.is(RemarkId::compliance_changed));
+  EXPECT_EQ(machine(fleet, "well").needs.front().id, NeedId::nothing);
+  EXPECT_DOUBLE_EQ(fleet.pairs[2].result->difference[1].value,
+                   softer[3].result->own_weight.compliance[1] - softer[2].result->own_weight.compliance[1]);
+  // What is not seen is not said to be the same.
+  ASSERT_EQ(fleet.charts.size(), 2u);
+  EXPECT_FALSE(fleet.charts[0].method);
+  EXPECT_TRUE(std::isfinite(fleet.charts[1].detectable[1].middle));
+  EXPECT_GT(fleet.charts[1].detectable[1].last, fleet.charts[1].detectable[1].middle);
+  EXPECT_FALSE(std::isfinite(fleet.charts[1].detectable[0].middle));
+}
+
+TEST(Fleet, DaysWithoutMassesAreComparedByTheirGeometryAlone) {
+  std::mt19937_64 draws(7);
+  std::vector<FleetCampaign> all = unloaded(campaignsOf("a", unchangedDays(draws, 3, 12)));
+  all[1].result->own_weight = SpringsOfDay(6);
+  std::vector<FleetPair> pairs = pairsOf(seriesOf(all));
+  for (FleetPair& pair : pairs) pair.result.emplace(6).kind = DayKind::unloaded, pair.result->machine_p = 0.4;
+  compareUnloaded(all, pairs);
+  EXPECT_FALSE(std::isfinite(pairs[0].result->p_value[1]));
+  const Fleet fleet = studyFleet(all, pairs);
+  EXPECT_TRUE(fleet.charts.empty());
+  EXPECT_EQ(fleet.chart_questions, 2u);
+}
+
 TEST(Fleet, AMovedGeometryIsAChange) {
   std::mt19937_64 draws(5);
   std::vector<FleetCampaign> all = campaignsOf("a", unchangedDays(draws, 3, 12));
