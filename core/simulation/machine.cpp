@@ -8,6 +8,7 @@
 
 #include "core/io/input_error.h"
 #include "core/numerics/random.h"
+#include "core/simulation/carriage.h"
 #include "core/simulation/rail_beam.h"
 #include "core/simulation/rotation.h"
 #include "core/simulation/spec.h"
@@ -189,6 +190,18 @@ ElasticElement linkElement(const SimulationSpec& spec, const LinkBeam& beam) {
   return element;
 }
 
+/// The rail below the arm's base, as it is with the carriage at the middle between its supports.
+ElasticElement railElement(const SimulationSpec& spec) {
+  const RailBeam& beam = *spec.rail.beam;
+  ElasticElement element;
+  element.name = kRailElement;
+  element.base_from_element_at_zero.linear() = railAxes(spec);
+  element.free = {1, 2, 4, 5};
+  if (beam.torsion) element.free = {1, 2, 3, 4, 5};
+  element.stiffness = railStiffness(beam, 0.5 * (beam.from + beam.to));
+  return element;
+}
+
 std::vector<ElasticElement> elasticElements(const SimulationSpec& spec, const PerJoint<JointStiffness>& joints) {
   std::vector<ElasticElement> elements;
   if (spec.nominal.rail && spec.rail.beam) elements.push_back(railElement(spec));
@@ -263,6 +276,13 @@ ElasticMachine buildMachine(const SimulationSpec& spec) {
   machine.gravity_in_base =
       rotationExp(-spec.machine.base_tilt * tilt_axis) * Eigen::Vector3d(0.0, 0.0, -kStandardGravity);
   return machine;
+}
+
+void ElasticMachine::carryTo(double position) {
+  if (!rail_beam) return;
+  for (ElasticElement& element : elements) {
+    if (element.name == kRailElement) element.stiffness = railStiffness(*rail_beam, position);
+  }
 }
 
 void ElasticMachine::turnMotor(int joint, double angle) {

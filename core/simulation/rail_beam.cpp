@@ -2,8 +2,6 @@
 
 #include <Eigen/LU>
 
-#include "core/simulation/carriage.h"
-
 namespace stiffscope::simulation {
 
 namespace {
@@ -45,27 +43,9 @@ Eigen::Matrix<double, 6, 6> railStiffness(const RailBeam& beam, double position)
                   beam.torsion ? *beam.torsion * (a + b) / (a * b) : 0.0);
 }
 
-ElasticElement railElement(const SimulationSpec& spec) {
-  const RailBeam& beam = *spec.rail.beam;
-  ElasticElement element;
-  element.name = kRailElement;
-  element.base_from_element_at_zero.linear() = railAxes(spec);
-  element.free = {1, 2, 4, 5};
-  if (beam.torsion) element.free = {1, 2, 3, 4, 5};
-  element.stiffness = railStiffness(beam, 0.5 * (beam.from + beam.to));
-  return element;
-}
-
 bool carries(const RailBeam& beam, double position) {
   const double clear = 0.01 * (beam.to - beam.from);
   return position >= beam.from + clear && position <= beam.to - clear;
-}
-
-void ElasticMachine::carryTo(double position) {
-  if (!rail_beam) return;
-  for (ElasticElement& element : elements) {
-    if (element.name == kRailElement) element.stiffness = railStiffness(*rail_beam, position);
-  }
 }
 
 }  // namespace stiffscope::simulation

@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 
-#include "core/simulation/machine.h"
 #include "core/simulation/spec.h"
 
 namespace stiffscope::simulation {
@@ -17,9 +16,6 @@ namespace stiffscope::simulation {
 /// T a b / (G J L). Rows of what does not give are zero. m, N, rad, Nm.
 Eigen::Matrix<double, 6, 6> railCompliance(const RailBeam& beam, double position);
 Eigen::Matrix<double, 6, 6> railStiffness(const RailBeam& beam, double position);
-
-/// The rail below the arm's base, as it is with the carriage at the middle between its supports.
-ElasticElement railElement(const SimulationSpec& spec);
 
 /// Whether the carriage stands between the supports, clear of them by a hundredth of the span.
 bool carries(const RailBeam& beam, double position);
