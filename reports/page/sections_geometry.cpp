@@ -199,8 +199,7 @@ reports::Table axisTable(const frames::Frames& frames) {
     double arc = 0.0;
     for (const metrology::AxisCircle& circle : axis.fit.circles) arc = std::max(arc, circle.arc);
     table.groups.front().rows.push_back({std::to_string(i + 1), reports::fixed(arc / io::kDegree, 0),
-                                         std::to_string(axis.fit.circles.size()),
-                                         lengthIn(axis.fit.rms, unit)});
+                                         std::to_string(axis.fit.circles.size()), lengthIn(axis.fit.rms, unit)});
     data.rows.push_back({static_cast<double>(i + 1), arc / io::kDegree, static_cast<double>(axis.fit.circles.size()),
                          axis.fit.rms / io::kMicrometre});
     const metrology::Line& line = frames.arm.arm.axes_in_base_at_zero[i];
