@@ -219,8 +219,8 @@ reports::Figure describeGapBars(const reports::ReportCampaign& one) {
       one.campaign.pose_ids.size() > preparation::kMostDiagnosed
           ? fmt::format("{} of {}", one.diagnosis->postures, one.campaign.pose_ids.size())
           : "all",
-      shown(gap.before),
-      found ? fmt::format("{} with the verdict's effects in the model, ", shown(gap.after)) : "", shown(gap.noise));
+      shown(gap.before), found ? fmt::format("{} with the verdict's effects in the model, ", shown(gap.after)) : "",
+      shown(gap.noise));
   figure.caption += found ? " A posture that stays high is one where the verdict does not hold."
                           : " Postures that stand out of the noise show what joint stiffnesses do not explain.";
   if (!one.diagnosis->as_measured.rows.empty())
