@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cctype>
 #include <chrono>
 #include <condition_variable>
-#include <cctype>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -258,6 +258,9 @@ Progress::~Progress() {
     line_->done = true;
     line_->clear();
     line_->endStage();
+    // Of commands without stages this is all there is to say.
+    if (manner().verbosity == Verbosity::verbose)
+      std::fprintf(stderr, "stiffscope: %s: %.1f s in all\n", line_->command.c_str(), line_->seconds(line_->started));
   }
   line_->ended.notify_all();
   if (line_->writer.joinable()) line_->writer.join();

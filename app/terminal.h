@@ -32,8 +32,8 @@ void addMannerOptions(CLI::App& app);
 /// (https://no-color.org) or the terminal is dumb.
 bool coloursText();
 
-/// Whether standard output is a terminal that shows UTF-8, by LC_ALL, LC_CTYPE or LANG. Files and pipes keep to what any
-/// program reads alike.
+/// Whether standard output is a terminal that shows UTF-8, by LC_ALL, LC_CTYPE or LANG. Files and pipes keep to what
+/// any program reads alike.
 bool showsUtf8();
 
 /// The text with its verdicts in colour: `pass` green, `warn` and cautions yellow, `fail` red. Letters stay the same.
@@ -43,8 +43,8 @@ std::string withVerdictColours(std::string_view text);
 std::string shortenedLine(std::string text, std::size_t columns);
 
 /// Says on standard error what the program is about, where that is a terminal: one line, from two seconds on, written
-/// anew as work goes on, and cleared at the end, by Ctrl-C, too. With --verbose a line of each stage with its time,
-/// wherever standard error goes. With --quiet nothing. One at a time.
+/// anew as work goes on, and cleared at the end, by Ctrl-C, too. With --verbose a line of each stage with its time
+/// and one of all, wherever standard error goes. With --quiet nothing. One at a time.
 class Progress {
  public:
   explicit Progress(const std::string& command);

@@ -362,8 +362,7 @@ std::string largestWords(const reports::ReportCampaign& one, Eigen::Vector3d dia
                                         [left](const diagnosis::PointGap& a, const diagnosis::PointGap& b) {
                                           return (a.*left).norm() < (b.*left).norm();
                                         });
-  return fmt::format("the longest is {}\u00a0µm, of {} in posture {}",
-                     reports::significant(((*largest).*left).norm() / io::kMicrometre, 2),
+  return fmt::format("the longest is {}, of {} in posture {}", reports::shownLength(((*largest).*left).norm(), 2),
                      reports::pointName(one.campaign.targets[static_cast<std::size_t>(largest->target)].id),
                      reports::asIs(one.campaign.pose_ids[static_cast<std::size_t>(largest->pose)]));
 }

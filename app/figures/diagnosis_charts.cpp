@@ -209,20 +209,18 @@ std::optional<render::GroupedBarChart> gapBars(const reports::ReportCampaign& on
 reports::Figure describeGapBars(const reports::ReportCampaign& one) {
   const diagnosis::Gap& gap = one.diagnosis->gap;
   const bool found = named(one);
+  const auto shown = [](double metres) { return reports::withMicro(reports::lengthWords(metres, 1)); };
   reports::Figure figure;
   figure.id = "gap-by-posture";
   figure.title = found ? "Gap between model and machine, before and after" : "Gap between model and machine";
   figure.caption = fmt::format(
-      "Over {} postures, rms per coordinate: {}\u00a0µm by joint stiffnesses alone, {}{}\u00a0µm by noise "
+      "Over {} postures, rms per coordinate: {} by joint stiffnesses alone, {}{} by noise "
       "alone.",
       one.campaign.pose_ids.size() > preparation::kMostDiagnosed
           ? fmt::format("{} of {}", one.diagnosis->postures, one.campaign.pose_ids.size())
           : "all",
-      reports::fixed(gap.before / io::kMicrometre, 1),
-      found ? fmt::format("{}\u00a0µm with the verdict's effects in the model, ",
-                          reports::fixed(gap.after / io::kMicrometre, 1))
-            : "",
-      reports::fixed(gap.noise / io::kMicrometre, 1));
+      shown(gap.before), found ? fmt::format("{} with the verdict's effects in the model, ", shown(gap.after)) : "",
+      shown(gap.noise));
   figure.caption += found ? " A posture that stays high is one where the verdict does not hold."
                           : " Postures that stand out of the noise show what joint stiffnesses do not explain.";
   if (!one.diagnosis->as_measured.rows.empty())

@@ -298,8 +298,8 @@ std::string drawnDirections(const reports::ReportCampaign& one, const std::vecto
   const auto longest =
       std::max_element(residuals.begin(), residuals.end(),
                        [&](const ResidualVector& a, const ResidualVector& b) { return length(a) < length(b); });
-  return fmt::format("{} The longest residual of all is {}\u00a0µm, of {} in posture {}.", words,
-                     reports::significant(kUmPerM * length(*longest), 2),
+  return fmt::format("{} The longest residual of all is {}, of {} in posture {}.", words,
+                     reports::shownLength(length(*longest), 2),
                      reports::pointName(one.campaign.targets[static_cast<std::size_t>(longest->target)].id),
                      reports::postureName(one, longest->load_case));
 }

@@ -37,8 +37,8 @@ render::PointSeries wholeAxis() {
 render::PointPanel spikePanel(const diagnosis::SpikedEffect& one) {
   using Counts = diagnosis::SpikeCounts;
   render::PointPanel panel;
-  panel.title = fmt::format("{}{}: {}\u00a0µm", reports::effectName(one.effect), one.in_baseline ? "*" : "",
-                            reports::significant(*one.detectable / io::kMicrometre, 2));
+  panel.title = fmt::format("{}{}: {}", reports::effectName(one.effect), one.in_baseline ? "*" : "",
+                            reports::shownLength(*one.detectable, 2));
   panel.y_title = "Draws (%)";
   panel.x_title = "Times that size";
   for (const Counts& at : one.sizes) panel.categories.push_back(fmt::format("{:g}", at.times));

@@ -90,9 +90,7 @@ std::optional<render::PointChart> stationDrift(const reports::ReportCampaign& on
 
 reports::Figure describeStationDrift(const preparation::StationMotion& station) {
   const double largest = largestMotion(station);
-  const std::string words = inMillimetres(station)
-                                ? fmt::format("{}\u00a0mm", reports::significant(largest / io::kMillimetre, 2))
-                                : fmt::format("{}\u00a0µm", reports::significant(largest / io::kMicrometre, 2));
+  const std::string words = reports::shownLength(largest, 2);
   reports::Figure figure;
   figure.id = "station";
   figure.title = "Motion of the tracker's station";

@@ -141,10 +141,9 @@ render::PointChart stiffnessSliceChart(const campaign::Campaign& campaign, const
   centreInPicture(panel.series);
   panel.scale_bar = slice.spacing;
   const double move = scale > 0.0 ? slice.spacing / scale * 1000.0 : 0.0;  // by 1 kN, m
-  const double um = move / io::kMicrometre;
   // Of a soft arm a kilonewton is too much: the same by a tenth of it.
-  const std::string words = unit.size < 1e6 ? fmt::format("{} mm by 100 N", reports::significant(0.1e-3 * um, 3))
-                                            : fmt::format("{} µm by 1 kN", reports::significant(um, 3));
+  const std::string words = unit.size < 1e6 ? fmt::format("{} by 100 N", reports::shownLength(0.1 * move, 3))
+                                            : fmt::format("{} by 1 kN", reports::shownLength(move, 3));
   panel.scale_name =
       fmt::format("{} mm; as a move of P_{{TCP}}: {}", reports::fixed(slice.spacing / io::kMillimetre, 0), words);
   chart.shapes.push_back(std::move(panel));

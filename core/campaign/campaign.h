@@ -308,9 +308,9 @@ struct Campaign {
   /// The state of the double encoder as it matters to this joint: one that is stated to have none is controlled by its
   /// motor alone, as with an inactive one.
   DoubleEncoder doubleEncoderOf(int joint) const {
-    const bool has_none = !double_encoder_joints.empty() &&
-                          std::find(double_encoder_joints.begin(), double_encoder_joints.end(), joint) ==
-                              double_encoder_joints.end();
+    const bool has_none =
+        !double_encoder_joints.empty() &&
+        std::find(double_encoder_joints.begin(), double_encoder_joints.end(), joint) == double_encoder_joints.end();
     return has_none ? DoubleEncoder::inactive : double_encoder;
   }
 };

@@ -303,11 +303,10 @@ void readJointReadings(const io::XmlNode& root, Campaign& campaign, std::vector<
 }
 
 void readRobotElement(const io::XmlNode& node, CampaignXml& xml, std::vector<std::string>& warnings) {
-  io::warnOfUnknown(
-      node,
-      {"urdf", "base_link", "flange_link", "double_encoder", "double_encoder_joints", "gravity_m_s2",
-       "mass_sigma_percent", "controller_model"},
-      {}, warnings);
+  io::warnOfUnknown(node,
+                    {"urdf", "base_link", "flange_link", "double_encoder", "double_encoder_joints", "gravity_m_s2",
+                     "mass_sigma_percent", "controller_model"},
+                    {}, warnings);
   xml.urdf = {node.requiredName("urdf"), "urdf", node.line()};
   xml.campaign.base_link = node.requiredName("base_link");
   xml.campaign.flange_link = node.requiredName("flange_link");

@@ -41,8 +41,8 @@ struct CampaignXml {
   std::vector<StatedBalancer> balancers;
 };
 
-/// `double_encoder_joints` of an element `robot`, rising; none where it has no such attribute. Throws InputError for what
-/// is not a list of different joints' numbers.
+/// `double_encoder_joints` of an element `robot`, rising; none where it has no such attribute. Throws InputError for
+/// what is not a list of different joints' numbers.
 std::vector<JointNumber> readDoubleEncoderJoints(const io::XmlNode& robot);
 
 /// Throws InputError for the first that names a joint which a machine of so many has not.

@@ -372,8 +372,7 @@ void readRobot(const io::XmlNode& root, const std::filesystem::path& folder, Sim
   using namespace simulation;
   const io::XmlNode node = root.requiredChild("robot");
   refuseUnknown(
-      node,
-      {"urdf", "base_link", "flange_link", "double_encoder", "double_encoder_joints", "read_back_resolution_deg"},
+      node, {"urdf", "base_link", "flange_link", "double_encoder", "double_encoder_joints", "read_back_resolution_deg"},
       {"early_log"});
   spec.urdf_file = folder / node.requiredName("urdf");
   spec.base_link = node.requiredName("base_link");

@@ -447,7 +447,7 @@ struct SimulationSpec {
   std::string base_link, flange_link;
   campaign::DoubleEncoder double_encoder = campaign::DoubleEncoder::unspecified;
   std::vector<int> double_encoder_joints;  ///< from 0; all with a gear are among them; none: not stated
-  double read_back_resolution = 0.0;  ///< of reported joint angles, rad; 0: as exact as a double
+  double read_back_resolution = 0.0;       ///< of reported joint angles, rad; 0: as exact as a double
 
   std::optional<EarlyLog> early_log;
   std::optional<TemperatureCourse> temperature;  ///< of the hall; `states` then has it

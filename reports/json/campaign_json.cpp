@@ -85,7 +85,8 @@ Json campaignJson(const campaign::Campaign& campaign) {
             {"robot", campaign.robot.name},
             {"double_encoder", nameOf(campaign.double_encoder)},
             {"inputs", inputs}};
-  if (!campaign.double_encoder_joints.empty()) json["double_encoder_joints"] = jointNumbers(campaign.double_encoder_joints);
+  if (!campaign.double_encoder_joints.empty())
+    json["double_encoder_joints"] = jointNumbers(campaign.double_encoder_joints);
   if (!campaign.texts.robot_serial.empty()) json["robot_serial"] = campaign.texts.robot_serial;
   return json;
 }

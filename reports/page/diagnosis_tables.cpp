@@ -52,10 +52,11 @@ reports::Table whereTable(const std::string& caption, const std::string& heading
   const auto headed = [](const std::string& name, const reports::LengthUnit& of) {
     return fmt::format("{} ({})", name, of.name);
   };
-  reports::Table table{
-      caption, {"By", "Part", headed(heading, unit), headed("Noise", unit), "Share (%)", "Above noise (sd)"},
-      {},      false,
-      "gap"};
+  reports::Table table{caption,
+                       {"By", "Part", headed(heading, unit), headed("Noise", unit), "Share (%)", "Above noise (sd)"},
+                       {},
+                       false,
+                       "gap"};
   const bool more = !beside.tables.empty();
   if (more) table.columns.push_back(headed(beside.heading, unit_beside));
   if (more && beside.noise) table.columns.push_back(headed("Noise", unit_beside));
@@ -81,8 +82,8 @@ reports::Table whereTable(const std::string& caption, const std::string& heading
     if (one.by == "posture") continue;  // a figure, and results.json
     reports::RowGroup group{one.by, {}};
     for (const diagnosis::WhereRow& row : one.rows) {
-      reports::Row cells{reports::asIs(row.name), lengthIn(row.rms, unit), lengthIn(row.noise, unit), reports::fixed(100.0 * row.share, 0),
-                         reports::asIs(reports::deviateWords(row.significance))};
+      reports::Row cells{reports::asIs(row.name), lengthIn(row.rms, unit), lengthIn(row.noise, unit),
+                         reports::fixed(100.0 * row.share, 0), reports::asIs(reports::deviateWords(row.significance))};
       const diagnosis::WhereRow* other = more ? rowOf(beside.tables, one.by, row.name) : nullptr;
       if (more) cells.emplace_back(other ? lengthIn(other->rms, unit_beside) : "–");
       if (more && beside.noise) cells.emplace_back(other ? lengthIn(other->noise, unit_beside) : "–");

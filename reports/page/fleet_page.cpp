@@ -109,8 +109,7 @@ std::string stepName(const fleet::FleetStep& step) {
 }
 
 std::string stepSize(const fleet::FleetStep& step) {
-  if (step.what == fleet::FleetStep::What::geometry)
-    return fmt::format("{} µm", reports::fixed(reports::um(step.size), 0));
+  if (step.what == fleet::FleetStep::What::geometry) return reports::withMicro(reports::lengthWords(step.size, 0));
   if (step.what != fleet::FleetStep::What::compliance) return "–";
   const Stated share = step.compliance.share();
   return reports::withUncertainty(100.0 * share.value, 100.0 * (share.high - share.value)) + " %";

@@ -108,8 +108,7 @@ std::vector<KeyNumber> sweepNumbers(const frames::Frames& frames) {
   return {{fmt::format("{} of {}", measured, frames.axes.size()), "joint axes found from their sweeps"},
           {fmt::format("{}\u00a0mm", reports::significant(reports::kMmPerM * off, 2)),
            "largest difference of a distance between axes from the nominal one"},
-          {reports::shownLength(rms, 2),
-           "rms by which readings leave their circles, of the worst axis"}};
+          {reports::shownLength(rms, 2), "rms by which readings leave their circles, of the worst axis"}};
 }
 
 /// What a day without a load gives: position errors by model.

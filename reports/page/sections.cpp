@@ -19,9 +19,9 @@ void writeFigure(Html& html, const reports::Figure& figure, int number, bool has
     // Of a chart a narrow screen shows a part, as large as can be read; the rest comes by scrolling. A scene fits it.
     const auto holder = html.element("div", {{"class", has_scene ? "picture" : "picture readable"}});
     html.voidElement("img", {{"src", "data:image/png;base64," + base64(figure.png)},
-                           {"alt", figure.alt},
-                           {"width", std::to_string(figure.width)},
-                           {"height", std::to_string(figure.height)}});
+                             {"alt", figure.alt},
+                             {"width", std::to_string(figure.width)},
+                             {"height", std::to_string(figure.height)}});
   }
   const auto caption = html.element("figcaption");
   html.leaf("b", fmt::format("Figure {}. {}.", number, figure.title));

@@ -198,11 +198,13 @@ reports::Table axisTable(const frames::Frames& frames) {
     if (!axis.measured) continue;
     double arc = 0.0;
     for (const metrology::AxisCircle& circle : axis.fit.circles) arc = std::max(arc, circle.arc);
-    table.groups.front().rows.push_back({std::to_string(i + 1), reports::fixed(arc / io::kDegree, 0),
-                                         std::to_string(axis.fit.circles.size()),
-                                         lengthIn(axis.fit.rms, unit)});
-    data.rows.push_back({static_cast<double>(i + 1), arc / io::kDegree, static_cast<double>(axis.fit.circles.size()),
-                         axis.fit.rms / io::kMicrometre});
+    // Axes of coupled joints come from all sweeps together: none has circles of its own, and an arc of 0 is none.
+    const bool alone = !axis.fit.circles.empty();
+    const auto own = [alone](double number) { return alone ? reports::fixed(number, 0) : std::string("–"); };
+    const auto circles = static_cast<double>(axis.fit.circles.size());
+    table.groups.front().rows.push_back(
+        {std::to_string(i + 1), own(arc / io::kDegree), own(circles), lengthIn(axis.fit.rms, unit)});
+    data.rows.push_back({static_cast<double>(i + 1), arc / io::kDegree, circles, axis.fit.rms / io::kMicrometre});
     const metrology::Line& line = frames.arm.arm.axes_in_base_at_zero[i];
     std::vector<reports::DataCell>& row = data.rows.back();
     // What R0's own definition makes zero is zero, and not a processor's rounding.

@@ -65,8 +65,8 @@ void writeCause(Html& html, const accuracy::AccuracyDiagnosis& accuracy) {
   const calibration::ArmFit& fit = accuracy.calibration.best().fit;
   writeTable(html, effectsTable(fit));
   if (fit.parts.size() > kMostParts) html.paragraph(reports::morePartsWords(fit.parts.size() - kMostParts), "faint");
-  writeTable(html, whereTable("Where the gap lies that the calibrated geometry leaves, rms per coordinate",
-                              "Position", accuracy.where, {accuracy.where_after, "With the verdict", false}));
+  writeTable(html, whereTable("Where the gap lies that the calibrated geometry leaves, rms per coordinate", "Position",
+                              accuracy.where, {accuracy.where_after, "With the verdict", false}));
   writeOverlaps(html, accuracy.where);
   writeNotTestable(html, accuracy.not_testable);
   writeDetectable(html, accuracy.detectable);

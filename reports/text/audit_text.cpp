@@ -31,8 +31,8 @@ void writeChecks(const audit::AuditReport& report, Out out) {
   for (const preparation::AuditCheck& check : report.checks) {
     const AuditFigures figures = figuresOf(check);
     std::string line =
-        fmt::format("  {:<21}{:<13}{:>10}{:>10}  {:<16}{}", auditName(check.id), worded(check.verdict), figureCell(figures.value),
-                    figureCell(figures.limit), figures.unit, words(check.where));
+        fmt::format("  {:<21}{:<13}{:>10}{:>10}  {:<16}{}", auditName(check.id), worded(check.verdict),
+                    figureCell(figures.value), figureCell(figures.limit), figures.unit, words(check.where));
     line.erase(line.find_last_not_of(' ') + 1);
     fmt::format_to(out, "{}\n", line);
   }

@@ -93,15 +93,14 @@ void writeStiffnesses(const diagnosis::Diagnosis& diagnosis, Out out) {
 }
 
 void writeLimits(const diagnosis::Diagnosis& diagnosis, Out out) {
-  fmt::format_to(out, "\nNoise: {} rms in one state's displacement; {}.\n", withMicro(lengthWords(diagnosis.state_noise, 1)),
-                 words(diagnosis.noise_source));
+  fmt::format_to(out, "\nNoise: {} rms in one state's displacement; {}.\n",
+                 withMicro(lengthWords(diagnosis.state_noise, 1)), words(diagnosis.noise_source));
   fmt::format_to(out, "Limits: a fall of BIC of {:.0f}, and {} rms after the stiffnesses.\n",
                  diagnosis.significance_limit, withMicro(lengthWords(diagnosis.size_limit, 1)));
   fmt::format_to(out, "Smallest size that would have been seen, µm rms per coordinate:\n");
   std::string sizes;
   for (const diagnosis::DetectableSize& one : diagnosis.detectable) {
-    if (one.size)
-      sizes += fmt::format("{}{} {:.0f}", sizes.empty() ? "" : ", ", effectName(one.effect), um(*one.size));
+    if (one.size) sizes += fmt::format("{}{} {:.0f}", sizes.empty() ? "" : ", ", effectName(one.effect), um(*one.size));
   }
   fmt::format_to(out, "  {}\n", wrapped(sizes, 2));
   for (const diagnosis::NotTestable& one : diagnosis.not_testable)
@@ -118,11 +117,13 @@ std::string diagnosisText(const campaign::Campaign& campaign, const diagnosis::D
   fmt::format_to(out, "{}: {}\n\n", campaign.name, verdictWords(diagnosis.verdict));
   fmt::format_to(out, "{}\n", wrapped(reasonWords(diagnosis.verdict), 0));
   fmt::format_to(out, "\nGap of the deflection ({} rms): {} before, {} after, noise {}\n",
-                 withMicro(lengthWords(diagnosis.gap.deflection, 0)), withMicro(lengthWords(diagnosis.gap.before, 1)), withMicro(lengthWords(diagnosis.gap.after, 1)),
-                 withMicro(lengthWords(diagnosis.gap.noise, 1)));
+                 withMicro(lengthWords(diagnosis.gap.deflection, 0)), withMicro(lengthWords(diagnosis.gap.before, 1)),
+                 withMicro(lengthWords(diagnosis.gap.after, 1)), withMicro(lengthWords(diagnosis.gap.noise, 1)));
   if (diagnosis.positions_tested) {
     fmt::format_to(out, "Gap of unloaded positions: {} before, {} after, noise {}\n",
-                   withMicro(lengthWords(diagnosis.positions.before, 1)), withMicro(lengthWords(diagnosis.positions.after, 1)), withMicro(lengthWords(diagnosis.positions.noise, 1)));
+                   withMicro(lengthWords(diagnosis.positions.before, 1)),
+                   withMicro(lengthWords(diagnosis.positions.after, 1)),
+                   withMicro(lengthWords(diagnosis.positions.noise, 1)));
   }
   writeClasses(diagnosis, out);
   for (const auto& group : diagnosis.aliases)

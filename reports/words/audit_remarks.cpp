@@ -231,9 +231,8 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
       return fmt::format("what no motion of the station explains is {:.2f} of the noise{}", values.number(0),
                          more(values, 1));
     case audit::RemarkId::nest_moved:
-      return fmt::format(
-          "; nest {} moved by up to {} against the others and is left out of the station's motion",
-          values.name(0), lengthWords(values.number(1), 0));
+      return fmt::format("; nest {} moved by up to {} against the others and is left out of the station's motion",
+                         values.name(0), lengthWords(values.number(1), 0));
     case audit::RemarkId::nests_not_mended:
       return "; leaving out any one nest does not mend it: more than one moved, or the readings are wrong";
     case audit::RemarkId::of_station:

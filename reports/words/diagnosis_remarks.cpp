@@ -54,7 +54,8 @@ std::string diagnosisWords(diagnosis::RemarkId id, const RemarkValues& values) {
       return fmt::format(
           "Stiffnesses alone leave {} rms per coordinate of the deflection, noise alone {} (chi2 per "
           "equation {:.{}f}).",
-          lengthWords(values.number(0), 1), lengthWords(values.number(1), 1), values.number(2), values.number(2) < 100.0 ? 2 : 0);
+          lengthWords(values.number(0), 1), lengthWords(values.number(1), 1), values.number(2),
+          values.number(2) < 100.0 ? 2 : 0);
     case no_effect_passes:
       return fmt::format("No effect passes both limits: a fall of BIC of {:.0f}, {} rms after the stiffnesses.",
                          values.number(0), lengthWords(values.number(1), 1));
@@ -71,9 +72,8 @@ std::string diagnosisWords(diagnosis::RemarkId id, const RemarkValues& values) {
           "Besides, {} rms of the deflection at the largest load are explained by no effect of the vocabulary.",
           lengthWords(values.number(0), 1));
     case positions_not_explained:
-      return fmt::format(
-          "Besides, {} rms of the unloaded positions are explained by no effect (limit {}).",
-          lengthWords(values.number(0), 1), lengthWords(values.number(1), 1));
+      return fmt::format("Besides, {} rms of the unloaded positions are explained by no effect (limit {}).",
+                         lengthWords(values.number(0), 1), lengthWords(values.number(1), 1));
     case candidates_only:
       return fmt::format(
           "Beside that, {} {} no more than {}: with {} in the model {:.0f} % of the gap's squares beyond noise stay "

@@ -31,8 +31,9 @@ std::string explainedWords(const extended_model::EffectFit& effects) {
       "{}. On postures held out the rms shrinks by {:.0f} % ({:.0f} to {:.0f} %), and {} % of what is above "
       "the noise "
       "is explained.",
-      withMicro(lengthWords(gap.before, 1)), "with the effects", withMicro(lengthWords(gap.after, 1)), withMicro(lengthWords(gap.noise, 1)),
-      100.0 * shrink.value, 100.0 * shrink.low, 100.0 * shrink.high, percentNumber(effects.explained, 0));
+      withMicro(lengthWords(gap.before, 1)), "with the effects", withMicro(lengthWords(gap.after, 1)),
+      withMicro(lengthWords(gap.noise, 1)), 100.0 * shrink.value, 100.0 * shrink.low, 100.0 * shrink.high,
+      percentNumber(effects.explained, 0));
 }
 
 namespace {

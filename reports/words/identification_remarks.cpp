@@ -206,7 +206,8 @@ std::string identificationWords(identification::RemarkId id, const RemarkValues&
           "the residual of {} per coordinate is {:.0f} times the {} of the tracker's noise: something "
           "other than joint springs is in the data, and the stated uncertainties hold it only as far as it scatters "
           "between postures",
-          withMicro(lengthWords(values.number(0), 0)), values.number(0) / values.number(1), withMicro(lengthWords(values.number(1), 1)));
+          withMicro(lengthWords(values.number(0), 0)), values.number(0) / values.number(1),
+          withMicro(lengthWords(values.number(1), 1)));
     case RemarkId::too_few_postures:
       return fmt::format("{} posture{} too few to state uncertainties from scatter", values.count(0),
                          values.count(0) == 1 ? " is" : "s are");

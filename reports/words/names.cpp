@@ -112,8 +112,9 @@ std::string encoderWordsOf(const campaign::Campaign& campaign) {
   std::vector<std::string> numbers;
   for (const int joint : joints) numbers.push_back(std::to_string(joint + 1));
   const bool in_a_row = joints.size() > 1 && joints.back() - joints.front() + 1 == static_cast<int>(joints.size());
-  return fmt::format("{}, on joint{} {}", state, joints.size() > 1 ? "s" : "",
-                     in_a_row ? countsFromTo(joints.front() + 1, joints.back() + 1) : fmt::format("{}", fmt::join(numbers, ", ")));
+  return fmt::format(
+      "{}, on joint{} {}", state, joints.size() > 1 ? "s" : "",
+      in_a_row ? countsFromTo(joints.front() + 1, joints.back() + 1) : fmt::format("{}", fmt::join(numbers, ", ")));
 }
 
 std::string encoderWords(campaign::DoubleEncoder state) {

@@ -49,8 +49,9 @@ std::string pointName(const std::string& target_id);       ///< "P10" as "P_{10}
 std::string auditName(const std::string& check_id);        ///< "station drift"
 std::string auditWord(preparation::AuditVerdict verdict);  ///< "warns"
 std::string encoderState(campaign::DoubleEncoder state);   ///< "active", "inactive", "not declared"
-std::string encoderWordsOf(const campaign::Campaign& campaign);  ///< "active, on joints 1 to 3"; the state where no joint is stated
-std::string encoderWords(campaign::DoubleEncoder state);   ///< "double encoders active"; empty where not declared
+std::string encoderWordsOf(
+    const campaign::Campaign& campaign);  ///< "active, on joints 1 to 3"; the state where no joint is stated
+std::string encoderWords(campaign::DoubleEncoder state);  ///< "double encoders active"; empty where not declared
 
 /// Where deflections of a campaign are judged: P_wrist where it is measured, else the reflectors (mean over
 /// them).

@@ -92,8 +92,8 @@ std::string withMicro(const std::string& text);
 /// is, so that columns stay under each other.
 std::string microUnits(const std::string& text);
 
-/// For a terminal that shows UTF-8: "+-" as ±. Columns stay under each other: where ± is a letter narrower the gap before
-/// its column is a blank wider.
+/// For a terminal that shows UTF-8: "+-" as ±. Columns stay under each other: where ± is a letter narrower the gap
+/// before its column is a blank wider.
 std::string plusMinusSigns(const std::string& text);
 
 /// `value` for printing with `decimals` places: what rounds to zero is zero, without the sign that would

@@ -40,9 +40,9 @@ std::string stationsWords(const std::optional<preparation::JoinedStations>& stat
   for (std::size_t s = 1; s < stations->network.stations.size(); ++s) {
     const preparation::StationPose& pose = stations->network.stations[s];
     const preparation::PoseUncertainty at_arm = preparation::poseUncertainty(pose);
-    known.push_back(fmt::format("{} ({} readings) to {} and {:.1f} urad by {} nests",
-                                preparation::shownStation(pose), stations->readings[s], lengthWords(at_arm.position, 1),
-                                1e6 * at_arm.turn, pose.common_nests));
+    known.push_back(fmt::format("{} ({} readings) to {} and {:.1f} urad by {} nests", preparation::shownStation(pose),
+                                stations->readings[s], lengthWords(at_arm.position, 1), 1e6 * at_arm.turn,
+                                pose.common_nests));
   }
   return fmt::format(
       "; {} stations joined, known at the arm in the frame of the first, {} (one sigma, common to the readings of "

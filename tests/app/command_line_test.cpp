@@ -39,6 +39,50 @@ TEST(CommandLine, HelpOfTheWindowNamesItsOptions) {
     EXPECT_NE(ran.out.find(word), std::string::npos) << word << "\n" << ran.out;
 }
 
+// One letter where a person looks and the letter exists; what programs read stays the same everywhere.
+TEST(CommandLine, PlusMinusIsOneLetterOnATerminalOfUtf8) {
+  if (std::system("command -v script >/dev/null") != 0) GTEST_SKIP() << "no script (bsdutils)";
+  const ScratchFolder scratch;
+  const auto onTerminal = [&](const std::string& locale) {
+    const std::string out = (scratch.path() / "seen").string();
+    const std::string line = "script -qec \"env " + locale + " '" STIFFSCOPE_BINARY "' frames '" + kActive +
+                             "' --springs-only --color never\" /dev/null </dev/null >'" + out + "' 2>&1";
+    EXPECT_EQ(std::system(line.c_str()), 0) << line;
+    return contentsOf(out);
+  };
+  const std::string letter = "\u00b1";
+  const std::string utf8 = onTerminal("LC_ALL=C.UTF-8"), ascii = onTerminal("LC_ALL=C LANG=C.UTF-8");
+  EXPECT_NE(utf8.find(letter), std::string::npos) << utf8;
+  EXPECT_EQ(utf8.find("+-"), std::string::npos) << utf8;
+  EXPECT_NE(ascii.find("+-"), std::string::npos) << ascii;
+  EXPECT_EQ(ascii.find(letter), std::string::npos) << ascii;
+  const Ran piped = runProgram("frames '" + kActive + "' --springs-only", scratch.path());
+  EXPECT_NE(piped.out.find("+-"), std::string::npos) << piped.out;
+  EXPECT_EQ(piped.out.find(letter), std::string::npos) << piped.out;
+}
+
+TEST(CommandLine, QuietLeavesOutWarningsAndVerboseSaysTheTime) {
+  const ScratchFolder scratch;
+  std::filesystem::copy(kActive, scratch.path() / "day");
+  std::string xml = contentsOf(scratch.path() / "day/campaign.xml");
+  xml.replace(xml.find("<robot "), 7, "<robot colour=\"red\" ");
+  std::ofstream(scratch.path() / "day/campaign.xml", std::ios::binary) << xml;
+  std::ofstream(scratch.path() / "p.txt") << "0 0 0\n1 0 0\n0 1 0\n1 1 0.1\n";
+  const std::string frames = "frames '" + (scratch.path() / "day").string() + "' --springs-only";
+  const Ran usual = runProgram(frames, scratch.path()), quiet = runProgram(frames + " -q", scratch.path());
+  const Ran verbose = runProgram(frames + " -v", scratch.path());
+  EXPECT_NE(usual.err.find("colour: unknown attribute"), std::string::npos) << usual.err;
+  EXPECT_EQ(usual.err.find("in all"), std::string::npos) << usual.err;
+  EXPECT_EQ(quiet.err, "");
+  EXPECT_NE(verbose.err.find("colour: unknown attribute"), std::string::npos) << verbose.err;
+  EXPECT_TRUE(std::regex_search(verbose.err, std::regex("stiffscope: reading [^\n]*: [0-9.]+ s\n"))) << verbose.err;
+  EXPECT_EQ(usual.out, quiet.out);
+  EXPECT_EQ(usual.out, verbose.out);
+  // A command without stages says how long it took.
+  const Ran fit = runProgram("fit plane '" + (scratch.path() / "p.txt").string() + "' -v", scratch.path());
+  EXPECT_TRUE(std::regex_match(fit.err, std::regex("stiffscope: fit: [0-9.]+ s in all\n"))) << fit.err;
+}
+
 TEST(CommandLine, AnOptionBeforeItsCommandIsToldItsPlace) {
   const ScratchFolder scratch;
   for (const std::string& words : std::vector<std::string>{

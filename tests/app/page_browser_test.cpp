@@ -34,13 +34,18 @@ addEventListener('load',function(){
               if(sb){var q=sb.getBoundingClientRect();if(a.l>=q.right-1)continue;}}
    out.overlaps.push(a.e.tagName+':'+a.e.textContent.slice(0,40)+' / '+b.e.tagName+':'+b.e.textContent.slice(0,40));}
  }
- boxes.forEach(function(a){if(!a.e.closest('.scroll,nav')&&a.r>document.documentElement.clientWidth+1)
+ boxes.forEach(function(a){if(!a.e.closest('.scroll,nav,.readable')&&a.r>document.documentElement.clientWidth+1)
   out.clipped.push(a.e.tagName+':'+a.e.textContent.slice(0,40));});
  performance.getEntriesByType('resource').forEach(function(e){if(!e.name.startsWith('data:'))out.requests.push(e.name);});
  document.querySelectorAll('[src],[href],[srcset],[data]').forEach(function(e){
   ['src','href','srcset','data'].forEach(function(n){var v=e.getAttribute(n);
    if(v&&!v.startsWith('data:')&&!v.startsWith('#'))out.requests.push(v);});});
  out.wide=document.documentElement.scrollWidth-document.documentElement.clientWidth;
+ // Charts: how wide the narrowest is drawn, and what its frame takes of the page.
+ out.charts=0;out.least=1e9;out.frame=0;
+ document.querySelectorAll('.readable').forEach(function(e){
+  out.charts++;out.frame=Math.max(out.frame,e.getBoundingClientRect().right);
+  out.least=Math.min(out.least,e.querySelector('img').getBoundingClientRect().width);});
  out.boxes=boxes.length;
  out.unscoped=document.querySelectorAll('th:not([scope])').length;
  out.alts=document.querySelectorAll('img:not([alt])').length;
@@ -122,6 +127,17 @@ TEST_F(PageInABrowser, NothingOverlapsNothingIsFetched) {
     EXPECT_EQ(found["unsorted"].dump(), "[]");
     EXPECT_GT(found["sorted"], 20);  // of each campaign a handful of tables with numbers
   }
+}
+
+// A chart is drawn for about 1400 pixels with letters of 20: half of that is what a reader of a phone needs.
+TEST_F(PageInABrowser, LettersOfChartsAreReadOnANarrowScreen) {
+  constexpr int kNarrowest = 500;
+  const auto [found, console] = measured(kNarrowest);
+  ASSERT_TRUE(found.is_object());
+  EXPECT_GT(found["charts"], 20);
+  EXPECT_GE(found["least"], 700);
+  EXPECT_LE(found["frame"], kNarrowest);
+  EXPECT_EQ(found["wide"], 0);
 }
 
 TEST_F(PageInABrowser, TheMeasureSeesFaults) {

@@ -48,7 +48,7 @@ TEST(SpikeReport, jsonHasCountsAndBaseline) {
 TEST(SpikeReport, textHasARowAnEffect) {
   const std::string text = reports::spikeText(baseline(), smallStudy());
   for (const char* part : {"hysteresis *", "3/8", "7/7", "9/10", "2/15", "besides: backlash 2, unknown 1", "Without",
-                           "hysteresis (joint 2)", "tracker_drift", "not added"})
+                           "hysteresis (joint 2)", "tracker drift", "not added"})
     EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
   for (std::size_t from = 0; from < text.size();) {
     const std::size_t to = std::min(text.find('\n', from), text.size());

@@ -60,7 +60,8 @@ TEST(ReadCampaign, SaysWhichJointsHaveDoubleEncoders) {
   const campaign::Campaign before = campaign::readCampaign(files.folder()).campaign;
   EXPECT_TRUE(before.double_encoder_joints.empty());
   EXPECT_EQ(before.doubleEncoderOf(5), campaign::DoubleEncoder::active);
-  files.alter("campaign.xml", "double_encoder=\"active\"", "double_encoder=\"active\" double_encoder_joints=\" 3 1\t2\"");
+  files.alter("campaign.xml", "double_encoder=\"active\"",
+              "double_encoder=\"active\" double_encoder_joints=\" 3 1\t2\"");
   const campaign::CampaignReading reading = campaign::readCampaign(files.folder());
   EXPECT_TRUE(reading.warnings.empty()) << shown(reading.warnings);
   EXPECT_EQ(reading.campaign.double_encoder_joints, (std::vector<int>{0, 1, 2}));
