@@ -6,6 +6,7 @@
 #include "core/audit/checks.h"
 #include "core/audit/limits.h"
 #include "core/audit/remarks.h"
+#include "core/effects/all.h"
 #include "core/identification/identifiability.h"
 #include "core/identification/load_case.h"
 #include "core/identification/partial_pose.h"
