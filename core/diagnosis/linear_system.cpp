@@ -454,12 +454,11 @@ void addSweepEquations(const SystemInput& input, const SystemState& state, const
 namespace {
 
 /// Takes out of the normal equations what one shift of all readings, unknown to `covariance` S, could explain:
-/// N - (A' E) (E' E + 1)^-1 (E' A), A the whitened rows, E = whitened ones times S^1/2. The sweeps are read at one stop
-/// of the carriage, which misses its place by as much as those of the postures do.
+/// N - (A' E) (E' E + 1)^-1 (E' A), A the whitened rows, E = whitened ones times a root of S. The sweeps are read at
+/// one stop of the carriage, which misses its place by as much as those of the postures do.
 void freeOneShift(const Eigen::MatrixXd& whitened, const Eigen::MatrixXd& whitened_shift,
                   const Eigen::Matrix3d& covariance, Eigen::MatrixXd& normal) {
-  const Eigen::MatrixXd shift =
-      whitened_shift * Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).operatorSqrt();
+  const Eigen::MatrixXd shift = whitened_shift * covarianceRoot(covariance);  // of rank one: along the rail
   const Eigen::MatrixXd across = shift.transpose() * whitened;
   const Eigen::Matrix3d own = shift.transpose() * shift + Eigen::Matrix3d::Identity();
   normal -= across.transpose() * own.ldlt().solve(across);

@@ -2,10 +2,10 @@
 
 #include <Eigen/Dense>
 
-// What most libraries ask of Eigen with matrices of double: the blocks that products and triangular solutions are made of,
-// and decompositions. A library that names them compiles them again, some 90 KB in each of twenty; declared here, in the
-// precompiled header, they are compiled in instances.cpp alone. Without the precompiled header each compiles its own, and
-// the programs are the same. The numbers are Eigen 3.4's: another Eigen that has other templates says so here.
+// What most libraries ask of Eigen with matrices of double: the blocks that products and triangular solutions are made
+// of, and decompositions. A library that names them compiles them again, some 90 KB in each of twenty; declared here,
+// in the precompiled header, they are compiled in instances.cpp alone. Without the precompiled header each compiles its
+// own, and the programs are the same. The numbers are Eigen 3.4's: another Eigen that has other templates says so here.
 
 #ifndef STIFFSCOPE_INSTANCE
 #define STIFFSCOPE_INSTANCE extern template

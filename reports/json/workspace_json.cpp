@@ -1,23 +1,17 @@
 #include "core/workspace/workspace_stiffness.h"
-#include "reports/json/campaign_json.h"
 #include "reports/json/json.h"
 
 #include <cmath>
 #include <utility>
 
 #include "core/io/units.h"
+#include "reports/json/campaign_json.h"
 #include "reports/words/names.h"
 #include "reports/words/workspace_words.h"
 
 namespace stiffscope::reports {
 
 namespace {
-
-Json jointNumbers(const std::vector<int>& joints) {
-  Json list = Json::array();
-  for (const int joint : joints) list.push_back(joint + 1);
-  return list;
-}
 
 Json principalsJson(const std::vector<workspace::DirectionalCompliance>& found) {
   Json list = Json::array();
