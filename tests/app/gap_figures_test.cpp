@@ -60,7 +60,7 @@ TEST(EffectClasses, ARowAnEffectAndALineAClass) {
   EXPECT_NEAR(chart->reference, 5.0, 1e-12);
   const std::string caption = app::describeEffectClasses(shown.one).caption;
   EXPECT_NE(caption.find("link compliance or bearing tilt"), std::string::npos) << caption;
-  EXPECT_NE(caption.find("1 of 16"), std::string::npos) << caption;
+  EXPECT_NE(caption.find("1 of 17"), std::string::npos) << caption;
 }
 
 TEST(GapScene, BeforeAndAfterToOneScaleSeenAlike) {

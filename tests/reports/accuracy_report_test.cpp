@@ -89,7 +89,7 @@ TEST(AccuracyJson, ACleanDaySaysNoneAndADayThatIsNoneSaysWhy) {
 TEST(AccuracyText, AnswersWhichHowFarAndWhere) {
   const std::string text = DiagnosedDay().text();
   for (const char* words :
-       {"Verdict: transmission_error (joint 5)", "How far: gap of the positions", "geometry calibrated",
+       {"Verdict: transmission error (joint 5)", "How far: gap of the positions", "geometry calibrated",
         "noise of the readings", "Which: candidates", "Where the gap lies", "Smallest size that would have been seen"})
     EXPECT_TRUE(has(text, words)) << words;
   EXPECT_FALSE(has(text, "nan"));

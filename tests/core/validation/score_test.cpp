@@ -82,8 +82,12 @@ TEST(BlindScore, singlesByHand) {
   EXPECT_EQ(at("hysteresis", "several"), 1);
   EXPECT_EQ(at("bearing_tilt", "bearing_tilt"), 1);  // its class
   EXPECT_EQ(at("backlash", "unknown"), 1);
-  EXPECT_EQ(result.effects[static_cast<std::size_t>(effects::Effect::bearing_tilt)].mean_class_size, 2.0);
-  EXPECT_EQ(result.effects[static_cast<std::size_t>(effects::Effect::hysteresis)].answered_none, 1);
+  const auto of = [&](const std::string& effect) {
+    return *std::find_if(result.effects.begin(), result.effects.end(),
+                         [&](const auto& one) { return one.id == effect; });
+  };
+  EXPECT_EQ(of("bearing_tilt").mean_class_size, 2.0);
+  EXPECT_EQ(of("hysteresis").answered_none, 1);
   EXPECT_EQ(result.by_size[0].rate.trials, 1);
   EXPECT_EQ(result.by_size[3].rate.hits, 2);
 }
