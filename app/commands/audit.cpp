@@ -33,7 +33,8 @@ int auditCampaign(const CampaignSource& source, const Outlet& outlet) {
   audit::AuditReport report = audit::audit(prepared);
   const bool loaded = identification::whatLoadsLack(prepared.campaign).empty();
   // With a unit wrong nothing could be told apart, and the search would not settle for a minute.
-  if (loaded && !audit::findsTheImpossible(report)) audit::addSeparableEffects(designOf(prepared), report);
+  if (loaded && !audit::findsTheImpossible(report))
+    audit::addSeparableEffects(designOf(prepared), prepared.campaign.robot.rail.has_value(), report);
   outlet.deliver([&] { return reports::auditJson(prepared.campaign, report); },
                  [&] { return reports::auditText(prepared.campaign, report); });
   const bool usable =

@@ -179,7 +179,7 @@ struct Result {
     addScene();
     atWork("auditing " + folder);
     audited = arguments.raw ? audit::audit(prepared.campaign) : audit::audit(prepared);
-    if (diagnosis) audit::addSeparableEffects(*diagnosis, audited);
+    if (diagnosis) audit::addSeparableEffects(*diagnosis, campaign().robot.rail.has_value(), audited);
     withoutLoadReadings(prepared.campaign);
     if (improved) withoutLoadReadings(improved->campaign);
   }

@@ -60,7 +60,9 @@ FoundCampaign foundIn(const fs::path& folder, bool springs_only) {
   FoundCampaign found;
   found.campaign.folder = folder.string();
   found.campaign.machine = fleet::machineOf({}, {}, folder.string());
-  std::string key = fmt::format("stiffscope {} {}\n", STIFFSCOPE_VERSION, springs_only ? "springs" : "supported");
+  constexpr int kKept = 2;  // of what is kept of a campaign (reports::keptJson): one more where that changes
+  std::string key =
+      fmt::format("stiffscope {} {} {}\n", STIFFSCOPE_VERSION, kKept, springs_only ? "springs" : "supported");
   try {
     const std::string xml = io::readTextFile(folder / "campaign.xml", io::kLargestXml);
     key += io::sha256Hex(xml) + '\n';

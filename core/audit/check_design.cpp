@@ -94,7 +94,7 @@ std::vector<std::string> idsOf(const std::vector<effects::Effect>& effects) {
 
 }  // namespace
 
-void addSeparableEffects(const diagnosis::Diagnosis& diagnosis, AuditReport& report) {
+void addSeparableEffects(const diagnosis::Diagnosis& diagnosis, bool on_rail, AuditReport& report) {
   const auto check = std::find_if(report.checks.begin(), report.checks.end(),
                                   [](const preparation::AuditCheck& one) { return one.id == "posture_set"; });
   if (check == report.checks.end() || !diagnosis.usable) return;
@@ -108,8 +108,6 @@ void addSeparableEffects(const diagnosis::Diagnosis& diagnosis, AuditReport& rep
   for (const auto& group : diagnosis.aliases) {
     for (const effects::Effect effect : group) apart[static_cast<std::size_t>(effect)] = false;
   }
-  const bool on_rail = std::any_of(report.checks.begin(), report.checks.end(),
-                                   [](const preparation::AuditCheck& one) { return one.id == "rail_straight"; });
   std::vector<effects::Effect> told;
   for (std::size_t i = 0; i < effects::kEffectCount; ++i) {
     const auto effect = static_cast<effects::Effect>(i);

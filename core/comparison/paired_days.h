@@ -66,10 +66,10 @@ bool ofMachine(const calibration::EffectPart& part);
 
 /// Two calibrated days of one machine, each fitted again (geometry, base, reflectors, effects) so that what the fits
 /// differ by is the machine's change. Where half of the postures of the shorter day or more are in both, their common
-/// readings alone are fitted, of the machine's effects with the joints' compliances by own weight where the URDF has
-/// masses: what the model misses there cancels. Else effects of
-/// either day that are the machine's are fitted in both; a compliance that either day refuses is in neither, since two
-/// models would differ by more than the days do. Effects of time are each day's own.
+/// readings alone are fitted, where what the model misses cancels; of the machine's effects the joints' compliances by
+/// own weight take part, if the URDF has masses. Else effects of either day that are the machine's are fitted in both;
+/// a compliance that either day refuses is in neither, since two models would differ by more than the days do. Effects
+/// of time are each day's own.
 class PairedDays {
  public:
   explicit PairedDays(std::array<calibration::Calibration, 2> days);

@@ -184,8 +184,8 @@ double ComplianceSeries::detectableStep(int joint, std::size_t first, double lev
   if (!has(joint) || first == 0 || first >= days()) return kUnknown;
   const comparison::Uncertain step = contrast(joint, stepWeights(days(), 0, first, days()), {0, first});
   if (!(step.sd > 0.0) || !(step.dof > 0.0)) return kUnknown;
-  constexpr double kNineInTen = 1.2815515655;  // standard deviations
-  const double limit = numerics::studentLimit(level / static_cast<double>(days() - 1), step.dof) + kNineInTen;
+  const double nine_in_ten = numerics::normalLimit(2.0 * 0.1);
+  const double limit = numerics::studentLimit(level / static_cast<double>(days() - 1), step.dof) + nine_in_ten;
   double mean = 0.0;
   for (std::size_t t = 0; t < days(); ++t) mean += springs(t).compliance[joint] / static_cast<double>(days());
   return mean > 0.0 ? limit * step.sd / mean : kUnknown;

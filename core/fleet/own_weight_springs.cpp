@@ -6,7 +6,6 @@
 
 #include "core/comparison/paired_days.h"
 #include "core/identification/estimate.h"
-#include "metrology/linear_algebra.h"
 
 namespace stiffscope::fleet {
 
@@ -22,14 +21,6 @@ calibration::ArmFit fitOfAllJoints(const calibration::Calibration& calibration) 
   const calibration::ArmFit& geometry = calibration.geometry().fit;
   return calibration::fitArm(calibration.day, geometry.place, parts,
                              {.robust = false, .weights = calibration.best().fit.weights}, &geometry);
-}
-
-/// (I - H)^-1/2 of the equations of one posture.
-Eigen::MatrixXd rootOfRest(const Eigen::MatrixXd& h) {
-  const SymmetricEigen own = symmetricEigen(h);
-  constexpr double kMost = 0.95;  // a posture that alone determines a combination has no residual to correct
-  const Eigen::VectorXd root = (1.0 - own.values.array().min(kMost)).rsqrt();
-  return own.vectors * root.asDiagonal() * own.vectors.transpose();
 }
 
 }  // namespace
@@ -63,7 +54,7 @@ SpringsOfDay ownWeightSprings(const calibration::Calibration& calibration) {
     const auto at = static_cast<std::size_t>(p);
     const Eigen::MatrixXd& rows = fitted.equations[at].by_parameters;
     const Eigen::MatrixXd gain = rows * fitted.normal_inverse;
-    const Eigen::MatrixXd root = rootOfRest(gain * rows.transpose());
+    const Eigen::MatrixXd root = identification::inverseRootOfRest(gain * rows.transpose());
     for (std::size_t k = 0; k < joints.size(); ++k) {
       const Eigen::VectorXd along = root * gain.col(columns[k]);
       springs.influences[fitted.postures[at]][joints[k]] = along.dot(fitted.equations[at].residual);

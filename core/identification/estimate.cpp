@@ -151,9 +151,8 @@ double matchedDof(const InfluenceCovariance& covariance) {
 
 namespace {
 
-/// (I - G)^-1/2 of a symmetric G with eigenvalues in 0 .. 1, a thousand postures' as well as two's.
 template <class Matrix>
-Matrix inverseRootOfRest(const Matrix& g) {
+Matrix rootOfRest(const Matrix& g) {
   // With many postures G is small: by the series sum (2k)! / (4^k k!^2) G^k, the rest of which is below 1e-16.
   constexpr double kSmall = 0.006;
   if (g.trace() < kSmall) {
@@ -167,16 +166,18 @@ Matrix inverseRootOfRest(const Matrix& g) {
   }
   const SymmetricEigen own = symmetricEigen(g);
   constexpr double kMost = 0.95;  // a posture that alone determines a combination has no residual to correct
-  const JointVector root = (1.0 - own.values.array().min(kMost)).rsqrt();
+  const Eigen::VectorXd root = (1.0 - own.values.array().min(kMost)).rsqrt();
   return own.vectors * root.asDiagonal() * own.vectors.transpose();
 }
 
 template <class Matrix>
 Matrix gainOf(const Matrix& whiten, const Matrix& own) {
-  return whiten.transpose() * inverseRootOfRest<Matrix>(whiten * own * whiten.transpose()) * whiten;
+  return whiten.transpose() * rootOfRest<Matrix>(whiten * own * whiten.transpose()) * whiten;
 }
 
 }  // namespace
+
+Eigen::MatrixXd inverseRootOfRest(const Eigen::MatrixXd& g) { return rootOfRest(g); }
 
 PostureGains::PostureGains(const NormalEquations& sum, const robot::JointMask& unknown) {
   const ScaledNormal scaled = scaledNormal(sum.matrix, unknown);

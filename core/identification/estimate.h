@@ -184,6 +184,10 @@ InfluenceCovariance influenceCovariance(const std::vector<PostureGain>& gains,
 /// the second moment matters.
 double matchedDof(const InfluenceCovariance& covariance);
 
+/// (I - G)^-1/2 of a symmetric G with eigenvalues in 0 .. 1, a thousand postures' as well as two's: what a residual of
+/// equations that are part of the fit is multiplied by, G their hat matrix.
+Eigen::MatrixXd inverseRootOfRest(const Eigen::MatrixXd& g);
+
 /// Coverage of the intervals that reports state.
 inline constexpr double kStatedCoverage = 0.95;
 /// Coverage factor of a normal number at that coverage.

@@ -38,12 +38,10 @@ std::optional<RailCourse> fitRailCourse(const campaign::Campaign& campaign,
 
 /// Refers the arm's readings to the carriage at zero: p - r d, in the tracker's frame by the course that was measured,
 /// in base_link's by the URDF's direction. Without a course (checkCampaign has then seen that the carriage stood still)
-/// readings in the tracker's frame stay as they are. Where the instrument stood (`from`) goes with
-/// the point, so that its noise stays that of the sight. The rows' `rail` is 0 afterwards, `carriage`
-/// what it was, and
-/// poses that the controller states are dropped where the carriage went from one posture to another: nothing says
-/// whether they count it in. Nests and the rail sweep itself
-/// are left. For a robot without a rail nothing happens.
+/// readings in the tracker's frame stay as they are. Where the instrument stood (`from`) goes with the point,
+/// so that its noise stays that of the sight. The rows' `rail` is 0 afterwards, `carriage` what it was, and poses that
+/// the controller states are dropped where the carriage went from one posture to another: nothing says whether they
+/// count it in. Nests and the rail sweep itself are left. For a robot without a rail nothing happens.
 void referToCarriageAtZero(const std::optional<RailCourse>& course, campaign::Campaign& campaign);
 
 }  // namespace stiffscope::preparation

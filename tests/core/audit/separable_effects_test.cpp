@@ -22,7 +22,7 @@ TEST(SeparableEffects, AreAddedToThePostureSet) {
   diagnosis.aliases = {{effects::Effect::bearing_tilt, effects::Effect::link_compliance}};
   diagnosis.not_testable = {{effects::Effect::hysteresis, Remark(effects::RemarkId::hysteresis_needs_return_to_zero)}};
   audit::AuditReport report = withPostureSet();
-  audit::addSeparableEffects(diagnosis, report);
+  audit::addSeparableEffects(diagnosis, false, report);
   const auto& details = report.checks[0].details;
   ASSERT_EQ(details.size(), 3u);
   const std::string apart = reports::words(details[0]);
@@ -36,7 +36,7 @@ TEST(SeparableEffects, AreAddedToThePostureSet) {
 
 TEST(SeparableEffects, NothingWithoutADiagnosis) {
   audit::AuditReport report = withPostureSet();
-  audit::addSeparableEffects(diagnosis::Diagnosis{}, report);
+  audit::addSeparableEffects(diagnosis::Diagnosis{}, false, report);
   EXPECT_TRUE(report.checks[0].details.empty());
 }
 
