@@ -68,17 +68,17 @@ ReadFrom readFrom(const std::vector<ReadFrom>& all, std::size_t reading) {
 
 /// The station between two rounds of the nests, where it was interpolated: one rigid motion of all
 /// reflectors in a state, a Brownian bridge over time. Postures share it; that is left out.
-void addWander(const SystemInput& input, const GapPosture& posture, const Eigen::Isometry3d& r0_from_points,
-               Eigen::MatrixXd& covariance) {
+void addWander(const SystemInput& input, const effects::LinearizationPoint& at, const GapPosture& posture,
+               const Eigen::Isometry3d& r0_from_points, Eigen::MatrixXd& covariance) {
   if (input.wandering == nullptr || input.wandering->wander.isZero()) return;
   const preparation::StationMotion& station = input.wandering->motion;
   const effects::ArmState& rest = posture.states.front();
-  const Eigen::Vector3d centre = r0_from_points * station.centre;
+  const Eigen::Vector3d pivot = r0_from_points * station.centre - at.travelOf(rest);
   Eigen::MatrixXd motion(rest.rows(), 6);
   for (int k = 0; k < 3; ++k) {
     const Eigen::Vector3d axis = r0_from_points.linear().col(k);
-    motion.col(k) = effects::byMotion(rest, centre, axis, Eigen::Vector3d::Zero());
-    motion.col(3 + k) = effects::byMotion(rest, centre, Eigen::Vector3d::Zero(), axis);
+    motion.col(k) = effects::byMotion(rest, pivot, axis, Eigen::Vector3d::Zero());
+    motion.col(3 + k) = effects::byMotion(rest, pivot, Eigen::Vector3d::Zero(), axis);
   }
   const Eigen::MatrixXd a_second = propagated(motion, input.wandering->wander);
   const auto bridge = [&](std::size_t s, std::size_t r) {
@@ -165,7 +165,7 @@ GapCovariance gapCovariance(const SystemInput& input, const SystemState& state, 
     covariance.block(at_rest + s * per_state, at_rest + s * per_state, per_state, per_state) +=
         by_wrench * variances.asDiagonal() * by_wrench.transpose();
   }
-  addWander(input, posture, r0_from_points, covariance);
+  addWander(input, state.at, posture, r0_from_points, covariance);
   addCarriage(input, posture, r0_from_points, covariance);
   result.by_measuring = covariance;
   addModelError(state, posture, covariance);

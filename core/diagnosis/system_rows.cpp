@@ -129,7 +129,8 @@ class LoadingRowMaker {
     rest.pose = pose;
     rest.targets = targets;
     rest.time_s = timeOf(pose, 0);
-    for (const int target : targets) rest.points.push_back(moveOf(cases.front(), target).unloaded);
+    const Eigen::Vector3d turned = ofTurnedTravel(rest);
+    for (const int target : targets) rest.points.push_back(moveOf(cases.front(), target).unloaded + turned);
     if (cases.front().flange_unloaded) rest.flange = *cases.front().flange_unloaded;
     rows.unloaded_readings = std::max(1, cases.front().targets.front().unloaded_readings);
     rows.loaded_readings = std::max(1, cases.front().targets.front().loaded_readings);
@@ -156,6 +157,13 @@ class LoadingRowMaker {
       }
     }
     return rows;
+  }
+
+  /// On a rail the motion that frame_error takes off turns the points where they were read, about a centre there; that
+  /// of the geometry turns them as referred to the carriage at zero. What lies between.
+  Eigen::Vector3d ofTurnedTravel(const effects::ArmState& rest) const {
+    const Eigen::Matrix3d turn = metrology::motionAbout(at_.epoch_centre, corrections_.frame).linear();
+    return turn.transpose() * at_.travelFromMean(rest) - at_.travelFromMean(rest);
   }
 
   void addState(const identification::LoadCase& one, const effects::ArmState& rest, const Unloaded& unloaded,

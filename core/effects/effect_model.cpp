@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <cmath>
 
 namespace stiffscope::effects {
 
@@ -11,6 +12,26 @@ bool LinearizationPoint::jointsTurn() const {
 
 bool LinearizationPoint::bodiesMove() const {
   return std::any_of(present.begin(), present.end(), [](const PresentEffect& one) { return one.model->twists; });
+}
+
+Eigen::Vector3d LinearizationPoint::travelOf(const ArmState& state) const {
+  if (std::isnan(state.carriage)) return Eigen::Vector3d::Zero();
+  return r0_from_base_link.linear() * (state.carriage * rail_in_base);
+}
+
+Eigen::Vector3d LinearizationPoint::travelFromMean(const ArmState& state) const {
+  if (std::isnan(state.carriage)) return Eigen::Vector3d::Zero();
+  return r0_from_base_link.linear() * ((state.carriage - rail.mean) * rail_in_base);
+}
+
+Eigen::MatrixXd LinearizationPoint::byMovedInstrument(const ArmState& state) const {
+  Eigen::MatrixXd columns(state.rows(), 6);
+  const Eigen::Vector3d pivot = epoch_centre - travelFromMean(state), none = Eigen::Vector3d::Zero();
+  for (int k = 0; k < 3; ++k) {
+    columns.col(k) = byMotion(state, pivot, Eigen::Vector3d::Unit(k), none);
+    columns.col(3 + k) = byMotion(state, pivot, none, Eigen::Vector3d::Unit(k));
+  }
+  return columns;
 }
 
 Eigen::MatrixXd EffectModel::columns(const LinearizationPoint& at, const PostureStates& posture,

@@ -56,6 +56,15 @@ struct LinearizationPoint {
   Eigen::Vector3d rail_in_base = Eigen::Vector3d::Zero();  ///< direction of an arm's rail; zero: it stands on none
   RailTravel rail;                                         ///< of an arm on one
 
+  /// From the carriage at zero, to which the points of a state are referred, to where it stood when they were read, in
+  /// R0, m. Zero for an arm on no rail, and where nothing says where the carriage stood.
+  Eigen::Vector3d travelOf(const ArmState& state) const;
+  /// The same from the mean of the day's positions.
+  Eigen::Vector3d travelFromMean(const ArmState& state) const;
+  /// Columns for a small rigid motion of all readings, rotations about x, y, z of R0 (rad) and then shifts (m): that of
+  /// the instrument, or of robot and rail. It turns the points where they were read, about the middle of the day's.
+  Eigen::MatrixXd byMovedInstrument(const ArmState& state) const;
+
   LinearizationPoint() = default;  ///< of no machine yet
   /// Of a machine of so many joints, rigid and without effects.
   explicit LinearizationPoint(int joints)
@@ -77,7 +86,7 @@ struct Corrections {
   Eigen::Vector3d cell_turn = Eigen::Vector3d::Zero();   ///< rad, about the cell's axes
   Eigen::Vector3d cell_force = Eigen::Vector3d::Zero();  ///< N, in the cell's axes, in loaded states
   double missing_weight = 0.0;                           ///< N, along gravity, in loaded states
-  Vector6d frame = Vector6d::Zero();                     ///< shift of the loading's readings, as frame_error has it
+  Vector6d frame = Vector6d::Zero();                     ///< motion of the loading's readings, as frame_error has it
 };
 
 /// Parameters of an effect that come or stay away together: one joint's, one pair's, one reflector's.

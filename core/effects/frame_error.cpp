@@ -10,13 +10,7 @@ namespace {
 
 Eigen::MatrixXd frameErrorOffset(const LinearizationPoint& at, const PostureStates& posture, std::size_t i) {
   const ArmState& state = posture[i];
-  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(state.rows(), 6);
-  if (state.pose < 0) return columns;
-  for (int k = 0; k < 3; ++k) {
-    columns.col(k) = byMotion(state, at.epoch_centre, Eigen::Vector3d::Unit(k), Eigen::Vector3d::Zero());
-    columns.col(3 + k) = byMotion(state, at.epoch_centre, Eigen::Vector3d::Zero(), Eigen::Vector3d::Unit(k));
-  }
-  return columns;
+  return state.pose < 0 ? Eigen::MatrixXd::Zero(state.rows(), 6) : at.byMovedInstrument(state);
 }
 
 void frameErrorCorrect(const JointVector&, LinearizationPoint&, Corrections& corrections, Eigen::VectorXd& own) {

@@ -11,14 +11,8 @@ namespace {
 
 Eigen::MatrixXd trackerDriftOffset(const LinearizationPoint& at, const PostureStates& posture, std::size_t i) {
   const ArmState& state = posture[i];
-  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(state.rows(), 6);
-  if (!std::isfinite(state.time_s)) return columns;
-  const double since = (state.time_s - at.sweep_time) / at.time_span;
-  for (int k = 0; k < 3; ++k) {
-    columns.col(k) = since * byMotion(state, at.epoch_centre, Eigen::Vector3d::Unit(k), Eigen::Vector3d::Zero());
-    columns.col(3 + k) = since * byMotion(state, at.epoch_centre, Eigen::Vector3d::Zero(), Eigen::Vector3d::Unit(k));
-  }
-  return columns;
+  if (!std::isfinite(state.time_s)) return Eigen::MatrixXd::Zero(state.rows(), 6);
+  return (state.time_s - at.sweep_time) / at.time_span * at.byMovedInstrument(state);
 }
 
 Remark trackerDriftMissing(const CampaignContents& has) {

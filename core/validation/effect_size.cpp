@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "core/simulation/carriage.h"
 #include "core/simulation/rotation.h"
 #include "core/validation/noise_free.h"
 
@@ -16,35 +17,41 @@ using Eigen::Index;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// Calls use(q, target, point, readings averaged) for every unloaded reading: sweeps, wrist sweep, then step
-/// 0.
+/// Calls use(row of table or state, target, point, readings averaged) for every unloaded reading: sweeps, wrist sweep,
+/// then step 0. The row has `q` and `rail`.
 template <class Use>
 Index forUnloaded(const campaign::Campaign& campaign, const Use& use) {
   Index before_loading = 0;
   if (campaign.circle_sweeps) {
-    for (const campaign::CircleReading& one : campaign.circle_sweeps->rows) use(one.q, one.target, one.point, 1);
+    for (const campaign::CircleReading& one : campaign.circle_sweeps->rows) use(one, one.target, one.point, 1);
     before_loading += static_cast<Index>(campaign.circle_sweeps->rows.size());
   }
   if (campaign.wrist_sweep) {
-    for (const campaign::WristReading& one : campaign.wrist_sweep->rows) use(one.q, one.target, one.point, 1);
+    for (const campaign::WristReading& one : campaign.wrist_sweep->rows) use(one, one.target, one.point, 1);
     before_loading += static_cast<Index>(campaign.wrist_sweep->rows.size());
   }
-  std::map<int, JointVector> angles;
+  std::map<int, const campaign::State*> unloaded;
   for (const campaign::State& state : campaign.states->rows) {
-    if (state.step == 0) angles[state.pose] = state.q;
+    if (state.step == 0) unloaded[state.pose] = &state;
   }
   for (const auto& [key, mean] : stateMeans(campaign)) {
-    if (key[1] == 0) use(angles.at(key[0]), key[2], mean.value(), mean.count);
+    if (key[1] == 0) use(*unloaded.at(key[0]), key[2], mean.value(), mean.count);
   }
   return before_loading;
 }
 
 VectorXd unloadedPoints(const campaign::Campaign& campaign) {
   std::vector<double> values;
-  forUnloaded(campaign, [&](const JointVector&, int, const Vector3d& point, int) {
+  forUnloaded(campaign, [&](const auto&, int, const Vector3d& point, int) {
     values.insert(values.end(), point.data(), point.data() + 3);
   });
   return Eigen::Map<const VectorXd>(values.data(), static_cast<Index>(values.size()));
+}
+
+/// By how much the carriage of a rail stands elsewhere than reported: rms per coordinate of what its stops miss along
+/// the rail and its waves of this amplitude across it in two directions, m.
+double carriageError(const simulation::RailSpec& rail) {
+  return std::sqrt((rail.stop_sigma * rail.stop_sigma + rail.straightness * rail.straightness) / 3.0);
 }
 
 }  // namespace
@@ -55,6 +62,10 @@ EffectSizer::EffectSizer(const simulation::SimulationSpec& clean)
       true_noise_factor_(clean.tracker.true_noise_factor),
       geometry_(simulation::rigidGeometry(simulation::buildMachine(clean))),
       reference_(withoutScatter(clean)) {
+  if (clean.nominal.rail) {
+    rail_in_base_ = simulation::railAxes(clean).col(0);
+    carriage_error_ = carriageError(clean.rail);
+  }
   compliance_.resize(geometry_.joints());
   for (Index i = 0; i < compliance_.size(); ++i) {
     compliance_[i] = 1.0 / clean.machine.joints[static_cast<std::size_t>(i)].torsion.value();
@@ -102,8 +113,9 @@ EffectSizer::Deflections EffectSizer::deflections(const campaign::Campaign& camp
     const Eigen::Isometry3d cell = arm.flange * campaign.load_cell->parent_from_cell;
     const Vector3d force = cell.linear() * state.wrench_in_cell.head<3>();
     const Vector3d moment = cell.linear() * state.wrench_in_cell.tail<3>();
-    // The point in base_link as the rigid arm would have it: what the reference's station saw.
-    const Vector3d point = base_from_tracker_ * (zero - reference_.tracker->station) + station_in_base_;
+    // The point in base_link as the rigid arm would have it, its carriage at zero: what the reference's station saw.
+    const Vector3d point =
+        base_from_tracker_ * (zero - reference_.tracker->station) + station_in_base_ - travel(state.rail);
     const auto axes = static_cast<Index>(arm.axes.size());
     Eigen::Matrix3Xd moves(3, axes);
     VectorXd torques(axes);
@@ -119,6 +131,10 @@ EffectSizer::Deflections EffectSizer::deflections(const campaign::Campaign& camp
     row += 3;
   }
   return all;
+}
+
+Vector3d EffectSizer::travel(double carriage) const {
+  return std::isnan(carriage) ? Vector3d::Zero() : Vector3d(carriage * rail_in_base_);
 }
 
 std::vector<Index> EffectSizer::identifiableBy(const Deflections& of) const {
@@ -171,13 +187,14 @@ void EffectSizer::designPositions() {
   Eigen::MatrixXd design = Eigen::MatrixXd::Zero(unloaded_.size(), 6 + 3 * targets);
   Index row = 0;
   const Index before =
-      forUnloaded(reference_, [&](const JointVector& q, int target, const Vector3d& point, int readings) {
+      forUnloaded(reference_, [&](const auto& at, int target, const Vector3d& point, int readings) {
         const Vector3d sigma = sigmaAt(*reference_.tracker, point) / std::sqrt(readings);
         // One sigma for all three directions will do for what is a nuisance.
         unloaded_sigma_.segment<3>(row).setConstant(std::sqrt(sigma.squaredNorm() / 3.0));
         design.block<3, 3>(row, 0).setIdentity();
-        design.block<3, 3>(row, 3) = -simulation::skew(point);
-        design.block<3, 3>(row, 6 + 3 * target) = base_from_tracker_.transpose() * armAt(geometry_, q).flange.linear();
+        design.block<3, 3>(row, 3) = -simulation::skew(point - base_from_tracker_.transpose() * travel(at.rail));
+        design.block<3, 3>(row, 6 + 3 * target) =
+            base_from_tracker_.transpose() * armAt(geometry_, at.q).flange.linear();
         row += 3;
       });
   first_of_step_0_ = 3 * before;
@@ -208,7 +225,7 @@ EffectSize EffectSizer::measure(const simulation::SimulationSpec& with) const {
   size.shrink_seen = 1.0 - std::hypot(rms_after, noise) / std::hypot(rms_before, noise);
   const double moved = positionsLeft(unloadedPoints(campaign) - unloaded_);
   size.nests = moved / position_noise_;
-  size.positions = moved / std::hypot(position_noise_, geometry_background_);
+  size.positions = moved / std::hypot(position_noise_, geometry_background_, carriage_error_);
   return size;
 }
 

@@ -23,8 +23,10 @@ namespace stiffscope::validation {
 /// Positions. The difference of all unloaded readings (sweeps, wrist sweep, step 0), less one common rigid
 /// motion and a shift of each target on the flange, which any analysis is free to fit: `positions` is the rms
 /// of step 0's part over the noise of one state's position (repeats averaged) and, `nests` aside, the clean
-/// machine's own departures from the nominal geometry, found in the same way. What nests see is judged
-/// without those, because nests have none.
+/// machine's own departures from the nominal geometry, found in the same way, and where its carriage stands elsewhere
+/// than a rail reports. What nests see is judged without those, because nests have none.
+///
+/// Of an arm on a rail points are those with the carriage at zero, by the positions that are reported.
 struct EffectSize {
   double deflection = 0.0;
   double positions = 0.0;
@@ -63,10 +65,13 @@ class EffectSizer {
   double whitened(const Eigen::VectorXd& residual) const;         ///< rms
   double positionsLeft(const Eigen::VectorXd& difference) const;  ///< m
   void designPositions();
+  /// What a carriage's reported position moves the arm by, in base_link, m; of an arm on no rail nothing.
+  Eigen::Vector3d travel(double carriage) const;
 
   std::vector<Eigen::Index> pose_ends_;  ///< rows of the deflections, past the last of each pose
   Eigen::Matrix3d base_from_tracker_;
   Eigen::Vector3d station_in_base_;
+  Eigen::Vector3d rail_in_base_ = Eigen::Vector3d::Zero();
   double true_noise_factor_ = 1.0;
   robot::Robot geometry_;  ///< true and rigid
   JointVector compliance_;
@@ -78,6 +83,7 @@ class EffectSizer {
   Eigen::Index first_of_step_0_ = 0;
   Eigen::HouseholderQR<Eigen::MatrixXd> nuisances_;  ///< whitened
   double position_noise_ = 0.0, geometry_background_ = 0.0, background_ = 0.0;
+  double carriage_error_ = 0.0;  ///< m
 };
 
 /// How large an effect is on a day without a load, found by measuring the same machine with and without it, without
