@@ -73,7 +73,7 @@ void addWander(const SystemInput& input, const effects::LinearizationPoint& at, 
   if (input.wandering == nullptr || input.wandering->wander.isZero()) return;
   const preparation::StationMotion& station = input.wandering->motion;
   const effects::ArmState& rest = posture.states.front();
-  const Eigen::Vector3d pivot = r0_from_points * station.centre - at.travelOf(rest);
+  const Eigen::Vector3d pivot = r0_from_points * station.centre - at.travelOf(rest.carriage);
   Eigen::MatrixXd motion(rest.rows(), 6);
   for (int k = 0; k < 3; ++k) {
     const Eigen::Vector3d axis = r0_from_points.linear().col(k);

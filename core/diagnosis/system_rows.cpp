@@ -129,8 +129,10 @@ class LoadingRowMaker {
     rest.pose = pose;
     rest.targets = targets;
     rest.time_s = timeOf(pose, 0);
-    const Eigen::Vector3d turned = ofTurnedTravel(rest);
-    for (const int target : targets) rest.points.push_back(moveOf(cases.front(), target).unloaded + turned);
+    // The geometry's readings are without the moved instrument's motion as at the mean position of a rail's carriage.
+    const Eigen::Isometry3d here = at_.withoutMovedInstrument(corrections_.frame, rest.carriage) *
+                                   at_.withoutMovedInstrument(corrections_.frame).inverse();
+    for (const int target : targets) rest.points.push_back(here * moveOf(cases.front(), target).unloaded);
     if (cases.front().flange_unloaded) rest.flange = *cases.front().flange_unloaded;
     rows.unloaded_readings = std::max(1, cases.front().targets.front().unloaded_readings);
     rows.loaded_readings = std::max(1, cases.front().targets.front().loaded_readings);
@@ -157,13 +159,6 @@ class LoadingRowMaker {
       }
     }
     return rows;
-  }
-
-  /// On a rail the motion that frame_error takes off turns the points where they were read, about a centre there; that
-  /// of the geometry turns them as referred to the carriage at zero. What lies between.
-  Eigen::Vector3d ofTurnedTravel(const effects::ArmState& rest) const {
-    const Eigen::Matrix3d turn = metrology::motionAbout(at_.epoch_centre, corrections_.frame).linear();
-    return turn.transpose() * at_.travelFromMean(rest) - at_.travelFromMean(rest);
   }
 
   void addState(const identification::LoadCase& one, const effects::ArmState& rest, const Unloaded& unloaded,
@@ -252,8 +247,7 @@ std::vector<SystemRows> LoadingRows::rows(const frames::LoadingGeometry& geometr
                                           std::size_t end) const {
   frames::LoadingGeometry shifted = geometry;
   if (shifted.r0_from_loading) {
-    shifted.r0_from_loading =
-        metrology::motionAbout(at.epoch_centre, corrections.frame).inverse() * *geometry.r0_from_loading;
+    shifted.r0_from_loading = at.withoutMovedInstrument(corrections.frame) * *geometry.r0_from_loading;
   }
   return LoadingRowMaker(campaign_, shifted, at, corrections, readings_, states_).run(first, end);
 }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "metrology/rigid_motion.h"
+
 namespace stiffscope::effects {
 
 bool LinearizationPoint::jointsTurn() const {
@@ -14,24 +16,30 @@ bool LinearizationPoint::bodiesMove() const {
   return std::any_of(present.begin(), present.end(), [](const PresentEffect& one) { return one.model->twists; });
 }
 
-Eigen::Vector3d LinearizationPoint::travelOf(const ArmState& state) const {
-  if (std::isnan(state.carriage)) return Eigen::Vector3d::Zero();
-  return r0_from_base_link.linear() * (state.carriage * rail_in_base);
+Eigen::Vector3d LinearizationPoint::travelOf(double carriage) const {
+  if (std::isnan(carriage)) return Eigen::Vector3d::Zero();
+  return r0_from_base_link.linear() * (carriage * rail_in_base);
 }
 
-Eigen::Vector3d LinearizationPoint::travelFromMean(const ArmState& state) const {
-  if (std::isnan(state.carriage)) return Eigen::Vector3d::Zero();
-  return r0_from_base_link.linear() * ((state.carriage - rail.mean) * rail_in_base);
+Eigen::Vector3d LinearizationPoint::travelFromMean(double carriage) const {
+  return travelOf(carriage - rail.mean);
 }
 
 Eigen::MatrixXd LinearizationPoint::byMovedInstrument(const ArmState& state) const {
   Eigen::MatrixXd columns(state.rows(), 6);
-  const Eigen::Vector3d pivot = epoch_centre - travelFromMean(state), none = Eigen::Vector3d::Zero();
+  const Eigen::Vector3d pivot = epoch_centre - travelFromMean(state.carriage), none = Eigen::Vector3d::Zero();
   for (int k = 0; k < 3; ++k) {
     columns.col(k) = byMotion(state, pivot, Eigen::Vector3d::Unit(k), none);
     columns.col(3 + k) = byMotion(state, pivot, none, Eigen::Vector3d::Unit(k));
   }
   return columns;
+}
+
+Eigen::Isometry3d LinearizationPoint::withoutMovedInstrument(const Vector6d& motion, double carriage) const {
+  // The motion turned the points where they were read; travel is what lies between there and where they are referred to.
+  const Eigen::Vector3d travel = travelFromMean(carriage);
+  return Eigen::Translation3d(-travel) * metrology::motionAbout(epoch_centre, motion).inverse() *
+         Eigen::Translation3d(travel);
 }
 
 Eigen::MatrixXd EffectModel::columns(const LinearizationPoint& at, const PostureStates& posture,

@@ -56,14 +56,16 @@ struct LinearizationPoint {
   Eigen::Vector3d rail_in_base = Eigen::Vector3d::Zero();  ///< direction of an arm's rail; zero: it stands on none
   RailTravel rail;                                         ///< of an arm on one
 
-  /// From the carriage at zero, to which the points of a state are referred, to where it stood when they were read, in
-  /// R0, m. Zero for an arm on no rail, and where nothing says where the carriage stood.
-  Eigen::Vector3d travelOf(const ArmState& state) const;
+  /// From the carriage at zero, to which points are referred, to where it stood when they were read, in R0, m. Zero for
+  /// an arm on no rail, and where nothing says where the carriage stood.
+  Eigen::Vector3d travelOf(double carriage) const;
   /// The same from the mean of the day's positions.
-  Eigen::Vector3d travelFromMean(const ArmState& state) const;
+  Eigen::Vector3d travelFromMean(double carriage) const;
   /// Columns for a small rigid motion of all readings, rotations about x, y, z of R0 (rad) and then shifts (m): that of
   /// the instrument, or of robot and rail. It turns the points where they were read, about the middle of the day's.
   Eigen::MatrixXd byMovedInstrument(const ArmState& state) const;
+  /// Takes such a motion off: what becomes of points of R0 that are referred to the carriage at zero.
+  Eigen::Isometry3d withoutMovedInstrument(const Vector6d& motion, double carriage = campaign::kNotGiven) const;
 
   LinearizationPoint() = default;  ///< of no machine yet
   /// Of a machine of so many joints, rigid and without effects.

@@ -16,7 +16,6 @@
 #include "core/identification/outliers.h"
 #include "core/io/input_error.h"
 #include "core/numerics/parallel.h"
-#include "metrology/rigid_motion.h"
 
 namespace stiffscope::extended_model {
 
@@ -112,13 +111,16 @@ class Shifter {
     };
     const Eigen::Isometry3d r0_from_loading = state_.geometry.r0_from_loading.value_or(Eigen::Isometry3d::Identity());
     const Eigen::Isometry3d loading_from_r0 = r0_from_loading.inverse();
-    const Eigen::Isometry3d corrected =
-        metrology::motionAbout(state_.at.epoch_centre, frame_).inverse() * r0_from_loading;
+    std::map<int, Eigen::Isometry3d> by_pose;
+    for (const campaign::State& row : states.rows)
+      by_pose.emplace(row.pose, state_.at.withoutMovedInstrument(frame_, row.carriage) * r0_from_loading);
+    const auto corrected = [&](const campaign::LoadingReading& row) -> Eigen::Vector3d {
+      return by_pose.at(row.pose) * row.point;
+    };
     const Offsets offsets(effects_, unloadedPlaces(table, corrected), statesOf);
     numerics::smallWorkOnAllCores(table.rows.size(), [&](std::size_t i) {
       campaign::LoadingReading& row = table.rows[i];
-      const Eigen::Vector3d point = corrected * row.point;
-      row.point = loading_from_r0 * (point - offsets.of(row.pose, row.step, row.target));
+      row.point = loading_from_r0 * (corrected(row) - offsets.of(row.pose, row.step, row.target));
     });
   }
 
@@ -213,11 +215,12 @@ class Shifter {
   }
 
   /// Where reflectors stand in step 0 (mean of its readings), else wherever they were read.
-  static Places unloadedPlaces(const campaign::Loading& table, const Eigen::Isometry3d& r0_from_loading) {
+  template <class InR0>
+  static Places unloadedPlaces(const campaign::Loading& table, const InR0& in_r0) {
     Places at_rest, else_where;
     for (const campaign::LoadingReading& row : table.rows) {
       Sum& sum = (row.step == 0 ? at_rest : else_where)[row.pose][row.target];
-      sum.sum += r0_from_loading * row.point, ++sum.count;
+      sum.sum += in_r0(row), ++sum.count;
     }
     for (auto& [pose, by_target] : else_where) at_rest[pose].merge(by_target);
     return at_rest;

@@ -6,6 +6,8 @@
 #include <string>
 #include "core/audit/audit.h"
 #include "core/diagnosis/diagnose.h"
+#include "core/extended_model/effect_fit.h"
+#include "core/extended_model/extend_model.h"
 #include "core/identification/identify.h"
 #include "core/preparation/prepare.h"
 #include "core/simulation/equilibrium.h"
@@ -194,6 +196,47 @@ TEST(RailDay, ARailThatBendsIsNamedAndNoOtherDayIsBlamedForIt) {
   EXPECT_EQ(named_bending, 4);
   EXPECT_EQ(named_clean, 0);
   EXPECT_EQ(named_base, 0);
+}
+
+/// The tracker turned between sweeps and loading: each point turns where it was read, metres from where readings are
+/// referred to.
+campaign::Campaign withTurnedTracker(campaign::Campaign day) {
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(3e-4, Eigen::Vector3d(0.2, -0.5, 1.0).normalized()).toRotationMatrix();
+  for (campaign::LoadingReading& row : day.loading->rows) row.point = turn * row.point;
+  return day;
+}
+
+// Named alone, and the positions are as good as the stops (20 um) and the rail's waves (40 um) are.
+TEST(RailDay, ATurnedTrackerIsNamed) {
+  for (std::uint64_t seed = 80; seed < 83; ++seed) {
+    const diagnosis::Diagnosis found = diagnosis::diagnose(withTurnedTracker(simulation::simulate(noisySpec(seed))));
+    ASSERT_EQ(found.verdict.entries.size(), 1U) << seed;
+    EXPECT_EQ(found.verdict.entries[0].effects, std::vector{effects::Effect::frame_error}) << seed;
+    EXPECT_GT(found.positions.before, 1.5e-4) << seed;
+    EXPECT_LT(found.positions.after, 4e-5) << seed;
+  }
+}
+
+// With it in the model, readings are those of a tracker that did not turn: what is left is what nineteen postures know
+// of its motion.
+TEST(RailDay, ATurnedTrackerIsTakenOffTheReadings) {
+  const campaign::Campaign day = simulation::simulate(noisySpec(84));
+  const preparation::PreparedCampaign still = preparation::prepareCampaign(day),
+                                      turned = preparation::prepareCampaign(withTurnedTracker(day));
+  const extended_model::EffectFit fit =
+      extended_model::fitEffects(turned, extended_model::requestedEffects({"frame_error"}, turned.campaign));
+  std::vector<identification::LeftOutPosture> left_out;
+  const campaign::Campaign corrected = extended_model::correctedFor(fit, turned.campaign, left_out);
+  ASSERT_EQ(corrected.loading->rows.size(), still.campaign.loading->rows.size());
+  double before = 0.0, after = 0.0;
+  for (std::size_t i = 0; i < corrected.loading->rows.size(); ++i) {
+    const Eigen::Vector3d& truth = still.campaign.loading->rows[i].point;
+    before = std::max(before, (turned.campaign.loading->rows[i].point - truth).norm());
+    after = std::max(after, (corrected.loading->rows[i].point - truth).norm());
+  }
+  EXPECT_GT(before, 5e-4);
+  EXPECT_LT(after, 6e-5);
 }
 
 TEST(RailDay, TwoPositionsAreTooFewToTellItsBending) {
