@@ -54,6 +54,12 @@ robot::Wrench corrected(const robot::Wrench& read, const effects::ArmState& stat
   return wrench;
 }
 
+/// Whether readings say where the instrument stood: several stations, or one that a rail's arm sees from elsewhere with
+/// the carriage at zero.
+bool saysStandpoints(const campaign::Campaign& campaign) {
+  return !campaign.stations.empty() || campaign.robot.rail.has_value();
+}
+
 /// Of a reading of `point` from a station; both points in R0.
 ReadFrom standpoint(const campaign::Campaign& campaign, const Eigen::Isometry3d& r0_from_points, int station,
                     const Eigen::Vector3d& from, const Eigen::Vector3d& point) {
@@ -151,7 +157,7 @@ class LoadingRowMaker {
     }
     rows.states.front().cell_axes = rows.states[1].cell_axes;
     if (cases.front().absolute) addPosition(rest, rows);
-    if (!campaign_.stations.empty() && geometry_.r0_from_loading) {
+    if (saysStandpoints(campaign_) && geometry_.r0_from_loading) {
       for (const int target : targets) {
         const identification::TargetMove& move = moveOf(cases.front(), target);
         rows.read_from.push_back(
@@ -268,7 +274,7 @@ std::vector<SweepRows> sweepRows(const campaign::Campaign& campaign, const frame
     rows.state.time_s = reading.time_s;
     rows.state.targets.push_back(reading.target);
     rows.state.points.push_back(r0_from_points * reading.point);
-    if (!campaign.stations.empty())
+    if (saysStandpoints(campaign))
       rows.read_from.push_back(standpoint(campaign, r0_from_points, reading.station, r0_from_points * reading.from,
                                           rows.state.points.back()));
     rows.position.conservativeResize(rows.state.rows());
