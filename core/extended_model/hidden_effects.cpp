@@ -5,12 +5,14 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include "core/effects/gravity_equilibrium.h"
 #include "core/extended_model/method_equations.h"
 #include "core/identification/estimate.h"
 #include "core/numerics/random.h"
+#include "core/numerics/resampling.h"
 
 namespace stiffscope::extended_model {
 
@@ -208,14 +210,6 @@ JointVector meanSquare(const Eigen::MatrixXd& rows) {
   return rows.rowwise().squaredNorm() / static_cast<double>(rows.cols());
 }
 
-identification::CoverageInterval quantiles(std::vector<double>& values, double coverage) {
-  std::sort(values.begin(), values.end());
-  const auto at = [&](double p) {
-    return values[static_cast<std::size_t>(p * static_cast<double>(values.size() - 1))];
-  };
-  return {at(0.5 * (1.0 - coverage)), at(0.5 * (1.0 + coverage))};
-}
-
 class MethodWeigher {
  public:
   MethodWeigher(const HiddenDraws& hidden, const Declared& declared, bool unexplained)
@@ -323,7 +317,10 @@ class MethodWeigher {
         interval = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
         continue;
       }
-      interval = quantiles(values, identification::kStatedCoverage);
+      std::sort(values.begin(), values.end());
+      // An effect that only ever makes an arm softer lies on one side of the machine without it. Equal tails would
+      // leave out just that machine.
+      std::tie(interval.low, interval.high) = numerics::shortestInterval(values, identification::kStatedCoverage);
       if (!possible) estimate.compliance[j] = values[values.size() / 2];
       interval.low = std::min(interval.low, estimate.compliance[j]);
       interval.high = std::max(interval.high, estimate.compliance[j]);

@@ -75,6 +75,7 @@ class LengthStudy {
 
 std::optional<double> residualVarianceLength(const std::vector<CaseEquations>& pose_rows,
                                              const robot::JointMask& unknown, double start) {
+  if (pose_rows.empty()) return std::nullopt;
   const PoseNormal sum = sumOfAll(poseNormalByPosture(pose_rows));
   constexpr int kMostRounds = 100;
   constexpr double kClose = 1e-9;

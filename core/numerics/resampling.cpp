@@ -13,6 +13,17 @@ double quantile(const std::vector<double>& ascending, double share) {
   return ascending[below] + (place - static_cast<double>(below)) * (ascending[above] - ascending[below]);
 }
 
+std::pair<double, double> shortestInterval(const std::vector<double>& ascending, double share) {
+  constexpr int kSteps = 10;
+  std::pair best{ascending.front(), ascending.back()};
+  for (int step = 0; step <= kSteps; ++step) {
+    const double below = (1.0 - share) * step / kSteps;
+    const std::pair one{quantile(ascending, below), quantile(ascending, std::min(1.0, below + share))};
+    if (one.second - one.first < best.second - best.first) best = one;
+  }
+  return best;
+}
+
 double upperMedian(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());

@@ -5,6 +5,7 @@
 #include <functional>
 #include <random>
 #include <span>
+#include <utility>
 #include <vector>
 
 // Which postures take part, and how often: bootstrap samples, subsets, leave-one-out. What is solved on them is the
@@ -18,6 +19,10 @@ using Weights = std::vector<double>;
 
 /// Value below which `share` of the ascending values lie, linear between neighbours. Needs at least one value.
 double quantile(const std::vector<double>& ascending, double share);
+
+/// From and to where `share` of ascending draws lie, as short as it can be: what they leave out is shared out between
+/// both ends in ten steps, since the very shortest follows the draws' chance. Needs at least one value.
+std::pair<double, double> shortestInterval(const std::vector<double>& ascending, double share);
 
 /// The middle value; for an even number of values the mean of the two in the middle, 0 for none.
 double median(std::vector<double> values);

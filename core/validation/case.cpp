@@ -195,22 +195,36 @@ BlindCase drawCase(const CasePlan& plan, std::uint64_t seed, const std::string& 
     const double size = least * std::pow(10.0 / least, random.uniform());
     return plan.size.value_or(size);
   };
-  for (const std::string& effect : plan.effects) {
-    if (plan.kind == CaseKind::as_is) {
-      const EffectDraw draw = days.as_is_effect(effect, clean, random);
-      one.effects.push_back({effect, draw.detail, draw.shows, tried(draw, 1.0, clean, sizing)});
-      draw.apply(1.0, machine.spec);
-      continue;
+  const auto placeAll = [&] {
+    machine.spec = clean;
+    one.effects.clear();
+    for (const std::string& effect : plan.effects) {
+      if (plan.kind == CaseKind::as_is) {
+        const EffectDraw draw = days.as_is_effect(effect, clean, random);
+        one.effects.push_back({effect, draw.detail, draw.shows, tried(draw, 1.0, clean, sizing)});
+        draw.apply(1.0, machine.spec);
+        continue;
+      }
+      const double size = drawSize();
+      one.effects.push_back(
+          place([&] { return days.effect(effect, clean, random); }, size, machine.spec, clean, sizing));
     }
-    const double size = drawSize();
-    one.effects.push_back(place([&] { return days.effect(effect, clean, random); }, size, machine.spec, clean, sizing));
+    if (plan.kind == CaseKind::outside) {
+      const double size = drawSize();
+      one.effects.push_back(
+          place([&] { return days.outside(plan.outside, clean, random); }, size, machine.spec, clean, sizing));
+    }
+    if (!one.effects.empty()) one.together = sizing.measure(machine.spec);
+  };
+  constexpr int kMostDraws = 10;
+  for (int draws = 1;; ++draws) {
+    try {
+      placeAll();
+      break;
+    } catch (const io::InputError&) {  // each stands alone, and together the machine does not carry its load
+      if (draws == kMostDraws) throw;
+    }
   }
-  if (plan.kind == CaseKind::outside) {
-    const double size = drawSize();
-    one.effects.push_back(
-        place([&] { return days.outside(plan.outside, clean, random); }, size, machine.spec, clean, sizing));
-  }
-  if (!one.effects.empty()) one.together = sizing.measure(machine.spec);
   one.spec = std::move(machine.spec);
   return one;
 }

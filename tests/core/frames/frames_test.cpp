@@ -17,7 +17,7 @@ struct JointLine {
 };
 
 JointLine jointLine(const ChainArm& arm, std::size_t joint) {
-  const Frame frame = arm.framesAt(JointVector::Zero(6))[joint];
+  const Frame frame = arm.framesAt(arm.noAngles())[joint];
   return {frame.translation(), frame.linear() * arm.axis[joint]};
 }
 

@@ -280,7 +280,8 @@ TEST(WristLeak, OnlyWhatJointsFourToSixPutThere) {
   identification::LoadedArm arm;
   arm.geometry.arm = exampleArm();
   identification::LoadCase load_case;
-  load_case.axes = robot::axesAt(arm.geometry.arm, robot::postureAt(arm.geometry.arm, JointVector::Zero(6)));
+  load_case.q = load_case.q_sagged = JointVector::Zero(6);
+  load_case.axes = robot::axesAt(arm.geometry.arm, robot::postureAt(arm.geometry.arm, load_case.q));
   arm.cases = {load_case};
   arm.wrist = {{Eigen::Vector3d::Zero(), Eigen::Vector3d(0, 0, 2e-3)}};
   arm.torques = {JointVector::Constant(6, 1000.0)};

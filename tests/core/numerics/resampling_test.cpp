@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numeric>
 #include <set>
 
@@ -17,6 +18,25 @@ TEST(Quantile, LinearBetweenNeighbours) {
   EXPECT_EQ(numerics::quantile(values, 0.875), 12.0);
   EXPECT_EQ(numerics::quantile(values, 1.0), 16.0);
   EXPECT_EQ(numerics::quantile({3.0}, 0.3), 3.0);
+}
+
+// Against quantiles of distributions at even steps of probability: one that falls from zero on begins there, one that
+// falls to both sides leaves out as much at either.
+TEST(ShortestInterval, LeavesOutTheLongTail) {
+  std::vector<double> falling, even;
+  constexpr int kDraws = 10000;
+  for (int i = 0; i < kDraws; ++i) {
+    const double p = (i + 0.5) / kDraws;
+    falling.push_back(-std::log(1.0 - p));
+    even.push_back(std::log(p / (1.0 - p)));
+  }
+  const auto [from, to] = numerics::shortestInterval(falling, 0.95);
+  EXPECT_NEAR(from, 0.0, 1e-3);
+  EXPECT_NEAR(to, -std::log(0.05), 2e-3);
+  const auto [low, high] = numerics::shortestInterval(even, 0.95);
+  EXPECT_NEAR(low, std::log(0.025 / 0.975), 4e-3);
+  EXPECT_NEAR(high, -std::log(0.025 / 0.975), 4e-3);
+  EXPECT_EQ(numerics::shortestInterval({3.0}, 0.95), (std::pair{3.0, 3.0}));
 }
 
 TEST(Bootstrap, DrawsAsManyAsThereAreAndTheSameAgain) {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <numbers>
 #include "core/effects/all.h"
+#include "core/io/input_error.h"
 #include "core/simulation/postures.h"
 #include "core/validation/case.h"
 #include "core/validation/effect_draw.h"
@@ -145,6 +146,35 @@ TEST(BlindEffects, everyKindOutsideTheVocabularyShows) {
     EXPECT_NEAR(std::log(validation::sizeOf(sizes, draw.shows) / 2.0), 0.0, 0.1) << kind;
   }
   EXPECT_THROW(validation::drawOutside("gremlins", lab.spec, random), std::invalid_argument);
+}
+
+// Two effects, each of which the machine bears and which together bring it down, are drawn again; where they never stand
+// together it is said.
+TEST(BlindDouble, IsDrawnAgainWhereBothTogetherDoNotStand) {
+  const auto draw = [](int refusals) {
+    validation::DayKind days = validation::loadedDays();
+    int both = 0;
+    days.sizing = [&](const simulation::SimulationSpec&) -> validation::Sizing {
+      return {[&](const simulation::SimulationSpec& with) {
+                const bool together = with.machine.base_rotation && !with.load_cell->misalignment.isZero();
+                if (together && both++ < refusals) throw io::InputError({"day", 0, ""}, "", "expected less");
+                validation::EffectSize size;
+                size.deflection = size.positions = size.nests = 3.0;
+                return size;
+              },
+              0.0};
+    };
+    const validation::CasePlan plan{
+        validation::CaseKind::pair, {"base_compliance", "load_cell_misalignment"}, "", 3.0};
+    const auto folder = std::filesystem::temp_directory_path() / "stiffscope_blind_size" / "pair";
+    const validation::BlindCase one = validation::drawCase(plan, 5, "case", folder / "robot.urdf", days);
+    EXPECT_EQ(one.effects.size(), 2U);
+    EXPECT_TRUE(one.spec.machine.base_rotation && !one.spec.load_cell->misalignment.isZero());
+    return both;
+  };
+  EXPECT_EQ(draw(0), 1);
+  EXPECT_EQ(draw(2), 3);
+  EXPECT_THROW(draw(1000), io::InputError);
 }
 
 // Half of what an arm of this kind usually has: across its axis a joint 16 to 36 times as stiff as about it, links 8 to
