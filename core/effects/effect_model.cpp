@@ -21,9 +21,7 @@ Eigen::Vector3d LinearizationPoint::travelOf(double carriage) const {
   return r0_from_base_link.linear() * (carriage * rail_in_base);
 }
 
-Eigen::Vector3d LinearizationPoint::travelFromMean(double carriage) const {
-  return travelOf(carriage - rail.mean);
-}
+Eigen::Vector3d LinearizationPoint::travelFromMean(double carriage) const { return travelOf(carriage - rail.mean); }
 
 Eigen::MatrixXd LinearizationPoint::byMovedInstrument(const ArmState& state) const {
   Eigen::MatrixXd columns(state.rows(), 6);
@@ -36,7 +34,8 @@ Eigen::MatrixXd LinearizationPoint::byMovedInstrument(const ArmState& state) con
 }
 
 Eigen::Isometry3d LinearizationPoint::withoutMovedInstrument(const Vector6d& motion, double carriage) const {
-  // The motion turned the points where they were read; travel is what lies between there and where they are referred to.
+  // The motion turned the points where they were read; travel is what lies between there and where they are referred
+  // to.
   const Eigen::Vector3d travel = travelFromMean(carriage);
   return Eigen::Translation3d(-travel) * metrology::motionAbout(epoch_centre, motion).inverse() *
          Eigen::Translation3d(travel);

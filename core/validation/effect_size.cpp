@@ -186,17 +186,15 @@ void EffectSizer::designPositions() {
   const Index targets = static_cast<Index>(reference_.targets.size());
   Eigen::MatrixXd design = Eigen::MatrixXd::Zero(unloaded_.size(), 6 + 3 * targets);
   Index row = 0;
-  const Index before =
-      forUnloaded(reference_, [&](const auto& at, int target, const Vector3d& point, int readings) {
-        const Vector3d sigma = sigmaAt(*reference_.tracker, point) / std::sqrt(readings);
-        // One sigma for all three directions will do for what is a nuisance.
-        unloaded_sigma_.segment<3>(row).setConstant(std::sqrt(sigma.squaredNorm() / 3.0));
-        design.block<3, 3>(row, 0).setIdentity();
-        design.block<3, 3>(row, 3) = -simulation::skew(point - base_from_tracker_.transpose() * travel(at.rail));
-        design.block<3, 3>(row, 6 + 3 * target) =
-            base_from_tracker_.transpose() * armAt(geometry_, at.q).flange.linear();
-        row += 3;
-      });
+  const Index before = forUnloaded(reference_, [&](const auto& at, int target, const Vector3d& point, int readings) {
+    const Vector3d sigma = sigmaAt(*reference_.tracker, point) / std::sqrt(readings);
+    // One sigma for all three directions will do for what is a nuisance.
+    unloaded_sigma_.segment<3>(row).setConstant(std::sqrt(sigma.squaredNorm() / 3.0));
+    design.block<3, 3>(row, 0).setIdentity();
+    design.block<3, 3>(row, 3) = -simulation::skew(point - base_from_tracker_.transpose() * travel(at.rail));
+    design.block<3, 3>(row, 6 + 3 * target) = base_from_tracker_.transpose() * armAt(geometry_, at.q).flange.linear();
+    row += 3;
+  });
   first_of_step_0_ = 3 * before;
   const Index rest = unloaded_.size() - first_of_step_0_;
   position_noise_ = rms(unloaded_sigma_.tail(rest));

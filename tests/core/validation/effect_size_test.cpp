@@ -148,8 +148,8 @@ TEST(BlindEffects, everyKindOutsideTheVocabularyShows) {
   EXPECT_THROW(validation::drawOutside("gremlins", lab.spec, random), std::invalid_argument);
 }
 
-// Two effects, each of which the machine bears and which together bring it down, are drawn again; where they never stand
-// together it is said.
+// Two effects, each of which the machine bears and which together bring it down, are drawn again; where they never
+// stand together it is said.
 TEST(BlindDouble, IsDrawnAgainWhereBothTogetherDoNotStand) {
   const auto draw = [](int refusals) {
     validation::DayKind days = validation::loadedDays();
@@ -164,8 +164,7 @@ TEST(BlindDouble, IsDrawnAgainWhereBothTogetherDoNotStand) {
               },
               0.0};
     };
-    const validation::CasePlan plan{
-        validation::CaseKind::pair, {"base_compliance", "load_cell_misalignment"}, "", 3.0};
+    const validation::CasePlan plan{validation::CaseKind::pair, {"base_compliance", "load_cell_misalignment"}, "", 3.0};
     const auto folder = std::filesystem::temp_directory_path() / "stiffscope_blind_size" / "pair";
     const validation::BlindCase one = validation::drawCase(plan, 5, "case", folder / "robot.urdf", days);
     EXPECT_EQ(one.effects.size(), 2U);

@@ -201,8 +201,7 @@ TEST(RailDay, ARailThatBendsIsNamedAndNoOtherDayIsBlamedForIt) {
 /// The tracker turned between sweeps and loading: each point turns where it was read, metres from where readings are
 /// referred to.
 campaign::Campaign withTurnedTracker(campaign::Campaign day) {
-  const Eigen::Matrix3d turn =
-      Eigen::AngleAxisd(3e-4, Eigen::Vector3d(0.2, -0.5, 1.0).normalized()).toRotationMatrix();
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(3e-4, Eigen::Vector3d(0.2, -0.5, 1.0).normalized()).toRotationMatrix();
   for (campaign::LoadingReading& row : day.loading->rows) row.point = turn * row.point;
   return day;
 }
