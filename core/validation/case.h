@@ -97,8 +97,9 @@ struct BlindCase {
 /// and the strength that gives that size is sought on the noise-free machine to a tenth. Where no strength a
 /// real machine might have comes near it, joint, direction and mechanism are drawn again, up to eight times;
 /// then the one that shows most stays, and its label says how little that is. A machine as it is has its effects at
-/// the size of drawAsIs, whatever that shows. In three cases of ten the tracker's true
-/// noise is 0.75 to 1.25 times the declared.
+/// the size of drawAsIs, whatever that shows. Effects under which the machine stands one by one and not together are
+/// drawn again, up to ten times; then InputError. In three cases of ten the tracker's true noise is 0.75 to 1.25 times
+/// the declared.
 BlindCase drawCase(const CasePlan& plan, std::uint64_t seed, const std::string& name,
                    const std::filesystem::path& urdf_file, const DayKind& days = loadedDays());
 
