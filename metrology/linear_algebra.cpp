@@ -27,7 +27,8 @@ SmallVector solvePositive(const SmallMatrix& a, const SmallVector& b) {
   if (a.rows() == 6) {
     const Eigen::LLT<Matrix6d> cholesky{Matrix6d(a)};
     if (cholesky.info() != Eigen::Success) return solveSymmetric6(a, b);
-    return cholesky.solve(Vector6d(b));
+    const Vector6d x = cholesky.solve(Vector6d(b));  // at fixed size to its end
+    return x;
   }
   const Eigen::LLT<SmallMatrix> cholesky(a);
   if (cholesky.info() != Eigen::Success) return a.ldlt().solve(b);
@@ -37,12 +38,18 @@ SmallVector solvePositive(const SmallMatrix& a, const SmallVector& b) {
 Eigen::MatrixXd choleskyLower(const Eigen::MatrixXd& a) { return a.llt().matrixL(); }
 
 SmallVector solveLu(const SmallMatrix& a, const SmallVector& b) {
-  if (a.rows() == 6) return Matrix6d(a).partialPivLu().solve(Vector6d(b));
+  if (a.rows() == 6) {
+    const Vector6d x = Matrix6d(a).partialPivLu().solve(Vector6d(b));
+    return x;
+  }
   return a.partialPivLu().solve(b);
 }
 
 SmallMatrix solveLu(const SmallMatrix& a, const SmallMatrix& b) {
-  if (a.rows() == 6 && b.cols() == 6) return Matrix6d(a).partialPivLu().solve(Matrix6d(b));
+  if (a.rows() == 6 && b.cols() == 6) {
+    const Matrix6d x = Matrix6d(a).partialPivLu().solve(Matrix6d(b));
+    return x;
+  }
   return a.partialPivLu().solve(b);
 }
 

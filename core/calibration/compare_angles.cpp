@@ -34,7 +34,8 @@ double largestDifference(const campaign::Campaign& campaign) {
   for (const campaign::State& state : campaign.states->rows) {
     for (std::size_t j = 0; j < joints.size(); ++j) {
       const auto at = static_cast<Eigen::Index>(j);
-      if (joints[j] && state.step == 0) largest = std::max(largest, std::abs(state.q[at] - state.commanded[at]));
+      if (joints[j] && state.step == 0)
+        largest = std::max(largest, std::abs(state.q[at] - state.extras().commanded[at]));
     }
   }
   return largest;

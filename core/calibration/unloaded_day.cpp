@@ -136,8 +136,8 @@ std::vector<LoggedPosture> loggedPostures(const campaign::Campaign& campaign, Jo
     log.push_back({&state, state.q});
     for (Eigen::Index j = 0; j < state.q.size() && angles == JointAngles::commanded; ++j) {
       // Rows under load need none.
-      if (commanded[static_cast<std::size_t>(j)] && !std::isnan(state.commanded[j]))
-        log.back().q[j] = state.commanded[j];
+      if (commanded[static_cast<std::size_t>(j)] && !std::isnan(state.extras().commanded[j]))
+        log.back().q[j] = state.extras().commanded[j];
     }
   }
   return log;
@@ -180,7 +180,7 @@ PerJoint<bool> commandedJoints(const campaign::Campaign& campaign) {
   if (!campaign.states) return given;
   for (const campaign::State& state : campaign.states->rows) {
     for (std::size_t j = 0; j < given.size(); ++j) {
-      if (state.step == 0 && std::isnan(state.commanded[static_cast<Eigen::Index>(j)])) given[j] = false;
+      if (state.step == 0 && std::isnan(state.extras().commanded[static_cast<Eigen::Index>(j)])) given[j] = false;
     }
   }
   return given;
@@ -227,7 +227,7 @@ UnloadedDay unloadedDay(const campaign::Campaign& campaign, JointAngles angles) 
            noise ? mean.absoluteCovariance(campaign, *noise) : Eigen::Matrix3d(Eigen::Matrix3d::Zero()), mean.from});
     }
     times.push_back(at->state->time_s);
-    temperatures.push_back(at->state->temperature_c);
+    temperatures.push_back(at->state->extras().temperature_c);
     day.postures.push_back(std::move(posture));
   }
   setTimes(times, day);

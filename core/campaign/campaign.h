@@ -74,10 +74,16 @@ struct RailReading {
   Eigen::Vector3d from = kStationOfTracker;
 };
 
+/// A repeat is most often written as a whole number, which then is what a row keeps. Another name is kept as its place
+/// in Campaign::repeat_ids, below kNoRepeat: repeatByName makes what is kept of the place, and the place of what is
+/// kept.
+inline constexpr int kNoRepeat = -1;
+inline constexpr int repeatByName(int place) { return kNoRepeat - 1 - place; }
+
 struct LoadingReading {
   int pose = 0;
   int step = 0;
-  std::string repeat;
+  int repeat = kNoRepeat;
   int target = 0;
   double time_s = kNoTime;
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
@@ -96,38 +102,45 @@ struct StatedPose {
   bool hasTurn() const { return rpy.allFinite(); }
 };
 
-struct State {
+/// What few tables say of a state besides. Not a number where the table does not say.
+struct StateExtras {
+  JointVector commanded;             ///< joint angles that were commanded, rad
+  JointVector motor_side;            ///< motor angles over the gear ratio, rad
+  double temperature_c = kNotGiven;  ///< degrees Celsius
+  StatedPose tool_pose = {};         ///< by the controller's own kinematics
+  /// Of no column: what q was as reported, where it has been referred to the motor's side
+  /// (identification/motor_side.h).
+  JointVector link_side;
+
+  explicit StateExtras(int joints)
+      : commanded(JointVector::Constant(joints, kNotGiven)), motor_side(commanded), link_side(commanded) {}
+};
+
+class State {
+ public:
   int pose = 0;
   int step = 0;
   double time_s = kNoTime;
   JointVector q;
   double rail = kNotGiven;
   Vector6d wrench_in_cell = Vector6d::Zero();  ///< force (N) then moment (Nm), as the load cell's row says
-  // Not a number where the table does not say.
-  JointVector commanded;             ///< joint angles that were commanded, rad
-  JointVector motor_side;            ///< motor angles over the gear ratio, rad
-  double temperature_c = kNotGiven;  ///< degrees Celsius
-  StatedPose tool_pose = {};         ///< by the controller's own kinematics
   /// Of no column: where the carriage stood, m, once readings have been referred to its zero (preparation/rail.h) and
   /// `rail` is 0.
   double carriage = kNotGiven;
-  /// Of no column: what q was as reported, where it has been referred to the motor's side
-  /// (identification/motor_side.h).
-  JointVector link_side;
   std::size_t line = 0;
 
   /// Of a machine of so many joints: all at zero, and nothing given that the table need not say.
-  explicit State(int joints)
-      : q(JointVector::Zero(joints)),
-        commanded(JointVector::Constant(joints, kNotGiven)),
-        motor_side(commanded),
-        link_side(commanded) {}
+  explicit State(int joints) : q(JointVector::Zero(joints)) {}
   State(int of_pose, int of_step, double at_s, const JointVector& angles, const Vector6d& wrench)
-      : State(static_cast<int>(angles.size())) {
-    pose = of_pose, step = of_step, time_s = at_s;
-    q = angles;
-    wrench_in_cell = wrench;
-  }
+      : pose(of_pose), step(of_step), time_s(at_s), q(angles), wrench_in_cell(wrench) {}
+
+  bool hasExtras() const { return !extras_.empty(); }
+  const StateExtras& extras() const;
+  /// To be written: they are made where the state has none.
+  StateExtras& extras();
+
+ private:
+  std::vector<StateExtras> extras_;  ///< one or none: most days have none, and a day has many states
 };
 
 struct Displacement {
@@ -302,7 +315,8 @@ struct Campaign {
 
   std::vector<std::string> pose_ids;  ///< poses in order of first appearance; tables refer to them by index
   std::vector<std::string> nest_ids;
-  std::vector<StationPlace> stations;  ///< none where no table names one: the day has one then
+  std::vector<std::string> repeat_ids;  ///< of `loading`, those that are no whole number (repeatByName)
+  std::vector<StationPlace> stations;   ///< none where no table names one: the day has one then
   std::vector<InputFile> inputs;
 
   /// The state of the double encoder as it matters to this joint: one that is stated to have none is controlled by its

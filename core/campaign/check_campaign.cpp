@@ -176,13 +176,13 @@ void warnOfMotorSidesApart(const Campaign& campaign, std::vector<std::string>& w
     const State* first = nullptr;
     std::size_t rows = 0;
     for (const State& state : campaign.states->rows) {
-      if (!(std::abs(state.motor_side[j] - state.q[j]) > kMotorSideApart)) continue;
+      if (!state.hasExtras() || !(std::abs(state.extras().motor_side[j] - state.q[j]) > kMotorSideApart)) continue;
       if (rows++ == 0) first = &state;
     }
     if (first == nullptr) continue;
     warnings.push_back(io::inputMessage(
         {shown(campaign, campaign.states->file), first->line, fmt::format("m{}_deg", j + 1)},
-        fmt::format("{:.5f}", first->motor_side[j] / io::kDegree),
+        fmt::format("{:.5f}", first->extras().motor_side[j] / io::kDegree),
         fmt::format("more than {:g} deg from q{}_deg ({:.5f}): not a motor's angle over the gear ratio, in the joint's "
                     "sense; rows like this: {}",
                     kMotorSideApart / io::kDegree, j + 1, first->q[j] / io::kDegree, rows)));
@@ -219,9 +219,11 @@ void warnOfCellWithoutPlace(const Campaign& campaign, std::vector<std::string>& 
 void checkToolPosesAreWhole(const Campaign& campaign) {
   if (!campaign.states) return;
   for (const State& row : campaign.states->rows) {
-    const Eigen::Vector3d &position = row.tool_pose.position, &rpy = row.tool_pose.rpy;
+    if (!row.hasExtras()) continue;
+    const StatedPose& stated = row.extras().tool_pose;
+    const Eigen::Vector3d &position = stated.position, &rpy = stated.rpy;
     const bool some = !position.array().isNaN().all() || !rpy.array().isNaN().all();
-    const bool whole = row.tool_pose.hasPosition() && (row.tool_pose.hasTurn() || rpy.array().isNaN().all());
+    const bool whole = stated.hasPosition() && (stated.hasTurn() || rpy.array().isNaN().all());
     if (!some || whole) continue;
     throw io::InputError({shown(campaign, campaign.states->file), row.line, "px_mm..pr_deg"}, "",
                          "expected px_mm, py_mm and pz_mm, and all or none of pw_deg, pp_deg and pr_deg, or all blank");

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <cmath>
 
+#include "core/campaign/campaign.h"
 #include "core/io/input_error.h"
 #include "core/io/numbers.h"
 
@@ -45,6 +46,7 @@ int readIndexCell(CellKind kind, std::string_view cell, const CellPlace& place, 
   if (kind == CellKind::pose) return names.poses.add(cell);
   if (kind == CellKind::nest) return names.nests.add(cell);
   if (kind == CellKind::station) return names.stations.add(cell);
+  if (kind == CellKind::repeat) return repeatOf(cell, names.repeats);
   const std::optional<int> number = io::parseInteger(cell);
   if (kind == CellKind::axis) {
     if (!number || *number < 1 || *number > names.axes)
@@ -53,6 +55,12 @@ int readIndexCell(CellKind kind, std::string_view cell, const CellPlace& place, 
   }
   if (!number || *number < 0) refuse(place, cell, "expected a whole number, 0 or more");
   return *number;
+}
+
+int repeatOf(std::string_view text, NameList& names) {
+  const std::optional<int> number = io::parseInteger(text);
+  const bool as_one_is_written = number && *number >= 0 && (text.front() != '0' || text.size() == 1);
+  return as_one_is_written ? *number : repeatByName(names.add(text));
 }
 
 std::string readTextCell(std::string_view cell, const CellPlace& place) {

@@ -70,6 +70,7 @@ struct CampaignNames {
   NameList targets, poses, nests;
   int axes = 0;                          ///< that the machine has, for columns that name one
   NameList stations = NameList::of("");  ///< as nests; the first is that of rows that name none
+  NameList repeats = {};                 ///< as nests; those that are no whole number
 };
 
 /// What a column holds. The first eight are numbers with the unit of their name, the others names and counts.
@@ -88,6 +89,7 @@ enum class CellKind {
   pose,
   nest,
   station,  ///< of the tracker
+  repeat,
   text
 };
 
@@ -125,8 +127,11 @@ struct CellPlace {
 /// A cell as a number in SI and radians. Throws InputError where it is none, or not plausible.
 double readNumberCell(CellKind kind, std::string_view cell, const CellPlace& place);
 
-/// A cell that is kept as an index: axis, step, target, pose, nest. Throws InputError.
+/// A cell that is kept as an index: axis, step, target, pose, nest, station, repeat. Throws InputError.
 int readIndexCell(CellKind kind, std::string_view cell, const CellPlace& place, CampaignNames& names);
+
+/// What LoadingReading::repeat keeps of the text. A whole number is one as numbers are written: "1" and "01" stay two.
+int repeatOf(std::string_view text, NameList& names);
 
 /// A cell that is kept as it is; throws InputError where it is empty.
 std::string readTextCell(std::string_view cell, const CellPlace& place);
@@ -157,12 +162,13 @@ struct TableLayout {
   Row blank = {};  ///< a row before its cells are read
 };
 
-/// An angle of each of so many joints, as q1_deg, q2_deg.. for the letter q, of a row with that member.
+/// An angle of each of so many joints, as q1_deg, q2_deg.. for the letter q, of a row with that member, or of what a
+/// function gives of a row.
 template <class Row, auto Member>
 std::vector<Column<Row>> angleColumns(char letter, int joints, bool required) {
   std::vector<Column<Row>> columns = [=]<int... I>(std::integer_sequence<int, I...>) {
     return std::vector<Column<Row>>{{std::string{letter, static_cast<char>('1' + I)} + "_deg", CellKind::degree,
-                                     [](Row& row) -> double& { return (row.*Member).data()[I]; }, required,
+                                     [](Row& row) -> double& { return std::invoke(Member, row).data()[I]; }, required,
                                      !required}...};
   }
   (std::make_integer_sequence<int, kMostJoints>());

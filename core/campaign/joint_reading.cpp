@@ -81,8 +81,11 @@ void figuresToAngles(Campaign& campaign) {
   turnRows(campaign.circle_sweeps, turn);
   turnRows(campaign.wrist_sweep, turn);
   turnRows(campaign.states, [&](State& row) {
-    row.commanded = convention.anglesBeside(row.commanded, row.q);
-    row.motor_side = convention.anglesBeside(row.motor_side, row.q);
+    if (row.hasExtras()) {
+      StateExtras& extras = row.extras();
+      extras.commanded = convention.anglesBeside(extras.commanded, row.q);
+      extras.motor_side = convention.anglesBeside(extras.motor_side, row.q);
+    }
     turn(row);
   });
 }
@@ -94,8 +97,11 @@ void anglesToFigures(Campaign& campaign) {
   turnRows(campaign.circle_sweeps, turn);
   turnRows(campaign.wrist_sweep, turn);
   turnRows(campaign.states, [&](State& row) {
-    row.commanded = figuresBeside(convention, row.commanded, row.q);
-    row.motor_side = figuresBeside(convention, row.motor_side, row.q);
+    if (row.hasExtras()) {
+      StateExtras& extras = row.extras();
+      extras.commanded = figuresBeside(convention, extras.commanded, row.q);
+      extras.motor_side = figuresBeside(convention, extras.motor_side, row.q);
+    }
     turn(row);
   });
 }

@@ -199,6 +199,7 @@ CampaignReading readCampaign(const std::filesystem::path& folder_or_xml, Hashes 
   tables.read(nestsLayout(), campaign.nests);
   campaign.pose_ids = tables.names().poses.names();
   campaign.nest_ids = tables.names().nests.names();
+  campaign.repeat_ids = tables.names().repeats.names();
   requireStationsWherePointsAre(campaign, tables.names().stations.names());
   takeStations(tables.names().stations, campaign);
   files.requireUnchanged();

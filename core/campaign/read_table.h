@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <span>
@@ -13,6 +14,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/campaign/campaign.h"
 #include "core/campaign/columns.h"
 #include "core/campaign/repeated_keys.h"
 #include "core/io/csv.h"
@@ -113,7 +115,8 @@ class RowReader {
       const Column<Row>& column = layout.columns[i];
       if (!lines.has(i)) continue;
       Present present{&column, lines.placeOf(i), Quick::none, 0, {}};
-      if (const auto* number = std::get_if<typename Column<Row>::Number>(&column.member)) {
+      const auto* number = std::get_if<typename Column<Row>::Number>(&column.member);
+      if (number != nullptr && isWithin(*number, layout.blank)) {
         present.quick = Quick::number;
         present.offset = offsetOf(*number, layout.blank);
         present.written = numberKind(column.kind);
@@ -162,6 +165,14 @@ class RowReader {
     NumberKind written;     ///< of a number
   };
 
+  /// Whether the column's member stands in the row itself, not in what the row keeps elsewhere.
+  template <class Member>
+  static bool isWithin(Member& (*member)(Row&), Row row) {
+    const auto* const at = reinterpret_cast<const std::byte*>(&member(row));
+    const auto* const begin = reinterpret_cast<const std::byte*>(&row);
+    return !std::less<>()(at, begin) && std::less<>()(at, begin + sizeof(Row));
+  }
+
   /// Where in a row a column's member stands.
   template <class Member>
   static std::ptrdiff_t offsetOf(Member& (*member)(Row&), Row row) {
@@ -195,7 +206,7 @@ inline constexpr std::size_t kPartBytes = std::size_t{1} << 20;
 template <class Row>
 struct TablePart {
   TableLines lines;
-  CampaignNames names;    ///< poses, nests and stations by their first appearance in this part
+  CampaignNames names;    ///< poses, nests, stations and repeats by their first appearance in this part
   std::size_t from = 0;   ///< place among the rows of all parts where its own belong
   std::size_t room = 0;   ///< as many as there can be
   std::span<Row> rows{};  ///< those read
@@ -263,11 +274,12 @@ void readPart(const RowReader<Row>& reader, const KeyColumns<Row>& key, RowsInMa
 
 /// The index in the names of all tables of each name of a part.
 struct PartIndices {
-  std::vector<int> poses, nests, stations;
+  std::vector<int> poses, nests, stations, repeats;
 
   const std::vector<int>* of(CellKind kind) const {
     if (kind == CellKind::pose) return &poses;
     if (kind == CellKind::nest) return &nests;
+    if (kind == CellKind::repeat) return &repeats;
     return kind == CellKind::station ? &stations : nullptr;
   }
 };
@@ -280,7 +292,14 @@ void renumber(const TableLayout<Row>& layout, const PartIndices& names, TablePar
     if (names.of(column.kind) == nullptr || !part.lines.has(i)) continue;
     const std::vector<int>& indices = *names.of(column.kind);
     const auto member = std::get<typename Column<Row>::Index>(column.member);
-    for (Row& row : part.rows) member(row) = indices[static_cast<std::size_t>(member(row))];
+    if (indices.empty()) continue;  // repeats that are all numbers
+    const bool repeats = column.kind == CellKind::repeat;
+    for (Row& row : part.rows) {
+      int& own = member(row);
+      if (repeats && own >= kNoRepeat) continue;
+      const int among = indices[static_cast<std::size_t>(repeats ? repeatByName(own) : own)];
+      own = repeats ? repeatByName(among) : among;
+    }
     // An order of keys by the part's own indices is one by all only if the two go up together.
     if (!std::is_sorted(indices.begin(), indices.end())) part.ascending = false;
   }
@@ -330,7 +349,7 @@ std::optional<std::vector<Row>> readTableInParts(const TableSource& source, cons
   std::vector<PartIndices> indices;
   for (const TablePart<Row>& part : parts) {
     indices.push_back({names.poses.addAll(part.names.poses), names.nests.addAll(part.names.nests),
-                       names.stations.addAll(part.names.stations)});
+                       names.stations.addAll(part.names.stations), names.repeats.addAll(part.names.repeats)});
   }
   numerics::onAllCores(parts.size(), [&](std::size_t i) { renumber(layout, indices[i], parts[i]); });
   const bool ascending = keysAscend(parts, key);

@@ -44,7 +44,7 @@ inline const TableLayout<LoadingReading>& loadingLayout() {
   static const TableLayout<Row> layout{
       "loading",
       joined<Row>({poseAndStepColumns<Row>(),
-                   {{"repeat", CellKind::text, [](Row& row) -> std::string& { return row.repeat; }, false},
+                   {{"repeat", CellKind::repeat, [](Row& row) -> int& { return row.repeat; }, false},
                     targetColumn<Row>(),
                     timeColumn<Row>(false)},
                    pointColumns<Row>(),
@@ -69,12 +69,12 @@ inline const TableLayout<NestReading>& nestsLayout() {
 inline std::vector<Column<State>> toolPoseColumns() {
   using Row = State;
   std::vector<Column<Row>> columns{
-      {"px_mm", CellKind::millimetre, [](Row& row) -> double& { return row.tool_pose.position.x(); }},
-      {"py_mm", CellKind::millimetre, [](Row& row) -> double& { return row.tool_pose.position.y(); }},
-      {"pz_mm", CellKind::millimetre, [](Row& row) -> double& { return row.tool_pose.position.z(); }},
-      {"pw_deg", CellKind::degree, [](Row& row) -> double& { return row.tool_pose.rpy.x(); }},
-      {"pp_deg", CellKind::degree, [](Row& row) -> double& { return row.tool_pose.rpy.y(); }},
-      {"pr_deg", CellKind::degree, [](Row& row) -> double& { return row.tool_pose.rpy.z(); }}};
+      {"px_mm", CellKind::millimetre, [](Row& row) -> double& { return row.extras().tool_pose.position.x(); }},
+      {"py_mm", CellKind::millimetre, [](Row& row) -> double& { return row.extras().tool_pose.position.y(); }},
+      {"pz_mm", CellKind::millimetre, [](Row& row) -> double& { return row.extras().tool_pose.position.z(); }},
+      {"pw_deg", CellKind::degree, [](Row& row) -> double& { return row.extras().tool_pose.rpy.x(); }},
+      {"pp_deg", CellKind::degree, [](Row& row) -> double& { return row.extras().tool_pose.rpy.y(); }},
+      {"pr_deg", CellKind::degree, [](Row& row) -> double& { return row.extras().tool_pose.rpy.z(); }}};
   for (Column<Row>& column : columns) {
     column.required = false;
     column.may_be_blank = true;
@@ -82,6 +82,9 @@ inline std::vector<Column<State>> toolPoseColumns() {
   }
   return columns;
 }
+
+inline JointVector& commandedOf(State& row) { return row.extras().commanded; }
+inline JointVector& motorSideOf(State& row) { return row.extras().motor_side; }
 
 /// Joint angles and load-cell reading of one load state.
 inline TableLayout<State> statesLayout(int joints) {
@@ -92,10 +95,10 @@ inline TableLayout<State> statesLayout(int joints) {
                        jointColumns<Row>(joints),
                        {railColumn<Row>()},
                        wrenchColumns<Row>(false),
-                       angleColumns<Row, &Row::commanded>('c', joints, false),
-                       angleColumns<Row, &Row::motor_side>('m', joints, false),
-                       {{"temperature_c", CellKind::celsius, [](Row& row) -> double& { return row.temperature_c; },
-                         false, true}},
+                       angleColumns<Row, commandedOf>('c', joints, false),
+                       angleColumns<Row, motorSideOf>('m', joints, false),
+                       {{"temperature_c", CellKind::celsius,
+                         [](Row& row) -> double& { return row.extras().temperature_c; }, false, true}},
                        toolPoseColumns()}),
           {"pose", "step"},
           State(joints)};

@@ -34,7 +34,7 @@ std::string writtenNumber(CellKind kind, double si_value, const std::string& col
 /// with control characters, which no table can hold.
 std::string writtenName(const std::string& name, const std::string& column);
 
-/// An index as the file has it: axis and step as numbers, target, pose and nest as names. Throws
+/// An index as the file has it: axis and step as numbers, target, pose, nest, station and repeat as names. Throws
 /// std::runtime_error for an index without a name.
 std::string writtenIndex(CellKind kind, int index, const CampaignNames& names, const std::string& column);
 
@@ -63,8 +63,8 @@ std::string writtenCell(const Column<Row>& column, Row& row, const RowWriting& w
 template <class Row>
 bool isGiven(const Column<Row>& column, const std::vector<Row>& rows, const RowWriting& writing) {
   if (column.kind == CellKind::station) return writing.names.stations.names().size() > 1;
-  if (const auto* text = std::get_if<typename Column<Row>::Text>(&column.member))
-    return std::all_of(rows.begin(), rows.end(), [&](Row row) { return !(*text)(row).empty(); });
+  if (const auto* index = std::get_if<typename Column<Row>::Index>(&column.member); column.kind == CellKind::repeat)
+    return std::all_of(rows.begin(), rows.end(), [&](Row row) { return (*index)(row) != kNoRepeat; });
   const auto* number = std::get_if<typename Column<Row>::Number>(&column.member);
   if (number == nullptr) return true;
   const auto has = [&](Row row) { return !std::isnan((*number)(row)); };
@@ -316,10 +316,12 @@ std::string writtenName(const std::string& name, const std::string& column) {
 
 std::string writtenIndex(CellKind kind, int index, const CampaignNames& names, const std::string& column) {
   if (kind == CellKind::axis) return fmt::format("{}", index + 1);
-  if (kind == CellKind::step) return fmt::format("{}", index);
+  if (kind == CellKind::step || (kind == CellKind::repeat && index >= 0)) return fmt::format("{}", index);
+  if (kind == CellKind::repeat) index = repeatByName(index);
   const std::vector<std::string>& known = kind == CellKind::target    ? names.targets.names()
                                           : kind == CellKind::pose    ? names.poses.names()
                                           : kind == CellKind::station ? names.stations.names()
+                                          : kind == CellKind::repeat  ? names.repeats.names()
                                                                       : names.nests.names();
   if (index < 0 || static_cast<std::size_t>(index) >= known.size()) {
     fail(column, fmt::format("index {} has no name", index));
@@ -350,6 +352,7 @@ CampaignNames namesOf(const Campaign& campaign) {
   for (const Target& target : campaign.targets) names.targets.add(target.id);
   for (const std::string& pose : campaign.pose_ids) names.poses.add(pose);
   for (const std::string& nest : campaign.nest_ids) names.nests.add(nest);
+  for (const std::string& repeat : campaign.repeat_ids) names.repeats.add(repeat);
   names.stations = {};
   for (const StationPlace& station : campaign.stations) names.stations.add(station.id);
   return names;

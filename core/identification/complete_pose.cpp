@@ -97,7 +97,10 @@ PoseNormal& PoseNormal::operator+=(const PoseNormal& other) {
 
 NormalEquations PoseNormal::at(double characteristic_length) const {
   const double weight = 1.0 / (characteristic_length * characteristic_length);
-  return {weight * displacements.matrix + rotations.matrix, weight * displacements.right + rotations.right};
+  NormalEquations sum;
+  sum.matrix = weight * displacements.matrix + rotations.matrix;
+  sum.right = weight * displacements.right + rotations.right;
+  return sum;
 }
 
 }  // namespace stiffscope::identification

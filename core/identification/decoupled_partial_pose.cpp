@@ -58,7 +58,7 @@ double variance(const std::vector<CaseEquations>& equations, const JointVector& 
   double sum = 0.0;
   Eigen::Index rows = 0;
   for (const CaseEquations& one : equations) {
-    sum += (one.right - one.matrix * compliance).squaredNorm();
+    sum += (one.right - one.matrix.lazyProduct(compliance)).squaredNorm();
     rows += one.right.size();
   }
   return rows > 0 ? sum / static_cast<double>(rows) : 0.0;
@@ -76,13 +76,14 @@ void setDecoupledScatter(const std::vector<NormalEquations>& wrist, const std::v
   const Eigen::Index joints = estimate.compliance.size();
   const JointMatrix carried = JointMatrix::Identity(joints, joints) - wrist_inverse * reflector_sum.matrix;
   const PostureGains arm_gain(wrist_sum, arm_joints), wrist_gain(reflector_sum, wrist_joints);
-  std::vector<PostureGain> by_wrist(wrist.size()), by_reflectors(wrist.size());
+  GainOfEach by_wrist(joints, wrist.size()), by_reflectors(joints, wrist.size());
   std::vector<JointVector> influences(wrist.size());
   numerics::smallWorkOnAllCores(wrist.size(), [&](std::size_t p) {
     by_wrist[p] = carried * arm_gain.of(wrist[p].matrix);
     by_reflectors[p] = wrist_gain.of(reflectors[p].matrix);
-    influences[p] = by_wrist[p] * (wrist[p].right - wrist[p].matrix * arm_only) +
-                    by_reflectors[p] * (reflectors[p].right - reflectors[p].matrix * estimate.compliance);
+    const JointVector wrist_left = wrist[p].right - wrist[p].matrix.lazyProduct(arm_only),
+                      reflectors_left = reflectors[p].right - reflectors[p].matrix.lazyProduct(estimate.compliance);
+    influences[p] = by_wrist[p].lazyProduct(wrist_left) + by_reflectors[p].lazyProduct(reflectors_left);
   });
   JointVector dof = JointVector::Zero(joints);
   numerics::onAllCores(

@@ -66,6 +66,11 @@ class TriangularFactor {
 NormalEquations& NormalEquations::operator+=(const NormalEquations& other) {
   if (other.right.size() == 0) return *this;
   if (right.size() == 0) return *this = other;
+  if (right.size() == 6) {  // as in add
+    Eigen::Map<Matrix6d>(matrix.data()) += Eigen::Map<const Matrix6d>(other.matrix.data());
+    Eigen::Map<Vector6d>(right.data()) += Eigen::Map<const Vector6d>(other.right.data());
+    return *this;
+  }
   matrix += other.matrix;
   right += other.right;
   return *this;
@@ -306,7 +311,9 @@ void takeJacobiansAtMiddle(const frames::LoadingGeometry& geometry, const JointV
 }
 
 PointJacobian pointRows(const robot::ArmAxes& axes, const Eigen::Vector3d& point, const JointVector& torque) {
-  return robot::pointJacobianAt(axes, point) * torque.asDiagonal();
+  PointJacobian rows = robot::pointJacobianAt(axes, point);
+  for (Eigen::Index j = 0; j < rows.cols(); ++j) rows.col(j) *= torque[j];
+  return rows;
 }
 
 }  // namespace stiffscope::identification

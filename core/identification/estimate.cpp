@@ -126,16 +126,33 @@ InfluenceCovariance combined(double a, const InfluenceCovariance& first, double 
   return sum;
 }
 
-InfluenceCovariance influenceCovariance(const std::vector<PostureGain>& gains,
-                                        const std::vector<NormalEquations>& normal, const JointMatrix& inverse,
-                                        int joint) {
+namespace {
+
+/// `Joints` where a posture's every time is at fixed size; else Eigen::Dynamic.
+template <int Joints>
+void addInfluences(const GainOfEach& gains, const std::vector<NormalEquations>& normal, int joint,
+                   InfluenceCovariance& covariance) {
+  using Matrix = Eigen::Matrix<double, Joints, Joints>;
+  using Vector = Eigen::Matrix<double, Joints, 1>;
+  const Eigen::Index joints = covariance.through.rows();
+  for (std::size_t p = 0; p < gains.size(); ++p) {
+    const Vector row = gains[p].row(joint).transpose();
+    const Vector through = Eigen::Map<const Matrix>(normal[p].matrix.data(), joints, joints).lazyProduct(row);
+    covariance.through.col(static_cast<Eigen::Index>(p)) = through;
+    covariance.own[static_cast<Eigen::Index>(p)] = row.dot(through);
+  }
+}
+
+}  // namespace
+
+InfluenceCovariance influenceCovariance(const GainOfEach& gains, const std::vector<NormalEquations>& normal,
+                                        const JointMatrix& inverse, int joint) {
   const auto n = static_cast<Eigen::Index>(gains.size());
   InfluenceCovariance covariance{Eigen::VectorXd(n), Eigen::MatrixXd(inverse.rows(), n), -inverse};
-  for (Eigen::Index p = 0; p < n; ++p) {
-    const auto at = static_cast<std::size_t>(p);
-    const JointVector row = gains[at].row(joint).transpose(), through = normal[at].matrix * row;
-    covariance.through.col(p) = through;
-    covariance.own[p] = row.dot(through);
+  if (inverse.rows() == 6) {
+    addInfluences<6>(gains, normal, joint, covariance);
+  } else {
+    addInfluences<Eigen::Dynamic>(gains, normal, joint, covariance);
   }
   return covariance;
 }
@@ -278,11 +295,12 @@ void setScatter(std::vector<JointVector> influences, const JointVector& dof, Sti
 void setScatterOfOneStage(const std::vector<NormalEquations>& normal, const NormalEquations& sum,
                           StiffnessEstimate& estimate) {
   const PostureGains gain(sum, estimate.identifiable);
-  std::vector<PostureGain> gains(normal.size());
+  GainOfEach gains(static_cast<Eigen::Index>(estimate.identifiable.size()), normal.size());
   std::vector<JointVector> influences(normal.size());
   numerics::smallWorkOnAllCores(normal.size(), [&](std::size_t p) {
     gains[p] = gain.of(normal[p].matrix);
-    influences[p] = gains[p] * (normal[p].right - normal[p].matrix * estimate.compliance);
+    const JointVector left = normal[p].right - normal[p].matrix.lazyProduct(estimate.compliance);
+    influences[p] = gains[p].lazyProduct(left);
   });
   const JointMatrix inverse = inverseNormal(sum, estimate.identifiable);
   JointVector dof = JointVector::Zero(inverse.rows());
@@ -299,7 +317,7 @@ void setScatterOfOneStage(const std::vector<NormalEquations>& normal, const Norm
 
 void describeResiduals(const std::vector<CaseEquations>& equations, StiffnessEstimate& estimate) {
   const double sum = numerics::sumInBlocks<double>(equations.size(), [&](std::size_t i, double& squares) {
-    squares += (equations[i].right - equations[i].matrix * estimate.compliance).squaredNorm();
+    squares += (equations[i].right - equations[i].matrix.lazyProduct(estimate.compliance)).squaredNorm();
   });
   Eigen::Index rows = 0;
   for (const CaseEquations& one : equations) rows += one.right.size();

@@ -125,6 +125,23 @@ double matchedDof(const Eigen::MatrixXd& influence_covariance, const EqualWeight
 /// L^-T it acts on one number a joint: M_p = L^-T (I - G)^-1/2 L^-1.
 using PostureGain = JointMatrix;
 
+/// Those of many postures, without the room that a JointMatrix keeps for more joints.
+class GainOfEach {
+ public:
+  GainOfEach(Eigen::Index joints, std::size_t postures)
+      : all_(joints, joints * static_cast<Eigen::Index>(postures)), postures_(postures) {}
+
+  std::size_t size() const { return postures_; }
+  auto operator[](std::size_t posture) { return all_.middleCols(first(posture), all_.rows()); }
+  auto operator[](std::size_t posture) const { return all_.middleCols(first(posture), all_.rows()); }
+
+ private:
+  Eigen::Index first(std::size_t posture) const { return static_cast<Eigen::Index>(posture) * all_.rows(); }
+
+  Eigen::MatrixXd all_;
+  std::size_t postures_;
+};
+
 /// Gains in one least-squares problem.
 class PostureGains {
  public:
@@ -174,9 +191,8 @@ InfluenceCovariance combined(double a, const InfluenceCovariance& first, double 
 
 /// If all residuals came from errors that are independent and have variance 1: with l_p the row of M_p A_p^T
 /// (PostureGain) and U_p = A_p^T l_p, C_pq = delta_pq |l_p|^2 - U_p^T N^-1 U_q. `normal`: A_p^T A_p.
-InfluenceCovariance influenceCovariance(const std::vector<PostureGain>& gains,
-                                        const std::vector<NormalEquations>& normal, const JointMatrix& inverse,
-                                        int joint);
+InfluenceCovariance influenceCovariance(const GainOfEach& gains, const std::vector<NormalEquations>& normal,
+                                        const JointMatrix& inverse, int joint);
 
 /// Degrees of freedom of Student's t with the same factor at the stated coverage as a sum of squares of influences with
 /// that covariance. Up to 64 postures by the eigenvalues of C. Of more, the 64 with the largest influence are taken so

@@ -11,7 +11,8 @@ namespace stiffscope::identification {
 EncoderDay::EncoderDay(const campaign::Campaign& campaign) : campaign_(campaign) {
   std::vector<std::vector<const campaign::State*>> by_pose(campaign.pose_ids.size());
   for (const campaign::State& row : campaign.states->rows) {
-    if (!row.motor_side.array().isNaN().all()) by_pose[static_cast<std::size_t>(row.pose)].push_back(&row);
+    if (row.hasExtras() && !row.extras().motor_side.array().isNaN().all())
+      by_pose[static_cast<std::size_t>(row.pose)].push_back(&row);
   }
   for (auto& rows : by_pose) {
     std::sort(rows.begin(), rows.end(), [](const auto* a, const auto* b) { return a->step < b->step; });
@@ -55,15 +56,15 @@ JointStates EncoderDay::statesOf(int joint, const std::vector<JointVector>& torq
   int pose = -1;
   for (std::size_t i = 0; i < states_.size(); ++i) {
     const campaign::State& row = *states_[i];
-    if (std::isnan(row.motor_side[joint])) continue;
+    if (std::isnan(row.extras().motor_side[joint])) continue;
     if (row.pose != pose && all.size() > 0) all.posture_end.push_back(all.size());
     pose = row.pose;
     all.state.push_back(i);
-    const double reported = std::isnan(row.link_side[joint]) ? row.q[joint] : row.link_side[joint];
+    const double reported = std::isnan(row.extras().link_side[joint]) ? row.q[joint] : row.extras().link_side[joint];
     const double torque = torques[i][joint];
     const double whole = weight.known ? torque + weight.torques[i][joint] : 0.0;
     all.torque.push_back(torque);
-    all.windup.push_back(reported - row.motor_side[joint]);
+    all.windup.push_back(reported - row.extras().motor_side[joint]);
     all.reported.push_back(reported);
     all.side.push_back(whole > 0.0 ? 0.5 : whole < 0.0 ? -0.5 : 0.0);
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/identification/estimate.h"
+#include "core/numerics/parallel.h"
 
 namespace stiffscope::identification {
 
@@ -28,6 +29,7 @@ double leftOf(double squares, const NormalEquations& normal, const JointVector& 
 
 std::vector<PoseNormal> poseNormalByPosture(const std::vector<CaseEquations>& pose_rows) {
   std::vector<PoseNormal> postures;
+  postures.reserve(pose_rows.size());
   for (std::size_t i = 0; i < pose_rows.size(); ++i) {
     if (i == 0 || !sharePosture(pose_rows[i - 1], pose_rows[i])) postures.emplace_back();
     postures.back().add(pose_rows[i]);
@@ -53,8 +55,9 @@ class LengthStudy {
 
   void solve(LengthSensitivity& at) {
     at.compliance = solveNormal(sum_.at(at.length), subset_.unknown);
-    subset_.normal.clear();
-    for (const PoseNormal& one : postures_) subset_.normal.push_back(one.at(at.length));
+    subset_.normal.resize(postures_.size());
+    numerics::smallWorkOnAllCores(postures_.size(),
+                                  [&](std::size_t p) { subset_.normal[p] = postures_[p].at(at.length); });
     const SubsetStudy study = studySubsets(subset_, options_);
     at.subsets = study.compliances.size();
     const auto judged = [&](const DeflectionJudge& judge, const SubsetJudgement& own) {
@@ -76,7 +79,8 @@ class LengthStudy {
 std::optional<double> residualVarianceLength(const std::vector<CaseEquations>& pose_rows,
                                              const robot::JointMask& unknown, double start) {
   if (pose_rows.empty()) return std::nullopt;
-  const PoseNormal sum = sumOfAll(poseNormalByPosture(pose_rows));
+  const auto sum = numerics::sumInBlocks<PoseNormal>(pose_rows.size(),
+                                                     [&](std::size_t i, PoseNormal& all) { all.add(pose_rows[i]); });
   constexpr int kMostRounds = 100;
   constexpr double kClose = 1e-9;
   const BlockSquares whole(pose_rows);

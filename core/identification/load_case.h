@@ -100,6 +100,9 @@ struct LoadCase {
   bool absolute = false;  ///< unloaded and loaded are measured points, not differences put on the model
   std::optional<Eigen::Isometry3d> flange_unloaded;  ///< base_from_flange by the reflectors (three or more)
   std::optional<Eigen::Isometry3d> flange_loaded;
+
+  /// By hand, so that making many does not set the room in them that nobody fills to zero first.
+  LoadCase() {}
 };
 
 /// A load state without readings of reflectors, for what asks for torques alone: the wrench is directed as the model's

@@ -78,9 +78,16 @@ void addWristMoves(const campaign::Campaign& campaign, const frames::WristCentre
                    std::vector<LeftOutPosture>* left_out, LoadedArm& arm) {
   if (arm.cases.empty() || !arm.cases.front().absolute) return;
   std::vector<std::optional<WristMove>> moves(arm.cases.size());
+  const Eigen::Isometry3d flange_at_zero_inverse = arm.geometry.arm.base_from_flange_at_zero.inverse();
   numerics::smallWorkOnAllCores(arm.cases.size(), [&](std::size_t i) {
-    const Eigen::Vector3d modelled = modelledWrist(arm.geometry.arm, arm.cases[i], wrist.centre_at_zero_in_r0);
-    moves[i] = wristMove(arm.cases[i], wrist.radii, modelled);
+    // Which of two roots, one on each side of the reflectors: where the flange carries the wrist centre tells them
+    // apart as well as the model, and is at hand.
+    const LoadCase& one = arm.cases[i];
+    const Eigen::Vector3d& centre = wrist.centre_at_zero_in_r0;
+    const Eigen::Vector3d about = one.flange_unloaded
+                                      ? Eigen::Vector3d(*one.flange_unloaded * (flange_at_zero_inverse * centre))
+                                      : modelledWrist(arm.geometry.arm, one, centre);
+    moves[i] = wristMove(one, wrist.radii, about);
   });
   std::vector<bool> has;
   for (const auto& move : moves) has.push_back(move.has_value());

@@ -56,10 +56,10 @@ campaign::Campaign referredToMotors(campaign::Campaign campaign) {
     const JointVector by_weight = weightWindUp(geometry, row.q, gears);
     for (Eigen::Index j = 0; j < gears.size(); ++j) {
       if (gears[j] == 0.0) continue;
-      row.link_side[j] = row.q[j];
+      row.extras().link_side[j] = row.q[j];
       const double offset = transmission.joints[static_cast<std::size_t>(j)].offset;
       // A row without the motor's angle: as the sweeps.
-      row.q[j] = std::isnan(row.motor_side[j]) ? row.q[j] - by_weight[j] : row.motor_side[j] + offset;
+      row.q[j] = std::isnan(row.extras().motor_side[j]) ? row.q[j] - by_weight[j] : row.extras().motor_side[j] + offset;
     }
   }
   referSweep(campaign.circle_sweeps, geometry, gears);

@@ -14,7 +14,7 @@ namespace {
 
 /// Covariance between the influences of the postures on one joint, for errors W: with r = (I - H) e and l_p
 /// the row of M_p A_p^T, l_p^T [(I - H) W (I - H)^T]_pq l_q. `inner`: A^T W A of all.
-InfluenceCovariance covarianceByNoise(const std::vector<PostureGain>& gains, const std::vector<NormalEquations>& normal,
+InfluenceCovariance covarianceByNoise(const GainOfEach& gains, const std::vector<NormalEquations>& normal,
                                       const std::vector<JointMatrix>& noise, const JointMatrix& inverse,
                                       const JointMatrix& inner, int joint) {
   const auto n = static_cast<Eigen::Index>(gains.size());
@@ -22,8 +22,9 @@ InfluenceCovariance covarianceByNoise(const std::vector<PostureGain>& gains, con
   InfluenceCovariance covariance{Eigen::VectorXd(n), Eigen::MatrixXd(rank, n), Eigen::MatrixXd::Zero(rank, rank)};
   for (Eigen::Index p = 0; p < n; ++p) {
     const auto at = static_cast<std::size_t>(p);
-    const JointVector row = gains[at].row(joint).transpose(), by_noise = noise[at] * row;
-    covariance.through.col(p) << inverse * (normal[at].matrix * row), by_noise;
+    const JointVector row = gains[at].row(joint).transpose(), by_noise = noise[at].lazyProduct(row),
+                      by_rest = normal[at].matrix.lazyProduct(row);
+    covariance.through.col(p) << inverse.lazyProduct(by_rest), by_noise;
     covariance.own[p] = row.dot(by_noise);
   }
   covariance.middle.topLeftCorner(joints, joints) = inner;
@@ -63,7 +64,7 @@ void correctForNoise(const std::vector<NormalEquations>& normal, const std::vect
   JointMatrix inner = JointMatrix::Zero(joints, joints);
   for (const JointMatrix& one : noise) inner += one;
   const PostureGains gain(sum, unknown);
-  std::vector<PostureGain> gains(normal.size());
+  GainOfEach gains(joints, normal.size());
   numerics::smallWorkOnAllCores(normal.size(), [&](std::size_t p) { gains[p] = gain.of(normal[p].matrix); });
   const JointMatrix inverse = inverseNormal(sum, unknown);
   const JointMatrix truth = inverse * inner * inverse;

@@ -123,11 +123,8 @@ class Packed {
  public:
   Packed() = default;
   explicit Packed(const NormalEquations& normal) {
-    const Eigen::Index joints = normal.right.size();
-    Eigen::Index at = 0;
-    for (Eigen::Index j = 0; j < joints; at += joints - j, ++j)
-      numbers_.segment(at, joints - j) = normal.matrix.col(j).tail(joints - j);
-    numbers_.segment(at, joints) = normal.right;
+    // Of most machines by loops whose lengths the compiler knows.
+    normal.right.size() == 6 ? take<6>(normal) : take<Eigen::Dynamic>(normal);
   }
 
   Packed& operator+=(const Packed& other) {
@@ -147,6 +144,17 @@ class Packed {
   }
 
  private:
+  template <int Joints>
+  void take(const NormalEquations& normal) {
+    const Eigen::Index joints = Joints == Eigen::Dynamic ? normal.right.size() : Joints;
+    double* to = numbers_.data();
+    for (Eigen::Index j = 0; j < joints; ++j) {
+      const double* const column = normal.matrix.data() + j * joints;
+      for (Eigen::Index i = j; i < joints; ++i) *to++ = column[i];
+    }
+    for (Eigen::Index i = 0; i < joints; ++i) *to++ = normal.right.data()[i];
+  }
+
   Eigen::Matrix<double, Numbers, 1> numbers_ = Eigen::Matrix<double, Numbers, 1>::Zero();
 };
 

@@ -142,8 +142,9 @@ bool hasSecondEncoders(const campaign::Campaign& campaign) {
   return campaign.states &&
          std::any_of(campaign.states->rows.begin(), campaign.states->rows.end(), [](const campaign::State& row) {
            // Not where it is not a number.
-           return ((row.q - row.motor_side).array().abs() > kNoDifference).any() ||
-                  ((row.link_side - row.motor_side).array().abs() > kNoDifference).any();
+           return row.hasExtras() &&
+                  (((row.q - row.extras().motor_side).array().abs() > kNoDifference).any() ||
+                   ((row.extras().link_side - row.extras().motor_side).array().abs() > kNoDifference).any());
          });
 }
 

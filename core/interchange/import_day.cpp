@@ -264,8 +264,9 @@ class DayImport {
     // Times of a log alone are the robot's.
     row.time_s =
         state.readings.empty() ? sample.time_s.value_or(campaign::kNoTime) : readings[state.readings.front()].time_s;
-    row.temperature_c = sample.temperature_c;
-    row.tool_pose = meanToolPose(files_.logs[log].content.samples, state.first, state.last);
+    const campaign::StatedPose pose = meanToolPose(files_.logs[log].content.samples, state.first, state.last);
+    if (!std::isnan(sample.temperature_c)) row.extras().temperature_c = sample.temperature_c;
+    if (pose.hasPosition() || pose.hasTurn()) row.extras().tool_pose = pose;
     row.line = table->rows.size() + 2;
     if (sample.wrench.allFinite()) row.wrench_in_cell = sample.wrench;
     if (!files_.loads.empty()) {
@@ -288,7 +289,8 @@ class DayImport {
     campaign::LoadingReading row;
     row.pose = poseNumber(state.pose);
     row.step = state.step;
-    row.repeat = reading.repeat.empty() ? std::to_string(count) : reading.repeat;
+    row.repeat = reading.repeat.empty() ? count : campaign::repeatOf(reading.repeat, repeats_);
+    if (repeats_.names().size() > result_.campaign.repeat_ids.size()) result_.campaign.repeat_ids = repeats_.names();
     row.target = reading.target;
     row.time_s = reading.time_s;
     row.point = reading.point;
@@ -426,6 +428,7 @@ class DayImport {
   DayFiles files_;
   const DayNames names_;
   std::map<std::string, int> poses_;
+  campaign::NameList repeats_;
   std::vector<std::set<std::size_t>> used_samples_;                       ///< by log, the first of each state
   std::vector<std::set<std::pair<std::size_t, std::size_t>>> stretches_;  ///< by log, what could be joined
   std::set<std::pair<std::string, int>> used_loads_;

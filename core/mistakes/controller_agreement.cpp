@@ -18,11 +18,12 @@ std::vector<const campaign::State*> statesWithPose(const campaign::Campaign& cam
   std::vector<const campaign::State*> states;
   if (!campaign.states) return states;
   for (const campaign::State& row : campaign.states->rows) {
-    if (!row.tool_pose.hasPosition()) continue;
+    if (!row.hasExtras() || !row.extras().tool_pose.hasPosition()) continue;
     // Load steps of one posture repeat its figures.
-    const bool again = !states.empty() && states.back()->q == row.q &&
-                       states.back()->tool_pose.position == row.tool_pose.position &&
-                       (states.back()->tool_pose.rpy == row.tool_pose.rpy || !row.tool_pose.hasTurn());
+    const bool again =
+        !states.empty() && states.back()->q == row.q &&
+        states.back()->extras().tool_pose.position == row.extras().tool_pose.position &&
+        (states.back()->extras().tool_pose.rpy == row.extras().tool_pose.rpy || !row.extras().tool_pose.hasTurn());
     if (!again) states.push_back(&row);
   }
   return states;
@@ -64,12 +65,13 @@ campaign::Campaign asReadings(const campaign::Campaign& campaign, const std::vec
     row.q = state.q;
     row.line = state.line;
     day.states->rows.push_back(row);
-    const Eigen::Matrix3d turn = turns ? robot::rotationFromRpy(state.tool_pose.rpy) : Eigen::Matrix3d::Identity();
+    const Eigen::Matrix3d turn =
+        turns ? robot::rotationFromRpy(state.extras().tool_pose.rpy) : Eigen::Matrix3d::Identity();
     for (std::size_t t = 0; t < on_tool.size(); ++t) {
       campaign::LoadingReading reading;
       reading.pose = row.pose;
       reading.target = static_cast<int>(t);
-      reading.point = state.tool_pose.position + turn * on_tool[t];
+      reading.point = state.extras().tool_pose.position + turn * on_tool[t];
       reading.line = state.line;
       day.loading->rows.push_back(std::move(reading));
     }
@@ -162,8 +164,8 @@ ControllerAgreement controllerAgreement(const campaign::Campaign& campaign, doub
   const std::vector<const campaign::State*> states = statesWithPose(campaign);
   agreement.postures = states.size();
   if (states.size() < ControllerAgreement::kFewest) return agreement;
-  agreement.turns =
-      std::all_of(states.begin(), states.end(), [](const campaign::State* one) { return one->tool_pose.hasTurn(); });
+  agreement.turns = std::all_of(states.begin(), states.end(),
+                                [](const campaign::State* one) { return one->extras().tool_pose.hasTurn(); });
   agreement.still = stillJoints(states);
   // As many as the search of mistakes tries.
   constexpr std::size_t kSearched = 40, kFitted = 200;

@@ -138,7 +138,7 @@ void referToCarriageAtZero(const std::optional<RailCourse>& course, campaign::Ca
     keepWhere(row);
     row.rail = 0.0;
     // Whether a controller counts the carriage into the poses that it states is not known.
-    if (moves) row.tool_pose = {};
+    if (moves && row.hasExtras()) row.extras().tool_pose = {};
   }
 }
 

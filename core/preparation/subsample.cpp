@@ -105,7 +105,7 @@ campaign::Campaign evenlySpread(const campaign::Campaign& campaign, std::size_t 
   const auto& [folder, name, date, texts, robot, base_link, flange_link, double_encoder, double_encoder_joints, gravity,
                mass_sigma, tracker, targets, load_cell, tool, known_stiffness, joint_readings, controller_model,
                circle_sweeps, wrist_sweep, rail_sweep, loading, states, displacements, nests, pose_ids, nest_ids,
-               stations, inputs] = campaign;
+               repeat_ids, stations, inputs] = campaign;
   std::vector<int> now(pose_ids.size(), kNotKept);
   std::vector<std::string> kept_ids;
   for (const std::size_t posture : spreadPostures(campaign, most)) {
@@ -141,6 +141,7 @@ campaign::Campaign evenlySpread(const campaign::Campaign& campaign, std::size_t 
           nests,
           kept_ids,
           nest_ids,
+          repeat_ids,
           stations,
           inputs};
 }

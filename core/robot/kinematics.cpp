@@ -68,7 +68,8 @@ Jacobian jacobianAt(const ArmAxes& axes, const Eigen::Vector3d& point_in_base) {
     const metrology::Line& axis = axes[i];
     jacobian.col(static_cast<Eigen::Index>(i)) << axis.direction.cross(point_in_base - axis.point), axis.direction;
   }
-  return axes.couplings ? Jacobian(jacobian * axes.couplings->turns) : jacobian;
+  if (axes.couplings) jacobian = jacobian * axes.couplings->turns;
+  return jacobian;
 }
 
 PointJacobian pointJacobianAt(const ArmAxes& axes, const Eigen::Vector3d& point_in_base) {
@@ -77,7 +78,8 @@ PointJacobian pointJacobianAt(const ArmAxes& axes, const Eigen::Vector3d& point_
     const metrology::Line& axis = axes[i];
     jacobian.col(static_cast<Eigen::Index>(i)) = axis.direction.cross(point_in_base - axis.point);
   }
-  return axes.couplings ? PointJacobian(jacobian * axes.couplings->turns) : jacobian;
+  if (axes.couplings) jacobian = jacobian * axes.couplings->turns;
+  return jacobian;
 }
 
 bool ArmAxes::turnsAlone(int joint) const {

@@ -40,7 +40,8 @@ void addEncoderErrors(const PerJoint<JointStiffness>& joints, std::uint64_t nois
     for (std::size_t i = 0; i < joints.size(); ++i) {
       const std::optional<JointGear>& gear = joints[i].gear;
       if (gear)
-        state.motor_side[static_cast<Eigen::Index>(i)] += gear->encoder_offset + gear->encoder_sigma * random.normal();
+        state.extras().motor_side[static_cast<Eigen::Index>(i)] +=
+            gear->encoder_offset + gear->encoder_sigma * random.normal();
     }
   }
 }

@@ -126,7 +126,7 @@ void readTargets(Session& session, PostureRun& run, const AppliedLoad& load, con
       campaign::LoadingReading reading;
       reading.pose = run.pose;
       reading.step = step;
-      reading.repeat = std::to_string(repeat);
+      reading.repeat = repeat;
       reading.target = static_cast<int>(t);
       reading.station = session.standing_at;
       reading.time_s = session.takeReading();
@@ -157,9 +157,9 @@ void measureState(Session& session, PostureRun& run, int step) {
   row.time_s = session.now_s;
   row.q = session.logged(rest);
   row.rail = session.reportedRail();
-  if (spec.temperature) row.temperature_c = spec.temperature->at(session.now_s);
+  if (spec.temperature) row.extras().temperature_c = spec.temperature->at(session.now_s);
   for (int i = 0; i < session.machine.joints(); ++i) {
-    if (session.machine.truth.joints[static_cast<std::size_t>(i)].gear) row.motor_side[i] = rest.motor_side[i];
+    if (session.machine.truth.joints[static_cast<std::size_t>(i)].gear) row.extras().motor_side[i] = rest.motor_side[i];
   }
   if (spec.load_cell) {
     row.wrench_in_cell = loadWrenchInCell(session.machine, rest, cellParent(spec), spec.load_cell->declared,

@@ -55,7 +55,7 @@ struct StatedDay {
   void state() {
     for (campaign::State& row : campaign.states->rows) {
       for (int j = 0; j < 6; ++j) row.q[j] = rounded(row.q[j], 1e-3 * io::kDegree);
-      row.tool_pose = poseAt(row.q);
+      row.extras().tool_pose = poseAt(row.q);
     }
   }
 };
@@ -94,7 +94,7 @@ TEST(ControllerPoses, OfTheUrdfsArmAgreeWhateverToolAndFrameAre) {
 TEST(ControllerPoses, PositionsAloneServe) {
   StatedDay day;
   day.state();
-  for (campaign::State& row : day.campaign.states->rows) row.tool_pose.rpy.setConstant(campaign::kNotGiven);
+  for (campaign::State& row : day.campaign.states->rows) row.extras().tool_pose.rpy.setConstant(campaign::kNotGiven);
   EXPECT_EQ(checkOf(day.campaign).verdict, AuditVerdict::pass);
   for (campaign::State& row : day.campaign.states->rows) row.q[2] -= row.q[1];
   EXPECT_TRUE(names(agreementOf(day.campaign).cures, "joint_coupling", "q3_deg + q2_deg"));
@@ -194,7 +194,8 @@ TEST(ControllerPoses, TurnsOfAnotherConventionAreSaid) {
   StatedDay day;
   day.state();
   // A, B, C of KUKA turn about z, y, x: written in that order they are none of the columns'.
-  for (campaign::State& row : day.campaign.states->rows) std::swap(row.tool_pose.rpy.x(), row.tool_pose.rpy.z());
+  for (campaign::State& row : day.campaign.states->rows)
+    std::swap(row.extras().tool_pose.rpy.x(), row.extras().tool_pose.rpy.z());
   const preparation::AuditCheck check = checkOf(day.campaign);
   EXPECT_EQ(check.verdict, AuditVerdict::fail);
   EXPECT_NE(said(check).find("no turns about the fixed x, y and z axes"), std::string::npos) << said(check);
@@ -214,7 +215,7 @@ TEST(ControllerPoses, NoneOrFewAreNotTestable) {
   EXPECT_EQ(checkOf(day.campaign).verdict, AuditVerdict::not_testable);
   day.state();
   for (std::size_t i = 5; i < day.campaign.states->rows.size(); ++i)
-    day.campaign.states->rows[i].tool_pose = campaign::StatedPose{};
+    day.campaign.states->rows[i].extras().tool_pose = campaign::StatedPose{};
   const preparation::AuditCheck check = checkOf(day.campaign);
   EXPECT_EQ(check.verdict, AuditVerdict::not_testable);
   EXPECT_NE(said(check).find("5 postures"), std::string::npos) << said(check);

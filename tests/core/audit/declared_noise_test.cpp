@@ -35,7 +35,7 @@ campaign::Campaign dayOf(std::uint64_t seed, const NoiseDay& day) {
   campaign.load_cell->force_sigma *= day.load_cell;
   campaign.load_cell->moment_sigma *= day.load_cell;
   if (!day.repeats)
-    std::erase_if(campaign.loading->rows, [](const campaign::LoadingReading& row) { return row.repeat != "1"; });
+    std::erase_if(campaign.loading->rows, [](const campaign::LoadingReading& row) { return row.repeat != 1; });
   return campaign;
 }
 

@@ -28,8 +28,7 @@ std::vector<std::string> besides(const audit::AuditReport& report, const std::ve
 #define EXPECT_ONLY(report, ...) \
   EXPECT_EQ(besides(report, std::vector<std::string>(__VA_ARGS__)), std::vector<std::string>{})
 
-campaign::LoadingReading& reading(campaign::Campaign& campaign, int pose, int step, const std::string& repeat,
-                                  int target) {
+campaign::LoadingReading& reading(campaign::Campaign& campaign, int pose, int step, int repeat, int target) {
   for (campaign::LoadingReading& row : campaign.loading->rows) {
     if (row.pose == pose && row.step == step && row.repeat == repeat && row.target == target) return row;
   }
@@ -64,7 +63,7 @@ TEST(SpoiltCampaign, EveryCheckOfTheTableReportsInItsOrder) {
 TEST(SpoiltCampaign, LostBeam) {
   std::size_t line = 0;
   const audit::AuditReport report = auditSpoilt([&](campaign::Campaign& campaign) {
-    campaign::LoadingReading& row = reading(campaign, 4, 2, "2", 1);
+    campaign::LoadingReading& row = reading(campaign, 4, 2, 2, 1);
     row.point.setZero();
     line = row.line;
   });
@@ -80,8 +79,8 @@ TEST(SpoiltCampaign, LostBeam) {
 TEST(SpoiltCampaign, DuplicatedReading) {
   std::size_t line = 0;
   const audit::AuditReport report = auditSpoilt([&](campaign::Campaign& campaign) {
-    campaign::LoadingReading& row = reading(campaign, 7, 1, "3", 0);
-    row.point = reading(campaign, 7, 1, "2", 0).point;
+    campaign::LoadingReading& row = reading(campaign, 7, 1, 3, 0);
+    row.point = reading(campaign, 7, 1, 2, 0).point;
     line = row.line;
   });
   EXPECT_EQ(reports::words(checkNamed(report, "duplicate_readings").where), fmt::format("loading.csv:{}", line));
@@ -91,7 +90,7 @@ TEST(SpoiltCampaign, DuplicatedReading) {
 TEST(SpoiltCampaign, OneRepeatOff) {
   std::size_t line = 0;
   const audit::AuditReport report = auditSpoilt([&](campaign::Campaign& campaign) {
-    campaign::LoadingReading& row = reading(campaign, 2, 3, "1", 2);
+    campaign::LoadingReading& row = reading(campaign, 2, 3, 1, 2);
     row.point.y() += 0.3e-3;  // 20 times the noise
     line = row.line;
   });
@@ -101,7 +100,7 @@ TEST(SpoiltCampaign, OneRepeatOff) {
 
 TEST(SpoiltCampaign, ReflectorsExchanged) {
   const audit::AuditReport report = auditSpoilt([&](campaign::Campaign& campaign) {
-    for (const char* repeat : {"1", "2", "3"}) {
+    for (const int repeat : {1, 2, 3}) {
       std::swap(reading(campaign, 5, 3, repeat, 0).point, reading(campaign, 5, 3, repeat, 1).point);
     }
   });
@@ -110,7 +109,7 @@ TEST(SpoiltCampaign, ReflectorsExchanged) {
   EXPECT_TRUE(contains(check.message, "P10 is P11, P11 is P10")) << reports::words(check.message);
   EXPECT_TRUE(contains(check.message, "pose 6, step 3")) << reports::words(check.message);
   campaign::Campaign campaign = good();
-  EXPECT_EQ(reports::words(check.where), fmt::format("loading.csv:{}", reading(campaign, 5, 3, "1", 0).line));
+  EXPECT_EQ(reports::words(check.where), fmt::format("loading.csv:{}", reading(campaign, 5, 3, 1, 0).line));
 }
 
 TEST(SpoiltCampaign, LooseReflector) {

@@ -148,8 +148,8 @@ campaign::Campaign dayWithBothAngles(calibration::JointAngles right) {
   campaign::Campaign campaign = unloadedCampaign(spec, noise);
   Noise off(24);
   for (campaign::State& state : campaign.states->rows) {
-    state.commanded = state.q;
-    JointVector& wrong = right == calibration::JointAngles::commanded ? state.q : state.commanded;
+    state.extras().commanded = state.q;
+    JointVector& wrong = right == calibration::JointAngles::commanded ? state.q : state.extras().commanded;
     for (int j = 0; j < 6; ++j) wrong[j] += 1.75e-4 * off.normal();
   }
   return campaign;
@@ -177,13 +177,13 @@ TEST(Calibrate, SaysWhichAnglesFit) {
 TEST(Calibrate, AnglesThatDifferByRoundingAreNotJudged) {
   campaign::Campaign campaign = dayWithBothAngles(calibration::JointAngles::reported);
   for (campaign::State& state : campaign.states->rows) {
-    for (int j = 0; j < 6; ++j) state.commanded[j] = std::round(state.q[j] / 1e-6) * 1e-6;
+    for (int j = 0; j < 6; ++j) state.extras().commanded[j] = std::round(state.q[j] / 1e-6) * 1e-6;
   }
   const calibration::Calibration result = calibration::calibrate(campaign, {});
   ASSERT_TRUE(result.angles);
   EXPECT_FALSE(result.angles->better);
   // A posture without its commanded angle: that joint has none.
-  campaign.states->rows[7].commanded[2] = std::nan("");
+  campaign.states->rows[7].extras().commanded[2] = std::nan("");
   EXPECT_EQ(calibration::commandedJoints(campaign), (PerJoint<bool>{true, true, false, true, true, true}));
 }
 

@@ -49,8 +49,8 @@ TEST(CheckCampaign, WarnsOfMotorSidesThatAreNoAnglesOfTheJoint) {
   campaign::Campaign campaign = longCampaign();
   for (const int row : {5, 40'000}) {
     campaign::State& state = campaign.states->rows[static_cast<std::size_t>(row)];
-    state.motor_side[1] = -state.q[1];
-    state.motor_side[2] = state.q[2] + 0.1 * io::kDegree;
+    state.extras().motor_side[1] = -state.q[1];
+    state.extras().motor_side[2] = state.q[2] + 0.1 * io::kDegree;
   }
   std::vector<std::string> warnings;
   campaign::checkCampaign(campaign, warnings);

@@ -106,7 +106,7 @@ TEST(ReadCampaign, ReadsEveryTableInSi) {
   EXPECT_NEAR(c.circle_sweeps->rows[2].q[5], 90 * kDegree, kRounding);
   EXPECT_NEAR(c.circle_sweeps->rows[0].point.y(), 2.4316095, kRounding);
   EXPECT_EQ(c.wrist_sweep->rows[0].time_s, 5.5);
-  EXPECT_EQ(c.loading->rows[2].repeat, "2");
+  EXPECT_EQ(c.loading->rows[2].repeat, 2);
   EXPECT_EQ(c.loading->rows[2].step, 1);
   EXPECT_EQ(c.pose_ids, (std::vector<std::string>{"A", "B"}));
   EXPECT_EQ(c.states->rows[2].pose, 1);
@@ -134,9 +134,9 @@ TEST(ReadCampaign, HasAsManyJointAnglesAsTheRobot) {
   ASSERT_EQ(c.states->rows.size(), 3u);
   EXPECT_NEAR(c.states->rows[1].q[6], 1.75 * kDegree, kRounding);
   EXPECT_EQ(c.states->rows[1].wrench_in_cell[0], -538.428);
-  EXPECT_EQ(c.states->rows[0].commanded.size(), 7);
-  EXPECT_EQ(c.states->rows[0].motor_side.size(), 7);
-  EXPECT_TRUE(std::isnan(c.states->rows[0].motor_side[6]));
+  EXPECT_EQ(c.states->rows[0].extras().commanded.size(), 7);
+  EXPECT_EQ(c.states->rows[0].extras().motor_side.size(), 7);
+  EXPECT_TRUE(std::isnan(c.states->rows[0].extras().motor_side[6]));
 }
 
 TEST(ReadCampaign, RefusesWhatIsNotOfTheRobotsJoints) {
@@ -183,13 +183,13 @@ TEST(ReadCampaign, StatesMayHaveSecondEncodersOfSomeJointsCommandsAndTemperature
   const campaign::CampaignReading reading = campaign::readCampaign(files.folder());
   const std::vector<campaign::State>& rows = reading.campaign.states->rows;
   ASSERT_EQ(rows.size(), 3u);
-  EXPECT_NEAR(rows[0].motor_side[1], 1.5 * kDegree, kRounding);
-  EXPECT_TRUE(std::isnan(rows[0].motor_side[0]) && std::isnan(rows[0].motor_side[4]) &&
-              std::isnan(rows[1].commanded[0]));
-  EXPECT_NEAR(rows[1].motor_side[4], -0.25 * kDegree, kRounding);
-  EXPECT_NEAR(rows[0].commanded[0], -2 * kDegree, kRounding);
-  EXPECT_EQ(rows[0].temperature_c, 23.5);
-  EXPECT_TRUE(std::isnan(rows[2].temperature_c));
+  EXPECT_NEAR(rows[0].extras().motor_side[1], 1.5 * kDegree, kRounding);
+  EXPECT_TRUE(std::isnan(rows[0].extras().motor_side[0]) && std::isnan(rows[0].extras().motor_side[4]) &&
+              std::isnan(rows[1].extras().commanded[0]));
+  EXPECT_NEAR(rows[1].extras().motor_side[4], -0.25 * kDegree, kRounding);
+  EXPECT_NEAR(rows[0].extras().commanded[0], -2 * kDegree, kRounding);
+  EXPECT_EQ(rows[0].extras().temperature_c, 23.5);
+  EXPECT_TRUE(std::isnan(rows[2].extras().temperature_c));
 }
 
 TEST(ReadCampaign, ListsItsFilesWithTheHashOfTheirBytes) {
@@ -395,11 +395,12 @@ TEST(ReadCampaign, ReadsALargeTableInLinearTime) {
   constexpr int kRows = 800000;
   for (int i = 0; i < kRows; ++i) rows += "A,0," + std::to_string(i) + ",P10,1078.0,2136.9015,156.1428,412.2275\n";
   files.write("loading.csv", rows);
-  const auto read = campaign::readCampaign(files.folder()).campaign.loading->rows;
+  const std::vector<campaign::LoadingReading> read = campaign::readCampaign(files.folder()).campaign.loading->rows;
   ASSERT_EQ(read.size(), static_cast<std::size_t>(kRows));
   for (int i = 0; i < kRows; ++i) {
     const campaign::LoadingReading& row = read[static_cast<std::size_t>(i)];
-    ASSERT_TRUE(row.repeat == std::to_string(i) && row.point.z() == read[0].point.z()) << row.line;
+    ASSERT_EQ(row.repeat, i);
+    ASSERT_EQ(row.point.z(), read[0].point.z()) << row.line;
   }
 }
 

@@ -45,6 +45,7 @@ void expectSameTables(const campaign::Campaign& a, const campaign::Campaign& b) 
                    sameSweep(x, y);
                  });
   expectSameRows(a.wrist_sweep, b.wrist_sweep, sameSweep);
+  EXPECT_EQ(a.repeat_ids, b.repeat_ids);
   expectSameRows(a.loading, b.loading, [](const campaign::LoadingReading& x, const campaign::LoadingReading& y) {
     EXPECT_EQ(std::tuple(x.pose, x.step, x.repeat, x.target), std::tuple(y.pose, y.step, y.repeat, y.target));
     EXPECT_NEAR(x.time_s, y.time_s, 0.05001);
@@ -175,8 +176,8 @@ TEST(WriteCampaign, ReadsBackSevenJointsAsTheyWere) {
   expectRoundTrip(campaign, files.folder() / "robot.urdf");
   campaign.known_stiffness = {{6, 1e4, 2e2, "maker"}};
   campaign.joint_readings = {{6, -1.0, 0.5, 5}};
-  campaign.states->rows[0].commanded = campaign.states->rows[0].q;
-  campaign.states->rows[1].motor_side[6] = campaign.states->rows[1].q[6] + 0.001;
+  campaign.states->rows[0].extras().commanded = campaign.states->rows[0].q;
+  campaign.states->rows[1].extras().motor_side[6] = campaign.states->rows[1].q[6] + 0.001;
   expectRoundTrip(campaign, files.folder() / "robot.urdf");
 
   const TemporaryFolder folder;
@@ -184,9 +185,11 @@ TEST(WriteCampaign, ReadsBackSevenJointsAsTheyWere) {
   const campaign::Campaign read = campaign::readCampaign(folder.path()).campaign;
   ASSERT_EQ(read.joint_readings.size(), 1u);
   EXPECT_EQ(read.joint_readings[0].joint, 6);
-  EXPECT_NEAR(read.states->rows[0].commanded[6], campaign.states->rows[0].q[6], 2 * kAngle);  // two figures are rounded
-  EXPECT_NEAR(read.states->rows[1].motor_side[6], campaign.states->rows[1].motor_side[6], 2 * kAngle);
-  EXPECT_TRUE(std::isnan(read.states->rows[1].motor_side[5]) && std::isnan(read.states->rows[0].motor_side[6]));
+  EXPECT_NEAR(read.states->rows[0].extras().commanded[6], campaign.states->rows[0].q[6],
+              2 * kAngle);  // two figures are rounded
+  EXPECT_NEAR(read.states->rows[1].extras().motor_side[6], campaign.states->rows[1].extras().motor_side[6], 2 * kAngle);
+  EXPECT_TRUE(std::isnan(read.states->rows[1].extras().motor_side[5]) &&
+              std::isnan(read.states->rows[0].extras().motor_side[6]));
   std::ifstream states(folder.path() / "states.csv");
   std::string header;
   std::getline(states, header);
@@ -231,7 +234,7 @@ TEST(WriteCampaign, WritesTheControllersFiguresAgain) {
   campaign::Campaign campaign = campaign::readCampaign(files.folder()).campaign;
   campaign.joint_readings = {{2, -1.0, 1.5, 1}, {4, 1.0, -0.5, -1}};
   campaign.controller_model = campaign::ControllerModel::nominal;
-  campaign.states->rows[0].commanded = campaign.states->rows[0].q;
+  campaign.states->rows[0].extras().commanded = campaign.states->rows[0].q;
   expectRoundTrip(campaign, files.folder() / "robot.urdf");
   const TemporaryFolder folder;
   campaign::writeCampaign(campaign, files.folder() / "robot.urdf", folder.path() / "new");
@@ -239,26 +242,27 @@ TEST(WriteCampaign, WritesTheControllersFiguresAgain) {
   ASSERT_EQ(read.joint_readings.size(), 2u);
   EXPECT_EQ(read.joint_readings[0].plus, 1);
   EXPECT_EQ(read.controller_model, campaign::ControllerModel::nominal);
-  expectClose(read.states->rows[0].commanded, campaign.states->rows[0].q, kAngle * 3);  // three figures are rounded
+  expectClose(read.states->rows[0].extras().commanded, campaign.states->rows[0].q,
+              kAngle * 3);  // three figures are rounded
 }
 
 TEST(WriteCampaign, SecondEncodersAreWrittenWhereTheyAreAndBlankWhereNot) {
   const SmallCampaign files;
   campaign::Campaign campaign = campaign::readCampaign(files.folder()).campaign;
   const double motor = campaign.states->rows[0].q[2] + 0.001;
-  campaign.states->rows[0].motor_side[2] = motor;
-  campaign.states->rows[1].commanded[5] = -1.5;
-  campaign.states->rows[1].temperature_c = 21.25;
+  campaign.states->rows[0].extras().motor_side[2] = motor;
+  campaign.states->rows[1].extras().commanded[5] = -1.5;
+  campaign.states->rows[1].extras().temperature_c = 21.25;
   const TemporaryFolder folder;
   campaign::writeCampaign(campaign, files.folder() / "robot.urdf", folder.path() / "new");
   const campaign::CampaignReading reading = campaign::readCampaign(folder.path() / "new");
   EXPECT_TRUE(reading.warnings.empty());
   const std::vector<campaign::State>& rows = reading.campaign.states->rows;
-  EXPECT_NEAR(rows[0].motor_side[2], motor, kAngle);
-  EXPECT_TRUE(std::isnan(rows[0].commanded[5]) && std::isnan(rows[0].temperature_c));
-  EXPECT_NEAR(rows[1].commanded[5], -1.5, kAngle);
-  EXPECT_EQ(rows[1].temperature_c, 21.25);
-  EXPECT_TRUE(std::isnan(rows[1].motor_side[2]) && std::isnan(rows[0].motor_side[0]));
+  EXPECT_NEAR(rows[0].extras().motor_side[2], motor, kAngle);
+  EXPECT_TRUE(std::isnan(rows[0].extras().commanded[5]) && std::isnan(rows[0].extras().temperature_c));
+  EXPECT_NEAR(rows[1].extras().commanded[5], -1.5, kAngle);
+  EXPECT_EQ(rows[1].extras().temperature_c, 21.25);
+  EXPECT_TRUE(std::isnan(rows[1].extras().motor_side[2]) && std::isnan(rows[0].extras().motor_side[0]));
   expectRoundTrip(reading.campaign, files.folder() / "robot.urdf");
 }
 

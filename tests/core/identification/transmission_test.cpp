@@ -61,8 +61,8 @@ TEST(Transmission, ByHandAtAllJointsZero) {
       const double down = 500.0 * step, back = 100.0 * pose * step;
       campaign::State state = stateOf(pose, step, JointVector::Zero(6), {-back, 0, -down});
       const double tau2 = 1.585 * down - 1.37 * back, tau3 = -1.585 * down + 0.25 * back;
-      state.motor_side[1] = -c2 * tau2 - 1e-4;
-      state.motor_side[2] = -c3 * tau3 + 2e-4;
+      state.extras().motor_side[1] = -c2 * tau2 - 1e-4;
+      state.extras().motor_side[2] = -c3 * tau3 + 2e-4;
       campaign.states->rows.push_back(state);
     }
   }
@@ -111,7 +111,8 @@ struct ChainDay {
         const JointVector rest = gear.cwiseProduct(arm.weightTorque(q));
         campaign::State state = stateOf(pose, step, q, force);
         if (!link_held) state.q += ahead - rest;
-        for (int j = 1; j < 6; ++j) state.motor_side[j] = state.q[j] - ahead[j] - offset[j] + noise * normal(random);
+        for (int j = 1; j < 6; ++j)
+          state.extras().motor_side[j] = state.q[j] - ahead[j] - offset[j] + noise * normal(random);
         day.states->rows.push_back(state);
       }
     }
@@ -162,8 +163,8 @@ TEST(Transmission, ReferredToTheMotorsAnglesStandStillAndTheGearsStay) {
     // encoders' zero is known as well as the gears, 5e-3 of some milliradians.
     const JointVector motor = first.q - day.gear.cwiseProduct(day.arm.weightTorque(first.q));
     EXPECT_LT((row.q - motor).cwiseAbs().maxCoeff(), 6e-5);
-    EXPECT_EQ(row.link_side[2], read.states->rows[static_cast<std::size_t>(4 * row.pose + row.step)].q[2]);
-    EXPECT_TRUE(std::isnan(row.link_side[0]));
+    EXPECT_EQ(row.extras().link_side[2], read.states->rows[static_cast<std::size_t>(4 * row.pose + row.step)].q[2]);
+    EXPECT_TRUE(std::isnan(row.extras().link_side[0]));
   }
   const identification::Transmission before = measured(read), after = measured(referred);
   for (int j = 1; j < 6; ++j) {
@@ -176,7 +177,7 @@ TEST(Transmission, ReferredToTheMotorsAnglesStandStillAndTheGearsStay) {
   const campaign::Campaign same = identification::referredToMotors(held);
   for (std::size_t i = 0; i < held.states->rows.size(); ++i) {
     EXPECT_EQ(same.states->rows[i].q, held.states->rows[i].q);
-    EXPECT_TRUE(same.states->rows[i].link_side.array().isNaN().all());
+    EXPECT_TRUE(same.states->rows[i].extras().link_side.array().isNaN().all());
   }
 }
 
@@ -195,8 +196,8 @@ TEST(Transmission, WrongReadingsAreLeftOutAndCounted) {
   constexpr double kNoise = 2e-6;
   campaign::Campaign campaign = day.campaign(kNoise);
   const identification::Transmission clean = measured(campaign);
-  campaign.states->rows[6].motor_side[3] += 0.3 * kDeg;
-  campaign.states->rows[13].motor_side[3] -= 0.1 * kDeg;
+  campaign.states->rows[6].extras().motor_side[3] += 0.3 * kDeg;
+  campaign.states->rows[13].extras().motor_side[3] -= 0.1 * kDeg;
   const identification::Transmission found = measured(campaign);
   EXPECT_EQ(clean.joints[3].left_out, 0);
   EXPECT_EQ(found.joints[3].left_out, 2);
@@ -209,9 +210,9 @@ TEST(Transmission, SaysWhyAJointIsNotMeasured) {
   const ChainDay day;
   campaign::Campaign campaign = day.campaign();
   for (campaign::State& state : campaign.states->rows) {
-    state.motor_side[1] = state.q[1];                               // a copy
-    state.motor_side[2] = -state.q[2] - 0.2;                        // the other sense
-    if (state.pose > 1) state.motor_side[3] = campaign::kNotGiven;  // blank but for two postures
+    state.extras().motor_side[1] = state.q[1];                               // a copy
+    state.extras().motor_side[2] = -state.q[2] - 0.2;                        // the other sense
+    if (state.pose > 1) state.extras().motor_side[3] = campaign::kNotGiven;  // blank but for two postures
   }
   const identification::Transmission found = measured(campaign);
   EXPECT_TRUE(found.joints[1].reason.is(RemarkId::no_second_encoder));
@@ -220,7 +221,7 @@ TEST(Transmission, SaysWhyAJointIsNotMeasured) {
   EXPECT_TRUE(found.joints[4].measured && found.joints[5].measured);
   for (campaign::State& state : campaign.states->rows) state.wrench_in_cell.setZero();
   EXPECT_TRUE(measured(campaign).joints[4].reason.is(RemarkId::no_loaded_state));
-  for (campaign::State& state : campaign.states->rows) state.motor_side.setConstant(campaign::kNotGiven);
+  for (campaign::State& state : campaign.states->rows) state.extras().motor_side.setConstant(campaign::kNotGiven);
   EXPECT_FALSE(identification::hasSecondEncoders(campaign));
 }
 

@@ -108,7 +108,7 @@ TEST_F(ImportDay, ByTheClockEveryReadingFindsItsJoints) {
     const campaign::LoadingReading& row = made.campaign.loading->rows[i];
     EXPECT_EQ(made.campaign.pose_ids[static_cast<std::size_t>(row.pose)], day_.loading.at(i, "pose"));
     EXPECT_EQ(made.campaign.targets[static_cast<std::size_t>(row.target)].id, day_.loading.at(i, "target"));
-    EXPECT_EQ(row.repeat, day_.loading.at(i, "repeat"));
+    EXPECT_EQ(std::to_string(row.repeat), day_.loading.at(i, "repeat"));
     EXPECT_NEAR(row.point.x() * 1e3, day_.loading.number(i, "x_mm"), 1e-9);
     EXPECT_NEAR(row.point.z() * 1e3, day_.loading.number(i, "z_mm"), 1e-9);
   }

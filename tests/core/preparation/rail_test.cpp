@@ -133,7 +133,7 @@ TEST(Rail, ReadingsAreReferredToTheCarriageAtZero) {
     campaign::State state(6);
     state.pose = pose;
     state.rail = 0.5 + pose;
-    state.tool_pose.position.setZero();
+    state.extras().tool_pose.position.setZero();
     day.states->rows.push_back(state);
     campaign::LoadingReading row;
     row.pose = pose;
@@ -146,7 +146,7 @@ TEST(Rail, ReadingsAreReferredToTheCarriageAtZero) {
   for (const campaign::State& row : day.states->rows) {
     EXPECT_EQ(row.rail, 0.0);
     EXPECT_EQ(row.carriage, 0.5 + row.pose);
-    EXPECT_FALSE(row.tool_pose.hasPosition());
+    EXPECT_FALSE(row.extras().tool_pose.hasPosition());
   }
   // Once more changes nothing.
   const campaign::Campaign once = day;

@@ -24,7 +24,7 @@ campaign::Campaign day(double noise, double creep) {
         campaign::LoadingReading row;
         row.pose = pose;
         row.step = step;
-        row.repeat = std::to_string(repeat);
+        row.repeat = repeat;
         row.point = Eigen::Vector3d(2.0, place + creep * (place - before) * (repeat - 1) / 2.0, 1.0 + 0.01 * pose);
         for (double& coordinate : row.point) coordinate += noise * random.normal();
         campaign.loading->rows.push_back(row);
@@ -56,7 +56,7 @@ TEST(StandingMotion, IsToldFromNoise) {
 
 TEST(StandingMotion, SaysNothingWithoutRepeats) {
   campaign::Campaign single = day(5e-6, 0.02);
-  std::erase_if(single.loading->rows, [](const auto& row) { return row.repeat != "0"; });
+  std::erase_if(single.loading->rows, [](const auto& row) { return row.repeat != 0; });
   EXPECT_EQ(preparation::standingMotion(single).states, 0);
   EXPECT_FALSE(preparation::standingMotion(single).significant());
   EXPECT_FALSE(preparation::standingMotion(campaign::Campaign{}).significant());

@@ -85,10 +85,10 @@ TEST(SimulationGears, StatesHaveTheMotorsSideOfGearedJointsAlone) {
   spec.postures = {{posture(), std::nullopt}};
   const campaign::Campaign campaign = simulation::simulate(spec);
   for (const campaign::State& state : campaign.states->rows) {
-    EXPECT_NEAR(state.motor_side[1], posture()[1] + 3e-3, 1e-15);
+    EXPECT_NEAR(state.extras().motor_side[1], posture()[1] + 3e-3, 1e-15);
     EXPECT_NE(state.q[1], posture()[1]);
     EXPECT_EQ(state.q[2], posture()[2]);
-    EXPECT_TRUE(std::isnan(state.motor_side[0]) && std::isnan(state.motor_side[2]));
+    EXPECT_TRUE(std::isnan(state.extras().motor_side[0]) && std::isnan(state.extras().motor_side[2]));
   }
 }
 

@@ -64,7 +64,7 @@ TEST(SimulationUnloaded, isPosturesAtStepZeroAlone) {
   for (const campaign::State& state : campaign.states->rows) {
     EXPECT_EQ(state.step, 0);
     EXPECT_TRUE(state.wrench_in_cell.isZero(0.0));
-    EXPECT_TRUE(std::isnan(state.temperature_c));
+    EXPECT_TRUE(std::isnan(state.extras().temperature_c));
   }
   EXPECT_LT(farthestFrom(spec, [&](int pose) { return listed(spec, pose); }), kExact);
 }
@@ -193,7 +193,7 @@ TEST(SimulationUnloaded, linksGrowAndZerosWanderWithTemperature) {
   const campaign::Campaign campaign = dayOf(spec);
   for (const campaign::State& state : campaign.states->rows) {
     const double warmer = spec.temperature->at(state.time_s) - 20.0;
-    EXPECT_EQ(state.temperature_c, 20.0 + warmer);
+    EXPECT_EQ(state.extras().temperature_c, 20.0 + warmer);
     EXPECT_GT(warmer, 0.1);
     const Eigen::Matrix3d upper =
         (Eigen::AngleAxisd(state.q[0], Vector3d::UnitZ()) * Eigen::AngleAxisd(state.q[1], Vector3d::UnitY()))

@@ -144,7 +144,7 @@ TEST_F(SimulationUnloadedSpec, theCampaignIsReadAsItWasMeasured) {
   EXPECT_FALSE(read.load_cell || read.tool || read.circle_sweeps || read.wrist_sweep);
   ASSERT_EQ(read.states->rows.size(), 2u);
   for (std::size_t r = 0; r < 2; ++r) {
-    EXPECT_NEAR(read.states->rows[r].temperature_c, made.states->rows[r].temperature_c, 0.5e-2);
+    EXPECT_NEAR(read.states->rows[r].extras().temperature_c, made.states->rows[r].extras().temperature_c, 0.5e-2);
     EXPECT_LT((read.states->rows[r].q - made.states->rows[r].q).norm(), 1e-6);
   }
   ASSERT_EQ(read.loading->rows.size(), 2u * 2 * 2);
