@@ -30,7 +30,7 @@ campaign::Campaign nestDay(const NestDay& day) {
   campaign.targets.push_back({"P10", {}});
   campaign.pose_ids.push_back("1");
   campaign.loading = campaign::Loading{"loading.csv", campaign::PointFrame::tracker, {}};
-  campaign.loading->rows.push_back({0, 0, "1", 0, 1.0, kArm});
+  campaign.loading->rows.push_back({0, 0, 1, 0, 1.0, kArm});
   const std::vector<Eigen::Vector3d> places{
       {3.3, -0.2, -1.2}, {0.9, 1.3, -1.2}, {4.6, 0.3, -1.2}, {1.2, 3.1, -0.7}, {4.4, 2.6, -1.1}};
   Noise noise(day.seed);
