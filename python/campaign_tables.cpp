@@ -48,6 +48,22 @@ class TableColumns {
   }
 
  private:
+  /// Names, as they are written; none where no row has one.
+  py::object repeats(const typename campaign::Column<Row>::Index& member) {
+    py::list values;
+    bool some = false;
+    for (Row& row : rows_) {
+      const int repeat = member(row);
+      some = some || repeat != campaign::kNoRepeat;
+      if (repeat >= campaign::kNoRepeat) {
+        values.append(repeat == campaign::kNoRepeat ? std::string() : std::to_string(repeat));
+      } else {
+        values.append(campaign_.repeat_ids.at(static_cast<std::size_t>(campaign::repeatByName(repeat))));
+      }
+    }
+    return some ? py::object(std::move(values)) : py::none();
+  }
+
   /// None for an optional column without a value.
   py::object valuesOf(const campaign::Column<Row>& column) {
     if (const auto* number = std::get_if<typename campaign::Column<Row>::Number>(&column.member)) {
@@ -76,6 +92,7 @@ class TableColumns {
         for (Row& row : rows_) values.append(stations.at(static_cast<std::size_t>((*index)(row))));
         return std::move(values);
       }
+      if (column.kind == CellKind::repeat) return repeats(*index);
       const std::vector<std::string>& names = namesOfKind(column.kind, campaign_, targets_);
       py::list values;
       for (Row& row : rows_) values.append(names.at(static_cast<std::size_t>((*index)(row))));

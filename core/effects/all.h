@@ -22,6 +22,11 @@ std::vector<EffectModel> modelsOf(const EffectRecord& record, const ModelScope& 
 /// The models that a diagnosis tries, one or more an effect, in the order of the table.
 std::vector<EffectModel> effectModels(const ModelScope& scope);
 
+/// How soft an arm is as a whole, rad/Nm: by what its reflectors move under load, over the force and the square of the
+/// flange's distance from base_link's origin; the median over loaded states. 5e-7 of an industrial arm, 5e-5 of one
+/// that works beside people. 0 without loaded states. What bounds the size of an effect grows with it.
+double armCompliance(const campaign::Campaign& campaign);
+
 /// The same for the campaign's machine and reflectors.
 std::vector<EffectModel> effectModelsOf(const campaign::Campaign& campaign);
 

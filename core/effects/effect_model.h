@@ -152,6 +152,7 @@ struct ModelScope {
   int joints = 6;
   std::vector<std::string> targets = {};  ///< names of the reflectors
   bool on_rail = false;                   ///< the arm stands on the carriage of one
+  double compliance = 0.0;                ///< armCompliance, rad/Nm; 0: not known
 };
 
 /// Parts of one parameter each for the joints.

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "core/effects/all.h"
 
 namespace stiffscope::effects {
@@ -5,7 +7,8 @@ namespace stiffscope::effects {
 // The plate between flange and reflectors gives: rotation about the flange origin about its three axes by
 // the moment there, shift along them by the force, in flange axes. Either of the load and of what hangs on
 // the flange, or of the load alone, where the tool's weight does not go through the plate. The turn about
-// the last axis is that joint's own compliance where both axes agree. rad/Nm and m/N, never negative.
+// the last axis is that joint's own compliance where both axes agree. rad/Nm and m/N, never negative; turns of at most
+// 1e-4 rad/Nm, or ten times what the arm gives as a whole if that is more.
 
 namespace {
 
@@ -27,10 +30,11 @@ std::vector<BodyTwist> byLoad(const LinearizationPoint&, const PostureStates& po
   return byWrench(posture[i], posture[i].load.about(posture[i].flange.translation()));
 }
 
-EffectModel modelOf(const char* shape, decltype(EffectModel::twists) twists) {
+EffectModel modelOf(const char* shape, decltype(EffectModel::twists) twists, const ModelScope& scope) {
+  const double most_turn = std::max(1e-4, 10.0 * scope.compliance);
   EffectModel model{.shape = shape, .most_parts = 6, .twists = twists, .beyond_flange = true};
   for (const char* name : {"bending about x", "bending about y", "twist about z"})
-    model.parts.push_back({name, {1e-4}, true, "rad/Nm"});
+    model.parts.push_back({name, {most_turn}, true, "rad/Nm"});
   for (const char* name : {"shift along x", "shift along y", "shift along z"})
     model.parts.push_back({name, {1e-5}, true, "m/N"});
   return model;
@@ -41,8 +45,9 @@ Remark toolComplianceMissing(const CampaignContents& has) {
   return {};
 }
 
-std::vector<EffectModel> toolComplianceModels(const ModelScope&) {
-  return {modelOf("by the load and what hangs on the flange", &withWeight), modelOf("by the load alone", &byLoad)};
+std::vector<EffectModel> toolComplianceModels(const ModelScope& scope) {
+  return {modelOf("by the load and what hangs on the flange", &withWeight, scope),
+          modelOf("by the load alone", &byLoad, scope)};
 }
 
 }  // namespace

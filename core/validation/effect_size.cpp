@@ -54,6 +54,22 @@ double carriageError(const simulation::RailSpec& rail) {
   return std::sqrt((rail.stop_sigma * rail.stop_sigma + rail.straightness * rail.straightness) / 3.0);
 }
 
+/// The same machine with nothing that gives but the springs of its joints.
+simulation::SimulationSpec springsAlone(simulation::SimulationSpec spec) {
+  simulation::MachineSpec springs;
+  for (const simulation::JointStiffness& joint : spec.machine.joints) springs.joints.push_back({joint.torsion, {}});
+  springs.shared_springs = spec.machine.shared_springs;
+  springs.link_springs = spec.machine.link_springs;
+  springs.geometry = spec.machine.geometry;
+  springs.mass_relative_sigma = spec.machine.mass_relative_sigma;
+  springs.tool = spec.machine.tool;
+  springs.base_tilt = spec.machine.base_tilt;
+  springs.base_tilt_azimuth = spec.machine.base_tilt_azimuth;
+  springs.base_tilt_declared = spec.machine.base_tilt_declared;
+  spec.machine = springs;
+  return spec;
+}
+
 }  // namespace
 
 EffectSizer::EffectSizer(const simulation::SimulationSpec& clean)
@@ -71,6 +87,8 @@ EffectSizer::EffectSizer(const simulation::SimulationSpec& clean)
     compliance_[i] = 1.0 / clean.machine.joints[static_cast<std::size_t>(i)].torsion.value();
   }
   undisturbed_ = deflections(reference_);
+  const Deflections springs = deflections(withoutScatter(springsAlone(clean)));
+  finite_ = springs.displacement - springs.columns * compliance_;
   const auto means = stateMeans(reference_);
   displacement_sigma_.resize(undisturbed_.displacement.size());
   Index row = 0;
@@ -217,7 +235,8 @@ EffectSize EffectSizer::measure(const simulation::SimulationSpec& with) const {
   const VectorXd after = undisturbed_.displacement - undisturbed_.columns * compliance_;
   EffectSize size;
   size.deflection = whitened(leftOver(disturbed, before - after));
-  const double rms_before = rms(leftHeldOut(disturbed, before)), rms_after = rms(leftHeldOut(undisturbed_, after));
+  const double rms_before = rms(leftHeldOut(disturbed, before - finite_)),
+               rms_after = rms(leftHeldOut(undisturbed_, after - finite_));
   const double noise = true_noise_factor_ * rms(displacement_sigma_);
   size.shrink = rms_before > 0.0 ? 1.0 - rms_after / rms_before : 0.0;
   size.shrink_seen = 1.0 - std::hypot(rms_after, noise) / std::hypot(rms_before, noise);

@@ -36,7 +36,8 @@ struct EffectSize {
   /// 1 - rms after / rms before of the displacements' residuals (plain, m) when the effect is known and taken
   /// out, the joints' compliances fitted both times to the other postures than the one judged, as a promise for
   /// postures that took no part is: without noise, and as it can be seen with the tracker's true noise in
-  /// both.
+  /// both. A residual is d - A c less the same of a machine that has nothing but the springs: finite turns, and what
+  /// the own weight's torque changes as a soft arm gives, which an identification knows and A does not.
   double shrink = 0.0, shrink_seen = 0.0;
 };
 
@@ -77,6 +78,7 @@ class EffectSizer {
   JointVector compliance_;
   campaign::Campaign reference_;
   Deflections undisturbed_;
+  Eigen::VectorXd finite_;                  ///< d - A c of the springs alone, m
   std::vector<Eigen::Index> identifiable_;  ///< columns that are refitted
   Eigen::VectorXd displacement_sigma_;
   Eigen::VectorXd unloaded_, unloaded_sigma_;

@@ -23,7 +23,8 @@ std::string outcome(const campaign::TableLayout<Row>& layout, const std::string&
         std::visit([&](auto member) { text += fmt::format(" {}", member(row)); }, column.member);
       }
     }
-    text += fmt::format("\n{}\n{}", fmt::join(names.poses.names(), " "), fmt::join(warnings, "\n"));
+    text += fmt::format("\n{}\n{}\n{}", fmt::join(names.poses.names(), " "), fmt::join(names.repeats.names(), " "),
+                        fmt::join(warnings, "\n"));
   } catch (const io::InputError& error) {
     text = error.what();
   }
@@ -52,6 +53,25 @@ TEST(TableParts, NumberPosesAsTheyFirstAppearInTheWhole) {
   }
   expectSameInParts(campaign::loadingLayout(), bytes);
   EXPECT_NE(outcome(campaign::loadingLayout(), bytes, 1).find("known b a c d"), std::string::npos);
+}
+
+// Repeats are numbers where they are written as such, and names in the order in which the whole brings them.
+TEST(TableParts, NumberNamedRepeatsAsTheyFirstAppearInTheWhole) {
+  std::string bytes = kHeader;
+  const std::vector<std::string> repeats{"2", "b", "01", "1", "0", "a", "99999999999", "-1"};
+  for (int step = 0; step < 4; ++step) {
+    for (std::size_t k = 0; k < repeats.size(); ++k)
+      bytes += fmt::format("p,{},{},P10,5.5,1,2,3\n", step, repeats[(k + static_cast<std::size_t>(3 * step)) % 8]);
+  }
+  expectSameInParts(campaign::loadingLayout(), bytes);
+  EXPECT_NE(outcome(campaign::loadingLayout(), bytes, 1).find("\nb 01 a 99999999999 -1\n"), std::string::npos);
+  // "1" and "01" are two repeats; the same one twice is refused.
+  EXPECT_EQ(outcome(campaign::loadingLayout(), bytes + "p,3,01,P10,5.5,1,2,3\n", 1)
+                .find("expected a key that does not repeat"),
+            outcome(campaign::loadingLayout(), bytes + "p,3,01,P10,5.5,1,2,3\n", kWhole)
+                .find("expected a key that does not repeat"));
+  EXPECT_NE(outcome(campaign::loadingLayout(), bytes + "p,3,01,P10,5.5,1,2,3\n", 1).find("does not repeat"),
+            std::string::npos);
 }
 
 TEST(TableParts, CountLinesOfEveryEndAndBlankOnes) {

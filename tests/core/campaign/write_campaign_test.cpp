@@ -246,6 +246,27 @@ TEST(WriteCampaign, WritesTheControllersFiguresAgain) {
               kAngle * 3);  // three figures are rounded
 }
 
+TEST(WriteCampaign, WritesRepeatsByTheirNames) {
+  const SmallCampaign files;
+  campaign::Campaign campaign = campaign::readCampaign(files.folder()).campaign;
+  campaign.repeat_ids = {"second", "02"};
+  std::vector<campaign::LoadingReading>& rows = campaign.loading->rows;
+  ASSERT_GE(rows.size(), 3u);
+  rows[0].repeat = 7;
+  rows[1].repeat = campaign::repeatByName(0);
+  rows[2].repeat = campaign::repeatByName(1);
+  const TemporaryFolder folder;
+  campaign::writeCampaign(campaign, files.folder() / "robot.urdf", folder.path() / "new");
+  const campaign::Campaign read = campaign::readCampaign(folder.path() / "new").campaign;
+  EXPECT_EQ(read.repeat_ids, campaign.repeat_ids);
+  expectSameTables(read, campaign);
+  // None is named where a row names none.
+  rows.resize(1);
+  rows[0].repeat = campaign::kNoRepeat;
+  campaign::writeCampaign(campaign, files.folder() / "robot.urdf", folder.path() / "none");
+  EXPECT_EQ(campaign::readCampaign(folder.path() / "none").campaign.loading->rows[0].repeat, campaign::kNoRepeat);
+}
+
 TEST(WriteCampaign, SecondEncodersAreWrittenWhereTheyAreAndBlankWhereNot) {
   const SmallCampaign files;
   campaign::Campaign campaign = campaign::readCampaign(files.folder()).campaign;
