@@ -94,52 +94,79 @@ std::optional<RailCourse> fitRailCourse(const campaign::Campaign& campaign,
   return course;
 }
 
-void referToCarriageAtZero(const std::optional<RailCourse>& course, campaign::Campaign& campaign) {
-  if (!campaign.robot.rail) return;
+namespace {
+
+/// Calls `carry(row, by)` with each reading of the arm and how far from its zero the carriage stood, by the rows' `rail`
+/// and in the frame of the reading's table, m.
+template <class Carry>
+void forEachCarried(const std::optional<RailCourse>& course, campaign::Campaign& campaign, const Carry& carry) {
   const auto perMetre = [&](campaign::PointFrame frame) -> Eigen::Vector3d {
     if (frame == campaign::PointFrame::base_link) return campaign.robot.rail->direction_in_base;
     return course ? course->per_metre : Eigen::Vector3d(Eigen::Vector3d::Zero());
   };
+  const auto ofSweep = [&](auto& table) {
+    if (!table) return;
+    const Eigen::Vector3d d = perMetre(table->frame);
+    for (auto& row : table->rows) carry(row, row.rail * d);
+  };
+  ofSweep(campaign.circle_sweeps);
+  ofSweep(campaign.wrist_sweep);
+  if (!campaign.states || !campaign.loading) return;
+  std::map<std::pair<int, int>, double> at;
+  for (const campaign::State& row : campaign.states->rows) at.emplace(std::pair(row.pose, row.step), row.rail);
+  const Eigen::Vector3d d = perMetre(campaign.loading->frame);
+  for (campaign::LoadingReading& row : campaign.loading->rows) {
+    const auto position = at.find({row.pose, row.step});
+    if (position != at.end()) carry(row, Eigen::Vector3d(position->second * d));
+  }
+}
+
+/// All rows that say where the carriage stood.
+template <class Visit>
+void forEachPlaced(campaign::Campaign& campaign, const Visit& visit) {
+  const auto each = [&](auto& table) {
+    if (!table) return;
+    for (auto& row : table->rows) visit(row);
+  };
+  each(campaign.circle_sweeps);
+  each(campaign.wrist_sweep);
+  each(campaign.states);
+}
+
+}  // namespace
+
+void referToCarriageAtZero(const std::optional<RailCourse>& course, campaign::Campaign& campaign) {
+  if (!campaign.robot.rail) return;
   const Eigen::Vector3d station =
       campaign.tracker ? campaign.tracker->station : Eigen::Vector3d(Eigen::Vector3d::Zero());
   // The instrument stays where it was: seen from the carriage it stands as much further back.
-  const auto carryBack = [&](auto& row, const Eigen::Vector3d& by) {
+  forEachCarried(course, campaign, [&](auto& row, const Eigen::Vector3d& by) {
     row.point -= by;
     row.from = (row.from.allFinite() ? row.from : station) - by;
-  };
-  const auto keepWhere = [](auto& row) {
-    if (std::isnan(row.carriage)) row.carriage = row.rail;  // else it has been referred before
-  };
-  const auto refer = [&](auto& table) {
-    if (!table) return;
-    const Eigen::Vector3d d = perMetre(table->frame);
-    for (auto& row : table->rows) {
-      keepWhere(row);
-      carryBack(row, std::exchange(row.rail, 0.0) * d);
-    }
-  };
-  refer(campaign.circle_sweeps);
-  refer(campaign.wrist_sweep);
-  if (!campaign.states) return;
-  if (campaign.loading) {
-    std::map<std::pair<int, int>, double> at;
-    for (const campaign::State& row : campaign.states->rows) at.emplace(std::pair(row.pose, row.step), row.rail);
-    const Eigen::Vector3d d = perMetre(campaign.loading->frame);
-    for (campaign::LoadingReading& row : campaign.loading->rows) {
-      const auto position = at.find({row.pose, row.step});
-      if (position != at.end()) carryBack(row, position->second * d);
-    }
-  }
-  const auto [first, last] =
-      std::minmax_element(campaign.states->rows.begin(), campaign.states->rows.end(),
-                          [](const campaign::State& a, const campaign::State& b) { return a.rail < b.rail; });
-  const bool moves = first != last && last->rail > first->rail;
-  for (campaign::State& row : campaign.states->rows) {
-    keepWhere(row);
-    row.rail = 0.0;
+  });
+  bool moves = false;
+  if (campaign.states) {
+    for (const campaign::State& row : campaign.states->rows) moves |= row.rail != campaign.states->rows.front().rail;
     // Whether a controller counts the carriage into the poses that it states is not known.
-    if (moves && row.hasExtras()) row.extras().tool_pose = {};
+    for (campaign::State& row : campaign.states->rows) {
+      if (moves && row.hasExtras()) row.extras().tool_pose = {};
+    }
   }
+  forEachPlaced(campaign, [](auto& row) {
+    if (std::isnan(row.carriage)) row.carriage = row.rail;  // else it has been referred before
+    row.rail = 0.0;
+  });
+}
+
+void referToWhereItStood(const std::optional<RailCourse>& course, campaign::Campaign& campaign) {
+  if (!campaign.robot.rail) return;
+  forEachPlaced(campaign, [](auto& row) {
+    if (!std::isnan(row.carriage)) row.rail = std::exchange(row.carriage, campaign::kNotGiven);
+  });
+  forEachCarried(course, campaign, [](auto& row, const Eigen::Vector3d& by) {
+    row.point += by;
+    row.from += by;
+  });
 }
 
 }  // namespace stiffscope::preparation

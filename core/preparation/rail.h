@@ -44,4 +44,7 @@ std::optional<RailCourse> fitRailCourse(const campaign::Campaign& campaign,
 /// count it in. Nests and the rail sweep itself are left. For a robot without a rail nothing happens.
 void referToCarriageAtZero(const std::optional<RailCourse>& course, campaign::Campaign& campaign);
 
+/// Takes that back, by the same course: readings are where they were read, `rail` what was reported.
+void referToWhereItStood(const std::optional<RailCourse>& course, campaign::Campaign& campaign);
+
 }  // namespace stiffscope::preparation

@@ -154,6 +154,17 @@ TEST(Rail, ReadingsAreReferredToTheCarriageAtZero) {
   for (std::size_t i = 0; i < once.loading->rows.size(); ++i)
     EXPECT_EQ(day.loading->rows[i].point, once.loading->rows[i].point);
   for (const campaign::State& row : day.states->rows) EXPECT_EQ(row.carriage, 0.5 + row.pose);
+  // And back: every reading where it was, at the positions that were reported.
+  campaign::Campaign back = once;
+  preparation::referToWhereItStood(preparation::fitRailCourse(back, std::nullopt), back);
+  for (const campaign::LoadingReading& row : back.loading->rows)
+    EXPECT_LT((row.point - place - (0.5 + row.pose) * kPerMetre).norm(), 1e-12);
+  for (const campaign::State& row : back.states->rows) EXPECT_EQ(row.rail, 0.5 + row.pose);
+  preparation::referToCarriageAtZero(preparation::fitRailCourse(back, std::nullopt), back);
+  for (std::size_t i = 0; i < once.loading->rows.size(); ++i) {
+    EXPECT_LT((back.loading->rows[i].point - once.loading->rows[i].point).norm(), 1e-12);
+    EXPECT_LT((back.loading->rows[i].from - once.loading->rows[i].from).norm(), 1e-12);
+  }
   // Points of base_link go by the URDF's direction.
   in_base.loading->frame = campaign::PointFrame::base_link;
   for (int pose = 0; pose < 3; ++pose)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <string>
 #include "core/audit/audit.h"
 #include "core/diagnosis/diagnose.h"
@@ -236,6 +237,31 @@ TEST(RailDay, ATurnedTrackerIsTakenOffTheReadings) {
   }
   EXPECT_GT(before, 5e-4);
   EXPECT_LT(after, 6e-5);
+}
+
+// A jump of the station that the nests see is taken off where readings were read, and put back there: what comes out is
+// what was read, referred to the carriage.
+TEST(RailDay, ADriftPutBackLeavesReadingsAsTheyWereMeasured) {
+  simulation::SimulationSpec spec = noisySpec(86);
+  Eigen::Isometry3d jump = Eigen::Isometry3d::Identity();
+  jump.linear() = Eigen::AngleAxisd(3e-4, Eigen::Vector3d(0.2, -0.5, 1.0).normalized()).toRotationMatrix();
+  jump.translation() = Eigen::Vector3d(1e-4, -2e-4, 1e-4);
+  spec.station.tracker_moved = jump;
+  const campaign::Campaign day = simulation::simulate(spec);
+  const preparation::PreparedCampaign prepared = preparation::prepareCampaign(day);
+  ASSERT_TRUE(prepared.preparation.drift.taken_off);
+  const campaign::Campaign put_back = preparation::asMeasured(prepared).campaign,
+                           raw = preparation::leaveRaw(day).campaign;
+  std::map<std::size_t, Eigen::Vector3d> by_line;
+  for (const campaign::LoadingReading& row : raw.loading->rows) by_line[row.line] = row.point;
+  double off = 0.0, moved = 0.0;
+  for (std::size_t i = 0; i < put_back.loading->rows.size(); ++i) {
+    const campaign::LoadingReading& row = put_back.loading->rows[i];
+    off = std::max(off, (row.point - by_line.at(row.line)).norm());
+    moved = std::max(moved, (row.point - prepared.campaign.loading->rows[i].point).norm());
+  }
+  EXPECT_GT(moved, 5e-4);
+  EXPECT_LT(off, 3e-5);  // the course of the rail, by readings with and without the jump
 }
 
 TEST(RailDay, TwoPositionsAreTooFewToTellItsBending) {
