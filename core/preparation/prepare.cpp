@@ -300,7 +300,8 @@ PreparedCampaign prepareCampaign(campaign::Campaign read) {
 
 PreparedCampaign asMeasured(PreparedCampaign prepared) {
   if (!prepared.preparation.drift.taken_off) return prepared;
-  // A station that turned moved readings by where they were read, metres along the rail from where they are referred to.
+  // A station that turned moved readings by where they were read, metres along the rail from where they are referred
+  // to.
   referToWhereItStood(prepared.rail, prepared.campaign);
   if (prepared.preparation.stations) {
     putBackDrift(takenOff(*prepared.preparation.stations), prepared.campaign);

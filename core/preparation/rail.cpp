@@ -96,8 +96,8 @@ std::optional<RailCourse> fitRailCourse(const campaign::Campaign& campaign,
 
 namespace {
 
-/// Calls `carry(row, by)` with each reading of the arm and how far from its zero the carriage stood, by the rows' `rail`
-/// and in the frame of the reading's table, m.
+/// Calls `carry(row, by)` with each reading of the arm and how far from its zero the carriage stood, by the rows'
+/// `rail` and in the frame of the reading's table, m.
 template <class Carry>
 void forEachCarried(const std::optional<RailCourse>& course, campaign::Campaign& campaign, const Carry& carry) {
   const auto perMetre = [&](campaign::PointFrame frame) -> Eigen::Vector3d {
