@@ -135,7 +135,7 @@ TEST(FindMistakes, NeedsNoSweeps) {
   day.circle_sweeps.reset();
   day.wrist_sweep.reset();
   day.nests.reset();
-  day.robot.bodies = {};
+  for (robot::BodyMass& body : day.robot.bodies) body = {};
   EXPECT_FALSE(mistakes::findMistakes(day).contradicted());
   for (auto& row : day.states->rows) std::swap(row.q[3], row.q[5]);
   const std::string text = said(mistakes::findMistakes(day));
