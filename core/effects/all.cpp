@@ -3,46 +3,45 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <tuple>
+#include <utility>
 
+#include "core/campaign/state_points.h"
 #include "core/robot/kinematics.h"
 
 namespace stiffscope::effects {
 
 namespace {
 
-struct Mean {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  int count = 0;
-
-  Eigen::Vector3d value() const { return sum / count; }
-};
-
-/// Means of the repeats by posture, step and reflector, of every so many postures; differences from step 0 where the
-/// campaign has no more.
-std::map<std::tuple<int, int, int>, Mean> meansOf(const campaign::Campaign& campaign, int every) {
-  std::map<std::tuple<int, int, int>, Mean> means;
-  const auto add = [&](const auto& row, const Eigen::Vector3d& value) {
-    if (row.pose % every != 0) return;
-    Mean& mean = means[{row.pose, row.step, row.target}];
-    mean.sum += value;
-    ++mean.count;
-  };
-  if (campaign.loading) {
-    for (const campaign::LoadingReading& row : campaign.loading->rows) add(row, row.point);
-  } else if (campaign.displacements) {
-    for (const campaign::Displacement& row : campaign.displacements->rows) add(row, row.displacement);
+/// By what each reflector moved from step 0 to each later state, m, by posture and step.
+std::multimap<std::pair<int, int>, double> movesOf(const campaign::Campaign& campaign) {
+  std::multimap<std::pair<int, int>, double> moves;
+  if (!campaign.loading) {
+    if (!campaign.displacements) return moves;
+    for (const campaign::Displacement& row : campaign.displacements->rows)
+      moves.emplace(std::pair(row.pose, row.step), row.displacement.norm());
+    return moves;
   }
-  return means;
+  const std::vector<campaign::StatePoints> states = campaign::statePoints(campaign);
+  std::map<int, const campaign::StatePoints*> unloaded;
+  for (const campaign::StatePoints& state : states) {
+    if (state.source == campaign::StatePoints::Source::loading && state.step == 0) unloaded[state.pose] = &state;
+  }
+  for (const campaign::StatePoints& state : states) {
+    const auto before = unloaded.find(state.pose);
+    if (state.step == 0 || before == unloaded.end()) continue;
+    for (const campaign::ReflectorMean& one : state.reflectors) {
+      const campaign::ReflectorMean* const from = before->second->of(one.target);
+      if (from != nullptr) moves.emplace(std::pair(state.pose, state.step), (one.point - from->point).norm());
+    }
+  }
+  return moves;
 }
 
 }  // namespace
 
 double armCompliance(const campaign::Campaign& campaign) {
   if (!campaign.states) return 0.0;
-  constexpr int kPostures = 100;
-  const int every = static_cast<int>(campaign.pose_ids.size()) / kPostures + 1;
-  const auto means = meansOf(campaign, every);
+  const auto moves = movesOf(campaign);
   double most = 0.0;
   for (const campaign::State& state : campaign.states->rows)
     most = std::max(most, state.wrench_in_cell.head<3>().norm());
@@ -52,14 +51,8 @@ double armCompliance(const campaign::Campaign& campaign) {
     if (state.step == 0 || force <= campaign::kReturnShare * most) continue;
     const robot::ArmPosture posture = robot::postureAt(campaign.robot, state.q);
     const double reach = robot::flangeAt(campaign.robot, posture).translation().norm();
-    for (int target = 0; target < static_cast<int>(campaign.targets.size()); ++target) {
-      const auto loaded = means.find({state.pose, state.step, target});
-      if (loaded == means.end()) continue;
-      const auto unloaded = means.find({state.pose, 0, target});
-      if (campaign.loading && unloaded == means.end()) continue;
-      const Eigen::Vector3d from = campaign.loading ? unloaded->second.value() : Eigen::Vector3d::Zero();
-      compliances.push_back((loaded->second.value() - from).norm() / (force * reach * reach));
-    }
+    const auto [first, last] = moves.equal_range({state.pose, state.step});
+    for (auto move = first; move != last; ++move) compliances.push_back(move->second / (force * reach * reach));
   }
   if (compliances.empty()) return 0.0;
   const auto middle = compliances.begin() + static_cast<std::ptrdiff_t>(compliances.size() / 2);

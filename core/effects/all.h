@@ -23,8 +23,9 @@ std::vector<EffectModel> modelsOf(const EffectRecord& record, const ModelScope& 
 std::vector<EffectModel> effectModels(const ModelScope& scope);
 
 /// How soft an arm is as a whole, rad/Nm: by what its reflectors move under load, over the force and the square of the
-/// flange's distance from base_link's origin; the median over loaded states. 5e-7 of an industrial arm, 5e-5 of one
-/// that works beside people. 0 without loaded states. What bounds the size of an effect grows with it.
+/// flange's distance from base_link's origin; the median over loaded states. Of drawn arms 1e-7 to 6e-6 where
+/// they are industrial, 2e-5 to 1e-4 where they work beside people. 0 without loaded states. What bounds the size of an
+/// effect grows with it.
 double armCompliance(const campaign::Campaign& campaign);
 
 /// The same for the campaign's machine and reflectors.

@@ -146,7 +146,8 @@ void referToCarriageAtZero(const std::optional<RailCourse>& course, campaign::Ca
   });
   bool moves = false;
   if (campaign.states) {
-    for (const campaign::State& row : campaign.states->rows) moves |= row.rail != campaign.states->rows.front().rail;
+    const double first = campaign.states->rows.empty() ? 0.0 : campaign.states->rows.front().rail;
+    for (const campaign::State& row : campaign.states->rows) moves |= row.rail < first || row.rail > first;
     // Whether a controller counts the carriage into the poses that it states is not known.
     for (campaign::State& row : campaign.states->rows) {
       if (moves && row.hasExtras()) row.extras().tool_pose = {};

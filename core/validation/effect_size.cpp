@@ -54,7 +54,8 @@ double carriageError(const simulation::RailSpec& rail) {
   return std::sqrt((rail.stop_sigma * rail.stop_sigma + rail.straightness * rail.straightness) / 3.0);
 }
 
-/// The same machine with nothing that gives but the springs of its joints.
+/// The same machine with nothing that gives but the springs of its joints, those shared by two of them, and between
+/// bodies.
 simulation::SimulationSpec springsAlone(simulation::SimulationSpec spec) {
   simulation::MachineSpec springs;
   for (const simulation::JointStiffness& joint : spec.machine.joints) springs.joints.push_back({joint.torsion, {}});
