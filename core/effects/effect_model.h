@@ -99,6 +99,9 @@ struct EffectPart {
   std::string unit;                     ///< of the parameters
   std::vector<std::string> names = {};  ///< of each parameter; empty: a single one, called as the part
   std::vector<std::string> units = {};  ///< of each parameter; empty: `unit` is that of all
+  /// Parameters of one model with the same number are large or small together, as shares of their bounds, by the
+  /// physics of what they belong to; those with 0 are not.
+  int alike = 0;
 };
 
 /// Beyond the arm's bodies, one an axis: what the plate between flange and reflectors carries.

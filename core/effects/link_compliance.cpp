@@ -45,7 +45,12 @@ std::vector<EffectModel> linkComplianceModels(const ModelScope& scope) {
   EffectModel model{.most_parts = static_cast<std::size_t>(links), .twists = &linkComplianceTwists};
   for (int link = 1; link <= links; ++link) {
     const std::string name = fmt::format("link {}", link);
-    model.parts.push_back({name, {1e-4, 1e-4}, true, "1/(N m^2)", {"1/EI of " + name, "1/GJ of " + name}});
+    model.parts.push_back({.detail = name,
+                           .most = {1e-4, 1e-4},
+                           .positive = true,
+                           .unit = "1/(N m^2)",
+                           .names = {"1/EI of " + name, "1/GJ of " + name},
+                           .alike = link});
   }
   return {model};
 }

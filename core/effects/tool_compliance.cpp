@@ -34,9 +34,9 @@ EffectModel modelOf(const char* shape, decltype(EffectModel::twists) twists, con
   const double most_turn = std::max(1e-4, 10.0 * scope.compliance);
   EffectModel model{.shape = shape, .most_parts = 6, .twists = twists, .beyond_flange = true};
   for (const char* name : {"bending about x", "bending about y", "twist about z"})
-    model.parts.push_back({name, {most_turn}, true, "rad/Nm"});
+    model.parts.push_back({.detail = name, .most = {most_turn}, .positive = true, .unit = "rad/Nm", .alike = 1});
   for (const char* name : {"shift along x", "shift along y", "shift along z"})
-    model.parts.push_back({name, {1e-5}, true, "m/N"});
+    model.parts.push_back({.detail = name, .most = {1e-5}, .positive = true, .unit = "m/N", .alike = 2});
   return model;
 }
 

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/numerics/random.h"
 
@@ -51,7 +52,15 @@ class Sampler {
         evidence.group.empty() ? 0 : *std::max_element(evidence.group.begin(), evidence.group.end()) + 1;
     members_.resize(groups, 0);
     for (std::size_t i = 0; i < evidence.group.size(); ++i) members_[evidence.group[i]] += !known(i);
-    local_ = local_mix_ = Eigen::VectorXd::Ones(x_.size());
+    scale_of_ = evidence.scale;
+    if (scale_of_.empty()) {
+      scale_of_.resize(evidence.group.size());
+      std::iota(scale_of_.begin(), scale_of_.end(), 0);
+    }
+    const std::size_t scales = scale_of_.empty() ? 0 : *std::max_element(scale_of_.begin(), scale_of_.end()) + 1;
+    sharers_.resize(scales, 0);
+    for (std::size_t i = 0; i < scale_of_.size(); ++i) sharers_[scale_of_[i]] += !known(i);
+    local_ = local_mix_ = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(scales));
     effect_ = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(groups), kUsual * kUsual);
     effect_mix_ = Eigen::VectorXd::Ones(effect_.size());
     among_free_ = evidence.normal(free_, free_);
@@ -70,7 +79,10 @@ class Sampler {
   double priorWeight(Eigen::Index i) const {
     const auto at = static_cast<std::size_t>(i);
     if (known(at)) return 1.0 / (evidence_.known_sd[at] * evidence_.known_sd[at]);
-    return 1.0 / (local_[i] * effect_[groupOf(i)]);
+    return 1.0 / (local_[scaleOf(i)] * effect_[groupOf(i)]);
+  }
+  Eigen::Index scaleOf(Eigen::Index i) const {
+    return static_cast<Eigen::Index>(scale_of_[static_cast<std::size_t>(i)]);
   }
   Eigen::Index groupOf(Eigen::Index i) const {
     return static_cast<Eigen::Index>(evidence_.group[static_cast<std::size_t>(i)]);
@@ -114,17 +126,23 @@ class Sampler {
   }
 
   void drawScales() {
-    Eigen::VectorXd sum = Eigen::VectorXd::Zero(effect_.size());
+    const auto square = [&](Eigen::Index i) { return std::max(x_[i] * x_[i], kLeastSquare); };
+    Eigen::VectorXd of_scale = Eigen::VectorXd::Zero(local_.size()), of_effect = Eigen::VectorXd::Zero(effect_.size());
     for (Eigen::Index i = 0; i < x_.size(); ++i) {
-      if (known(static_cast<std::size_t>(i))) continue;
-      const double square = std::max(x_[i] * x_[i], kLeastSquare);
-      local_[i] = (1.0 / local_mix_[i] + square / (2.0 * effect_[groupOf(i)])) / exponential(random_);
-      local_mix_[i] = (1.0 + 1.0 / local_[i]) / exponential(random_);
-      sum[groupOf(i)] += square / local_[i];
+      if (!known(static_cast<std::size_t>(i))) of_scale[scaleOf(i)] += square(i) / effect_[groupOf(i)];
+    }
+    for (Eigen::Index l = 0; l < local_.size(); ++l) {
+      const std::size_t sharers = sharers_[static_cast<std::size_t>(l)];
+      if (sharers == 0) continue;
+      local_[l] = (1.0 / local_mix_[l] + 0.5 * of_scale[l]) / gammaOfHalves(sharers + 1, random_);
+      local_mix_[l] = (1.0 + 1.0 / local_[l]) / exponential(random_);
+    }
+    for (Eigen::Index i = 0; i < x_.size(); ++i) {
+      if (!known(static_cast<std::size_t>(i))) of_effect[groupOf(i)] += square(i) / local_[scaleOf(i)];
     }
     for (Eigen::Index g = 0; g < effect_.size(); ++g) {
       const std::size_t members = members_[static_cast<std::size_t>(g)];
-      effect_[g] = (1.0 / effect_mix_[g] + 0.5 * sum[g]) / gammaOfHalves(members + 1, random_);
+      effect_[g] = (1.0 / effect_mix_[g] + 0.5 * of_effect[g]) / gammaOfHalves(members + 1, random_);
       effect_mix_[g] = (1.0 / (kUsual * kUsual) + 1.0 / effect_[g]) / exponential(random_);
     }
   }
@@ -136,6 +154,7 @@ class Sampler {
   Eigen::VectorXd x_;
   std::vector<Eigen::Index> free_, positive_;
   std::vector<std::size_t> members_;                         ///< parameters of each effect
+  std::vector<std::size_t> scale_of_, sharers_;              ///< the l of each parameter; parameters of each l
   Eigen::VectorXd local_, local_mix_, effect_, effect_mix_;  ///< l^2, t^2 and what mixes them
   Eigen::MatrixXd among_free_, free_positive_, among_positive_;
 };

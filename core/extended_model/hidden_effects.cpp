@@ -143,15 +143,20 @@ HiddenDraws hiddenDraws(const diagnosis::GapStudy& study, const EffectFit& fitte
   HiddenDraws hidden;
   EffectEvidence evidence;
   std::vector<double> bound, at_fit;
+  std::size_t scales = 0;
   hidden.columns.models = modelOfEach(study);
   for (std::size_t g = 0; g < hidden.columns.models.size(); ++g) {
     const std::size_t m = hidden.columns.models[g];
     const effects::EffectModel& model = study.input->models[m];
     const Eigen::VectorXd own = fittedOf(model, fitted);
     Eigen::Index at = layout.model_at[m] - layout.effects, of_own = 0;
+    std::map<int, std::size_t> shared;
     for (const effects::EffectPart& part : model.parts) {
       for (std::size_t k = 0; k < part.most.size(); ++k) {
         if (projection.before[at] > 0.0) {
+          const auto [of_alike, first] = shared.try_emplace(part.alike, scales);
+          const bool own_scale = part.alike == 0 || first;
+          evidence.scale.push_back(own_scale ? scales++ : of_alike->second);
           hidden.columns.parameters.push_back(at);
           hidden.effect.push_back(model.effect);
           hidden.named.push_back(

@@ -177,6 +177,7 @@ struct EffectEvidence {
   Eigen::MatrixXd normal;          ///< N, n x n, positive semidefinite
   Eigen::VectorXd right;           ///< b, n
   std::vector<std::size_t> group;  ///< the effect of each parameter, 0, 1, ...
+  std::vector<std::size_t> scale;  ///< l of each parameter, 0, 1, ...; those that share it are alike; empty: none do
   std::vector<bool> positive;      ///< a compliance, a width: never negative
   std::vector<double> known_sd;    ///< of each parameter beforehand, where that is declared; 0 or absent: it is not
 };
@@ -191,8 +192,10 @@ struct PosteriorOptions {
 /// Prior: the horseshoe (Carvalho, Polson and Scott, Biometrika 97, 2010, 465), x_i ~ N(0, l_i^2 t_g^2) with l_i ~
 /// C+(0, 1) for the parameter and t_g ~ C+(0, kUsual) for its effect g; x_i > 0 where that is physics. Most effects of
 /// a machine are too small to matter and some are large: this prior says just that. Where the data do not see a
-/// parameter it stays as small as its effect's others; where they see it, the heavy tails leave it as it is. The
-/// prior of a parameter that is declared with a standard uncertainty is normal with that.
+/// parameter it stays as small as its effect's others; where they see it, the heavy tails leave it as it is. Parameters
+/// that are alike by physics (EffectPart::alike: a link's bending and its twist) share one l_i: a link that hardly
+/// bends hardly twists, though its twist looks like that of the joint beside it. The prior of a parameter that is
+/// declared with a standard uncertainty is normal with that.
 ///
 /// By Gibbs sampling: the parameters of either sign jointly, those that are positive one after the other with the
 /// former integrated out, the scales by their inverse gamma mixtures (Makalic and Schmidt, IEEE Signal Processing

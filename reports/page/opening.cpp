@@ -108,7 +108,8 @@ std::string stiffnessWords(const reports::ReportCampaign& one, int joint, const 
   if (!shown) return "–";
   const identification::StiffnessEstimate& estimate = one.identification.of(*shown).estimate;
   if (joint >= estimate.joints()) return "–";
-  if (!estimate.identifiable[static_cast<std::size_t>(joint)]) return "not seen";
+  const auto at = static_cast<std::size_t>(joint);
+  if (!estimate.identifiable[at]) return reports::unseenWords(one.identification.identifiability.joints[at]);
   const double u = identification::expandedUncertainty(estimate, joint);
   const double k = estimate.stiffness(joint) / unit.size;
   const std::string mark = reports::words(estimate.mark(joint));

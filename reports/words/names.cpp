@@ -133,6 +133,16 @@ std::string leftOutWords(const identification::LeftOutPosture& posture) {
   return fmt::format("pose {}: {}", posture.pose, words(posture.reason));
 }
 
+std::string unseenWords(const identification::JointIdentifiability& joint) {
+  using identification::RemarkId;
+  if (joint.reason.is(RemarkId::load_hangs)) return "not seen: the load only hangs";
+  if (joint.reason.is(RemarkId::load_turns_too_little)) return "not seen: hardly loaded";
+  if (joint.reason.is(RemarkId::points_on_axis)) return "not seen: points stand on its axis";
+  if (joint.reason.is(RemarkId::two_joints_combined) || joint.reason.is(RemarkId::joints_combined))
+    return "not seen apart from others";
+  return "not seen";
+}
+
 std::string postureName(const ReportCampaign& one, std::size_t load_case) {
   return asIs(one.campaign.pose_ids[static_cast<std::size_t>(one.identification.cases[load_case].pose)]);
 }

@@ -64,6 +64,9 @@ JudgedPoint judgedPoint(const ReportCampaign& one);
 /// "pose 3: no state of this load step"; a plain text.
 std::string leftOutWords(const identification::LeftOutPosture& posture);
 
+/// "not seen: the load only hangs"; short enough for a cell of a table.
+std::string unseenWords(const identification::JointIdentifiability& joint);
+
 /// The name of the posture of a load case, to the letter.
 std::string postureName(const ReportCampaign& one, std::size_t load_case);
 

@@ -6,8 +6,10 @@
 #include "core/compensation/remarks.h"
 #include "core/diagnosis/remarks.h"
 #include "core/extended_model/remarks.h"
+#include "core/identification/remarks.h"
 #include "core/io/units.h"
 #include "core/planning/remarks.h"
+#include "reports/words/names.h"
 #include "reports/words/remark_words.h"
 
 // Remarks in SI units come out as sentences in mm, um and degrees.
@@ -89,6 +91,16 @@ TEST(ResultRemarks, OfAComparison) {
       << reports::words(Remark(difference_above_noise, 80e-6, 10e-6));
   EXPECT_EQ(reports::words(Remark(other_load, 100.0, 1000.0, 1100.0, 0.02)),
             "the loads differ by 9.1 % (1000 N before, 1100 N after), at most 2 % is the same load");
+}
+
+TEST(ResultRemarks, WhyAJointIsNotSeenFitsACell) {
+  using enum identification::RemarkId;
+  const auto cell = [](const Remark& reason) { return reports::unseenWords({.reason = reason}); };
+  EXPECT_EQ(cell(Remark(load_hangs, 1, 4.7, 0.0)), "not seen: the load only hangs");
+  EXPECT_EQ(cell(Remark(load_turns_too_little, 6, 1.0, 3.0, 0.8)), "not seen: hardly loaded");
+  EXPECT_EQ(cell(Remark(points_on_axis, 6, 1e-4)), "not seen: points stand on its axis");
+  EXPECT_EQ(cell(Remark(two_joints_combined)), "not seen apart from others");
+  EXPECT_EQ(cell(Remark()), "not seen");
 }
 
 TEST(ResultRemarks, NothingToSayHasNoWordsAndAMissingValueIsAnError) {

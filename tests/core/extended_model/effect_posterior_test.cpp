@@ -143,6 +143,44 @@ TEST(EffectPosterior, WhatIsDeclaredIsANormalPrior) {
   EXPECT_GT((draws.row(1).array().abs() > 10.0 * kUsual).cast<double>().mean(), 0.02);  // tails that no normal has
 }
 
+/// P(y < limit) of a positive y that no data see, beside a positive x seen as mean +- sd, both normal with one standard
+/// deviation kUsual v: over ln v by hand, x and y in closed form.
+double shareBelowBesideAnAlike(double mean, double sd, double limit) {
+  double below = 0.0, whole = 0.0;
+  constexpr double kStep = 0.01;
+  for (double u = -16.0; u < 12.0; u += kStep) {
+    const double v = std::exp(u), prior_sd = kUsual * v;
+    const double density = std::abs(v - 1.0) < 1e-9 ? 0.5 : u / (v * v - 1.0);
+    const double both = std::hypot(sd, prior_sd), x_mean = mean * prior_sd * prior_sd / (both * both),
+                 x_sd = sd * prior_sd / both;
+    const double seen = normalDensity(mean, both) * std::erfc(-x_mean / (x_sd * std::numbers::sqrt2));
+    const double mass = density * v * seen;
+    whole += mass;
+    below += mass * std::erf(limit / (prior_sd * std::numbers::sqrt2));
+  }
+  return below / whole;
+}
+
+// A link that hardly bends is known to hardly twist, though nobody has seen it twist; one that bends may.
+TEST(EffectPosterior, ParametersThatAreAlikeShareTheirScale) {
+  constexpr double kSd = 0.002;
+  Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
+  normal(0, 0) = 1.0 / (kSd * kSd);
+  for (const double mean : {0.0, 0.02, 0.3}) {
+    EffectEvidence one = evidence(normal, Eigen::Vector2d(mean * normal(0, 0), 0.0), {true, true});
+    one.group = {0, 0};
+    one.scale = {0, 0};
+    const Eigen::MatrixXd draws = drawEffects(one, kMany);
+    for (const double limit : {0.001, 0.01, 0.1, 1.0})
+      EXPECT_NEAR(shareBelow(draws, 1, limit), shareBelowBesideAnAlike(mean, kSd, limit), kTolerance)
+          << "below " << limit << " beside " << mean;
+    one.scale = {0, 1};
+    const double smaller = shareBelow(draws, 1, 0.01) - shareBelow(drawEffects(one, kMany), 1, 0.01);
+    if (mean == 0.0) EXPECT_GT(smaller, 0.05);
+    if (mean == 0.3) EXPECT_LT(smaller, -0.05);
+  }
+}
+
 TEST(EffectPosterior, TheSameSeedGivesTheSameDraws) {
   const Eigen::MatrixXd normal = 100.0 * Eigen::MatrixXd::Identity(3, 3);
   const EffectEvidence one = evidence(normal, Eigen::Vector3d(1.0, 0.0, 30.0), {true, false, true});
