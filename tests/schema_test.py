@@ -39,6 +39,7 @@ LIVE = [
     ("export_urdf", "export urdf {samples}/unloaded --out {out}/arm.urdf"),
     ("export_elastic", "export mjcf {samples}/active --springs-only --out {out}/arm.xml"),
     ("export_dcc", "export dcc {out}/certified --springs-only --out {out}/dcc.xml"),
+    ("frames", "frames {out}/certified --springs-only"),
     ("stiffness", "stiffness {samples}/active --springs-only --spacing 500 --force 0,0,-1000"),
     ("import_points", "import points {source}/tests/fuzz/corpus/point_file/sa.txt"),
     ("import_points", "import points {source}/tests/fuzz/corpus/point_file/leica.csv"),
@@ -47,6 +48,12 @@ LIVE = [
 CERTIFICATE = (
     '<certificate number="1" country="DE" languages="en" place="laboratory"><laboratory name="L" city="C"/>'
     '<customer name="K" city="C"/><responsible name="R"/><item serial="S"/></certificate>')
+
+BALANCERS = (
+    '<balancer kind="gas" from_link="link_1" from_mm="-500 0 0" to_link="link_2" to_mm="-160 0 190" acts="pull" '
+    'pressure_bar="150" area_cm2="17" volume_l="6" length_mm="773"/>'
+    '<balancer kind="spring" from_link="link_1" from_mm="-500 0 0" to_link="link_2" to_mm="-160 0 190" '
+    'rate_n_per_m="42000" tension_n="-1800" length_mm="773"/>')
 
 
 def validator(definition):
@@ -80,7 +87,7 @@ def live(program):
         for file in (SAMPLES / "active").iterdir():
             (certified / file.name).write_bytes(file.read_bytes())
         xml = (certified / "campaign.xml").read_text(encoding="utf-8")
-        (certified / "campaign.xml").write_text(xml.replace("<tracker", CERTIFICATE + "<tracker", 1), encoding="utf-8")
+        (certified / "campaign.xml").write_text(xml.replace("<tracker", CERTIFICATE + BALANCERS + "<tracker", 1), encoding="utf-8")
         for definition, words in LIVE:
             words = words.format(samples=SAMPLES, out=out, source=SOURCE).split()
             ran = subprocess.run([program, *words, "--json", "-"], capture_output=True, check=False)

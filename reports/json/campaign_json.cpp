@@ -1,6 +1,9 @@
 #include "reports/json/campaign_json.h"
 
+#include <variant>
+
 #include "core/io/units.h"
+#include "core/robot/balancer.h"
 #include "reports/words/remark_words.h"
 
 namespace stiffscope::reports {
@@ -76,6 +79,23 @@ Json jointNumbers(const std::vector<int>& joints) {
   return numbers;
 }
 
+namespace {
+
+/// As the campaign states it: its bodies, and what it pulls with at the length that the data are of.
+Json balancerJson(const robot::Balancer& balancer) {
+  const auto* gas = std::get_if<robot::GasLaw>(&balancer.law);
+  const double length = gas != nullptr ? gas->length_m : std::get<robot::SpringLaw>(balancer.law).length_m;
+  const robot::Tension tension = robot::tensionAt(balancer, length);
+  return {{"kind", gas != nullptr ? "gas" : "spring"},
+          {"from_body", balancer.from.body},
+          {"to_body", balancer.to.body},
+          {"length_mm", length / io::kMillimetre},
+          {"tension_n", tension.force_n},
+          {"rate_n_per_m", tension.slope_n_per_m}};
+}
+
+}  // namespace
+
 Json campaignJson(const campaign::Campaign& campaign) {
   Json inputs = Json::array();
   for (const campaign::InputFile& input : campaign.inputs)
@@ -87,6 +107,11 @@ Json campaignJson(const campaign::Campaign& campaign) {
             {"inputs", inputs}};
   if (!campaign.double_encoder_joints.empty())
     json["double_encoder_joints"] = jointNumbers(campaign.double_encoder_joints);
+  if (!campaign.robot.balancers.empty()) {
+    Json balancers = Json::array();
+    for (const robot::Balancer& balancer : campaign.robot.balancers) balancers.push_back(balancerJson(balancer));
+    json["balancers"] = balancers;
+  }
   if (!campaign.texts.robot_serial.empty()) json["robot_serial"] = campaign.texts.robot_serial;
   return json;
 }

@@ -3,8 +3,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <algorithm>
+#include <cmath>
 #include <set>
+#include <variant>
 
+#include "core/io/units.h"
+#include "core/robot/balancer.h"
 #include "reports/page/sections.h"
 #include "reports/words/names.h"
 #include "reports/words/numbers.h"
@@ -91,6 +95,20 @@ std::string encoderFact(const reports::ReportCampaign& one) {
   return state + "; on which joints is not stated";
 }
 
+/// "gas cylinder between bodies 1 and 2, pulls with 25.5 kN at 773 mm"; empty without one.
+std::string balancersFact(const robot::Robot& robot) {
+  std::vector<std::string> all;
+  for (const robot::Balancer& balancer : robot.balancers) {
+    const auto* gas = std::get_if<robot::GasLaw>(&balancer.law);
+    const double length = gas != nullptr ? gas->length_m : std::get<robot::SpringLaw>(balancer.law).length_m;
+    const double force = robot::tensionAt(balancer, length).force_n;
+    all.push_back(fmt::format("{} between bodies {} and {}, {} with {} at {:.0f} mm", gas ? "gas cylinder" : "spring",
+                              balancer.from.body, balancer.to.body, force < 0.0 ? "pushes" : "pulls",
+                              reports::forceWords(std::abs(force)), length / io::kMillimetre));
+  }
+  return fmt::format("{}", fmt::join(all, "; "));
+}
+
 }  // namespace
 
 Facts whoAndWhat(const reports::ReportCampaign& one) {
@@ -106,6 +124,7 @@ Facts whoAndWhat(const reports::ReportCampaign& one) {
   own("Campaign", campaign.name);
   own("Measured on", campaign.date);
   own("Machine", campaign.robot.name);
+  add("Balancers", balancersFact(campaign.robot));
   own("Serial number", texts.robot_serial);
   own("Controller", texts.controller);
   own("Item", texts.item);
