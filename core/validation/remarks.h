@@ -31,7 +31,6 @@ enum class RemarkId {
   details_right,
   cases_failed,
   shrinks_seen_covered,
-  shrinks_noise_free_covered,
 };
 
 }  // namespace stiffscope::validation

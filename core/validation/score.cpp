@@ -289,10 +289,13 @@ std::vector<ShrinkPair> shrinksOf(const std::vector<ScoredCase>& cases, const Vo
   return pairs;
 }
 
-NamedRate coverage(const char* id, RemarkId meaning, const std::vector<ShrinkPair>& pairs, double ShrinkPair::*truth) {
+/// Of positions without noise nothing is left beside the right effect: only the shrink that can be seen is held against
+/// what was promised.
+NamedRate shrinkCoverage(const std::vector<ShrinkPair>& pairs) {
   int covered = 0;
-  for (const ShrinkPair& one : pairs) covered += one.low <= one.*truth && one.*truth <= one.high ? 1 : 0;
-  return {id, Remark(meaning), numerics::binomialRate(covered, static_cast<int>(pairs.size()))};
+  for (const ShrinkPair& one : pairs) covered += one.low <= one.truth_seen && one.truth_seen <= one.high ? 1 : 0;
+  return {"shrink_covered", Remark(RemarkId::shrinks_seen_covered),
+          numerics::binomialRate(covered, static_cast<int>(pairs.size()))};
 }
 
 }  // namespace
@@ -332,12 +335,7 @@ Score score(const std::vector<Label>& labels, const std::vector<Answer>& answers
     sizes.rate = rateOf(result.cases, in, right);
   }
   result.shrinks = shrinksOf(result.cases, vocabulary);
-  result.rates.push_back(
-      coverage("shrink_covered", RemarkId::shrinks_seen_covered, result.shrinks, &ShrinkPair::truth_seen));
-  // Of positions without noise nothing is left beside the right effect: whatever was promised, that is not inside.
-  if (vocabulary.shrinks == "deflection")
-    result.rates.push_back(coverage("shrink_covered_noise_free", RemarkId::shrinks_noise_free_covered, result.shrinks,
-                                    &ShrinkPair::truth));
+  result.rates.push_back(shrinkCoverage(result.shrinks));
   result.confusion = confusionOf(result.cases, vocabulary);
   return result;
 }

@@ -60,8 +60,6 @@ std::string validationWords(validation::RemarkId id, const RemarkValues&) {
       return "no answer at all";
     case shrinks_seen_covered:
       return "the promised interval holds the shrink that can be seen";
-    case shrinks_noise_free_covered:
-      return "the promised interval holds the noise-free shrink";
   }
   return {};
 }

@@ -196,7 +196,6 @@ TEST(BlindScore, shrinkIsHeldAgainstWhatCanBeSeen) {
   const validation::Score result = validation::score(labels, answers);
   EXPECT_EQ(result.rate("shrink_covered").hits, 1);
   EXPECT_EQ(result.rate("shrink_covered").trials, 2);
-  EXPECT_EQ(result.rate("shrink_covered_noise_free").hits, 1);
   EXPECT_EQ(result.shrinks[0].promised, 0.48);
 }
 
