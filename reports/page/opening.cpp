@@ -103,13 +103,16 @@ std::vector<std::string> headsOf(const reports::ReportContent& content, const Ab
   return heads;
 }
 
-std::string stiffnessWords(const reports::ReportCampaign& one, int joint, const reports::StiffnessUnit& unit) {
+/// `alone`: the only day of its table, which has room for words.
+std::string stiffnessWords(const reports::ReportCampaign& one, int joint, const reports::StiffnessUnit& unit,
+                           bool alone) {
   const auto shown = reports::shownMethod(one.identification);
   if (!shown) return "–";
   const identification::StiffnessEstimate& estimate = one.identification.of(*shown).estimate;
   if (joint >= estimate.joints()) return "–";
   const auto at = static_cast<std::size_t>(joint);
-  if (!estimate.identifiable[at]) return reports::unseenWords(one.identification.identifiability.joints[at]);
+  if (!estimate.identifiable[at])
+    return alone ? reports::unseenWords(one.identification.identifiability.joints[at]) : "not seen";
   const double u = identification::expandedUncertainty(estimate, joint);
   const double k = estimate.stiffness(joint) / unit.size;
   const std::string mark = reports::words(estimate.mark(joint));
@@ -171,7 +174,7 @@ void addStiffnesses(const reports::ReportContent& content, reports::Table& table
   for (int joint = 0; joint < joints; ++joint) {
     reports::Row row{reports::jointName(joint)};
     for (const reports::ReportCampaign& one : content.campaigns) {
-      if (isLoaded(one)) row.emplace_back(stiffnessWords(one, joint, unit));
+      if (isLoaded(one)) row.emplace_back(stiffnessWords(one, joint, unit, table.columns.size() == 2));
     }
     table.groups.front().rows.push_back(std::move(row));
   }
