@@ -156,7 +156,7 @@ constexpr const char* kPrint =
     "p:has(+ .scroll){break-after:avoid}table:not(.words) tbody tr:nth-child(-n+2):not(:last-child){break-after:avoid}"
     "table:not(.words) tbody tr:nth-last-child(-n+2):not(:first-child){break-before:avoid}"
     ".several,.each,.figures,.each>.figures{display:block}header .cautions{columns:auto}.scroll{break-inside:auto}"
-    "#versions{break-inside:avoid}"
+    "#versions,#versions table{break-inside:avoid}"
     "figcaption,.notes,p.faint{font-size:8.5pt}.verdict{font-size:12pt}"
     // A caption is as wide as its table: of a narrow one it would be four lines.
     "table,.each table{font-size:7.5pt;line-height:1.3}.each table{min-width:95mm}th,td{padding:.1rem .36rem}"
