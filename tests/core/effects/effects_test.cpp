@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 #include <stdexcept>
+#include <vector>
+
 #include "core/effects/all.h"
 #include "core/effects/elastic_arm.h"
 #include "core/preparation/station_course.h"
@@ -226,6 +228,20 @@ TEST(LinkCompliance, IsACantileverAtItsTip) {
   EXPECT_NEAR(beyond.x() - bend.x(), 1000.0 * length * length / 2.0, 1e-6);  // slope F L^2 / 2 over 1 m
   const Eigen::Vector3d twist = field.block<3, 1>(0, 3);
   EXPECT_LT(twist.norm(), 1e-9);  // leaves the tip where it is
+}
+
+// A section that hardly bends hardly twists; a plate that bends about one axis bends about the other. Links are each
+// their own, and so are turns and shifts, whose units differ.
+TEST(Alike, AreALinksTwoParametersAndAToolsTurnsAndShifts) {
+  const effects::EffectModel links = modelOf(effects::linkCompliance());
+  std::vector<int> of_links;
+  for (const effects::EffectPart& part : links.parts) of_links.push_back(part.alike);
+  EXPECT_EQ(of_links, (std::vector<int>{1, 2, 3, 4}));
+  EXPECT_EQ(links.parts.front().most.size(), 2u);
+  std::vector<int> of_tool;
+  for (const effects::EffectPart& part : modelOf(effects::toolCompliance()).parts) of_tool.push_back(part.alike);
+  EXPECT_EQ(of_tool, (std::vector<int>{1, 1, 1, 2, 2, 2}));
+  for (const effects::EffectPart& part : modelOf(effects::bearingTilt()).parts) EXPECT_EQ(part.alike, 0);
 }
 
 // A nest that gives along x of the flange only, and a slip along the pull: both by the force alone, on the
