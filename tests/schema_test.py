@@ -94,16 +94,20 @@ def live(program):
             if ran.returncode not in (0, 1):
                 raise AssertionError("{}: {}".format(" ".join(words), ran.stderr.decode()))
             yield words, definition, json.loads(ran.stdout)
-        machines = [("seven_axis", "frames", "identify", "compensate", "diagnose"), ("palletiser", "frames", "identify")]
+        machines = [("seven_axis", "frames", "identify", "compensate", "diagnose"), ("palletiser", "frames", "identify"),
+                    ("parallelogram", "frames", "identify", "compare"), ("rail", "identify", "compare")]
         for kind, *commands in machines:
             subprocess.run([program, "blind", "--machine", kind, "--cases", "1", "--seed", "1", "--out", str(out / kind)],
                            capture_output=True, check=True)
             campaign = next((out / kind / "cases").rglob("campaign.xml")).parent
             for definition in commands:
-                ran = subprocess.run([program, definition, str(campaign), "--json", "-"], capture_output=True, check=False)
-                if ran.returncode not in (0, 1):
+                days = [str(campaign)] * (2 if definition == "compare" else 1)
+                result = out / "result.json"
+                # Text and JSON: what the text says is not read here, only that there is one.
+                ran = subprocess.run([program, definition, *days, "--json", str(result)], capture_output=True, check=False)
+                if ran.returncode not in (0, 1) or not ran.stdout:
                     raise AssertionError("{} of {}: {}".format(definition, kind, ran.stderr.decode()))
-                yield [definition, kind], definition, json.loads(ran.stdout)
+                yield [definition, kind], definition, json.loads(result.read_text(encoding="utf-8"))
         for spec in ("active", "unloaded"):
             folder = out / spec
             subprocess.run([program, "simulate", str(SAMPLES / (spec + ".xml")), "--out", str(folder)],

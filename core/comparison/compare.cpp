@@ -83,7 +83,7 @@ Comparison compareCampaigns(const campaign::Campaign& before_campaign, const ide
   if (!result.reason.empty()) {
     for (StiffnessChange& method : result.methods) {
       method.reason = result.reason;
-      method.joints.resize(before_campaign.robot.axes_in_base_at_zero.size());
+      method.joints.resize(static_cast<std::size_t>(before_campaign.robot.joints()));
     }
     result.at_wrist.reason = result.at_targets.reason = result.reason;
     return result;
@@ -232,7 +232,7 @@ StiffnessChange compareStiffness(const campaign::Campaign& before_campaign,
                                  const MatchedPostures& matched, const SupportedModels& models) {
   const identification::MethodResult &first = before.of(method), &second = after.of(method);
   StiffnessChange result;
-  result.joints.resize(before_campaign.robot.axes_in_base_at_zero.size());
+  result.joints.resize(static_cast<std::size_t>(before_campaign.robot.joints()));
   if (!first.available || !second.available) {
     result.reason = !first.available ? Remark(RemarkId::of_one_campaign, When::before, first.reason)
                                      : Remark(RemarkId::of_one_campaign, When::after, second.reason);
