@@ -170,7 +170,7 @@ TEST(RailDay, TheSimulatedFootMovesAsTheBeamDoes) {
   machine.carryTo(at);
   const Eigen::Vector3d force(0.0, 300.0, -1000.0), hook = spec.loading->hook_in_flange;
   const JointVector q = JointVector::Zero(6);
-  const simulation::MachineState state = simulation::equilibrium(machine, q, simulation::DeadForce{hook, force, {}});
+  const simulation::MachineState state = simulation::equilibrium(machine, q, simulation::DeadForce{hook, force});
   Vector6d load;
   load << force, state.load_point_in_base.cross(force);
   const Vector6d expected = simulation::railCompliance(*spec.rail.beam, at) * load;
