@@ -43,6 +43,10 @@ Tension tensionAt(const Balancer& balancer, double length_m) {
   return std::visit([&](const auto& law) { return tensionOf(law, length_m); }, balancer.law);
 }
 
+double statedLength(const Balancer& balancer) {
+  return std::visit([](const auto& law) { return law.length_m; }, balancer.law);
+}
+
 PlacedBalancer placedAt(const Balancer& balancer, const ArmPosture& posture) {
   const auto [inner, outer] = std::minmax(balancer.from, balancer.to,
                                           [](const BalancerEnd& a, const BalancerEnd& b) { return a.body < b.body; });

@@ -11,6 +11,9 @@ struct Tension {
 };
 Tension tensionAt(const Balancer& balancer, double length_m);
 
+/// The length that its data are stated for, m.
+double statedLength(const Balancer& balancer);
+
 /// A balancer at a posture. Axes from `inner` to before `outer`, which are also its bodies' numbers, turn one end
 /// against the other.
 struct PlacedBalancer {

@@ -83,10 +83,9 @@ namespace {
 
 /// As the campaign states it: its bodies, and what it pulls with at the length that the data are of.
 Json balancerJson(const robot::Balancer& balancer) {
-  const auto* gas = std::get_if<robot::GasLaw>(&balancer.law);
-  const double length = gas != nullptr ? gas->length_m : std::get<robot::SpringLaw>(balancer.law).length_m;
+  const double length = robot::statedLength(balancer);
   const robot::Tension tension = robot::tensionAt(balancer, length);
-  return {{"kind", gas != nullptr ? "gas" : "spring"},
+  return {{"kind", std::holds_alternative<robot::GasLaw>(balancer.law) ? "gas" : "spring"},
           {"from_body", balancer.from.body},
           {"to_body", balancer.to.body},
           {"length_mm", length / io::kMillimetre},

@@ -99,9 +99,9 @@ std::string encoderFact(const reports::ReportCampaign& one) {
 std::string balancersFact(const robot::Robot& robot) {
   std::vector<std::string> all;
   for (const robot::Balancer& balancer : robot.balancers) {
-    const auto* gas = std::get_if<robot::GasLaw>(&balancer.law);
-    const double length = gas != nullptr ? gas->length_m : std::get<robot::SpringLaw>(balancer.law).length_m;
+    const double length = robot::statedLength(balancer);
     const double force = robot::tensionAt(balancer, length).force_n;
+    const bool gas = std::holds_alternative<robot::GasLaw>(balancer.law);
     all.push_back(fmt::format("{} between bodies {} and {}, {} with {} at {:.0f} mm", gas ? "gas cylinder" : "spring",
                               balancer.from.body, balancer.to.body, force < 0.0 ? "pushes" : "pulls",
                               reports::forceWords(std::abs(force)), length / io::kMillimetre));

@@ -8,6 +8,7 @@
 
 #include "core/campaign/read_campaign.h"
 #include "core/io/input_error.h"
+#include "core/robot/balancer.h"
 #include "tests/fixtures/small_campaign.h"
 
 namespace stiffscope {
@@ -54,6 +55,8 @@ TEST(StatedBalancer, IsReadInSi) {
   EXPECT_LT((robot.balancers[0].to.in_base_at_zero - expected).norm(), 1e-12);
   EXPECT_EQ(std::get<robot::SpringLaw>(robot.balancers[1].law).tension_n, -500.0);
   EXPECT_EQ(robot.balancers[1].from.body, 0);
+  EXPECT_NEAR(robot::statedLength(robot.balancers[0]), 0.9, kRounding);
+  EXPECT_NEAR(robot::tensionAt(robot.balancers[1], robot::statedLength(robot.balancers[1])).force_n, -500.0, kRounding);
 }
 
 TEST(StatedBalancer, IsRefusedWhereItCannotBe) {
