@@ -86,11 +86,11 @@ struct Figure {
   std::string caption;  ///< what to see in it, with the number
   std::string alt;      ///< what the picture shows, for those who do not see it
   std::vector<std::uint8_t> png;
-  int width = 0;                          ///< pixels
-  int height = 0;                         ///< pixels
-  std::vector<FigureMark> marks = {};     ///< empty: nothing is laid over it
-  std::string value_name, category_name;  ///< what the axes say: "Residual (µm)", "Posture"
-  std::string section = "figures";        ///< id of the section of the page that it stands in; see kFigureSections
+  int width = 0;                              ///< pixels
+  int height = 0;                             ///< pixels
+  std::vector<FigureMark> marks = {};         ///< empty: nothing is laid over it
+  std::string value_name{}, category_name{};  ///< what the axes say: "Residual (µm)", "Posture"
+  std::string section = "figures";            ///< id of the section of the page that it stands in; see kFigureSections
   /// Which of the report's campaigns it is of, by its place among them; empty: of all, or of the only one.
   std::optional<std::size_t> campaign = std::nullopt;
 };

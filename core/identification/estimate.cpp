@@ -269,7 +269,9 @@ double StiffnessEstimate::dof(int joint) const {
 
 Remark StiffnessEstimate::mark(int joint) const {
   if (compliance[joint] < 0.0) return Remark(RemarkId::negative);
-  if (stiffnessSd(joint) > std::abs(stiffness(joint))) return Remark(RemarkId::imprecise);
+  // What could hide has long tails: they make the standard deviation large, and the stated interval hardly wider.
+  const double sd = stated.empty() ? stiffnessSd(joint) : expandedUncertainty(*this, joint) / 2.0;
+  if (sd > std::abs(stiffness(joint))) return Remark(RemarkId::imprecise);
   return {};
 }
 

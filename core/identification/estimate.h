@@ -76,7 +76,7 @@ struct StiffnessEstimate {
   double stiffness(int joint) const { return 1.0 / compliance[joint]; }
   /// Standard uncertainty of k to first order, sd(c) / c^2.
   double stiffnessSd(int joint) const;
-  /// What a reader must know of the entry: "negative", "imprecise" (standard deviation above the value), or
+  /// What a reader must know of the entry: "negative", "imprecise" (u above the value, or half of a stated U), or
   /// empty.
   Remark mark(int joint) const;
 };

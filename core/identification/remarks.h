@@ -65,7 +65,7 @@ enum class RemarkId {
   known_stiffness_contradicted,
   // of a joint's stiffness
   negative,
-  imprecise  ///< standard deviation above the value
+  imprecise  ///< expanded uncertainty above about twice the value
 };
 
 }  // namespace stiffscope::identification

@@ -9,7 +9,10 @@
 
 namespace stiffscope::page {
 
-void writeOpening(Html& html, const reports::ReportContent& content);     ///< title, verdict, the three numbers
+void writeOpening(Html& html, const reports::ReportContent& content);  ///< title, verdict, the three numbers
+/// The result in a small table: of loads the stiffnesses by the method shown first, of an unloaded day its errors, of
+/// sweeps the distances between axes.
+reports::Table resultTable(const reports::ReportContent& content);
 void writeConditions(Html& html, const reports::ReportContent& content);  ///< method and conditions
 void writeWrist(Html& html, const reports::ReportContent& content);       ///< Table I
 void writeLinks(Html& html, const reports::ReportContent& content);       ///< link lengths and angles

@@ -30,7 +30,7 @@ std::string markNote(const Remark& mark) {
   return mark.is(identification::RemarkId::negative)
              ? "Negative: the data fits this joint with a stiffness that no spring has; "
                "printed as found, not clamped."
-             : "Imprecise: the standard uncertainty exceeds the value.";
+             : "Imprecise: the uncertainty U exceeds twice the value.";
 }
 
 reports::Cell stiffnessCell(const identification::Identification& result, identification::Method method, int joint,

@@ -59,6 +59,7 @@ constexpr const char* kScreen =
     ".numbers li{background:var(--band);border-left:4px solid var(--accent);padding:.5rem .9rem}"
     ".numbers b{display:block;font-size:1.6rem;line-height:1.25;font-weight:600;"
     "font-variant-numeric:tabular-nums}"
+    ".doubted li{border-left-color:var(--faint)}.doubted b{color:var(--faint)}"
     ".numbers span{display:block;color:var(--faint);font-size:.9rem;line-height:1.4}"
     // Campaigns side by side where there is room. In each, tables stand beside each other, what is said of a table at
     // its right, and figures fill what a narrow table leaves.

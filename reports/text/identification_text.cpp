@@ -187,7 +187,7 @@ void writeStiffness(const identification::Identification& result, const std::vec
   }
   fmt::format_to(out, "{}", wideIntervals(result, methods));
   if (negative) fmt::format_to(out, "  ! negative: no spring has that, something else is in the data\n");
-  if (imprecise) fmt::format_to(out, "  ? imprecise: the standard uncertainty exceeds the value\n");
+  if (imprecise) fmt::format_to(out, "  ? imprecise: the uncertainty U exceeds twice the value\n");
   for (std::size_t j = 0; j < result.identifiability.joints.size(); ++j) {
     const identification::JointIdentifiability& joint = result.identifiability.joints[j];
     if (joint.identifiable || joint.reason.empty()) continue;

@@ -122,6 +122,10 @@ std::string auditMeaning(const audit::AuditReport& audit, DayKind kind) {
                      failureWords(checksThat(audit, preparation::AuditVerdict::fail)), purposeOf(kind));
 }
 
+std::string doubtedNumbersWords() {
+  return "What the readings give as they stand; it is no result until what fails is mended or explained:";
+}
+
 std::string untestedWords(const audit::AuditReport& audit, DayKind kind) {
   if (audit.verdict != preparation::AuditVerdict::not_testable || kind == DayKind::sweeps) return {};
   return fmt::format("The audit could make {} of {} checks, too few to say that the readings are fit to {}.",
@@ -162,7 +166,8 @@ std::vector<std::string> scopeWords(DayKind kind, bool limits) {
       rule +
           "A joint counts as seen where the load "
           "turns it by more than three times what wrench, frame and angle uncertainty alone would. A stiffness is "
-          "imprecise where u exceeds the value, and negative ones are shown as found; uncertainty is not used to move "
+          "imprecise where U exceeds twice the value, and negative ones are shown as found; uncertainty is not used to "
+          "move "
           "a "
           "limit."};
 }

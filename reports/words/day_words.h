@@ -18,6 +18,9 @@ std::string methodWords(DayKind kind, int joints);
 /// What the audit's verdict means for such a day, a sentence.
 std::string auditMeaning(const audit::AuditReport& audit, DayKind kind);
 
+/// Before numbers of a day that fails the audit.
+std::string doubtedNumbersWords();
+
 /// That too few checks could be made to trust the readings for what such a day is for.
 std::string untestedWords(const audit::AuditReport& audit, DayKind kind);
 

@@ -74,6 +74,12 @@ std::string implausibleWords(const identification::ApparentStiffness& apparent) 
 }
 
 /// Values: see RemarkId::outlying_postures.
+/// Tenths of a millimetre; of a sag that these do not show, micrometres.
+std::string sagWords(double metres) {
+  constexpr double kShown = 0.05 * io::kMillimetre;
+  return metres < kShown ? withMicro(lengthWords(metres, 0)) : fmt::format("{:.1f} mm", metres / io::kMillimetre);
+}
+
 std::string outlyingWords(const RemarkValues& values) {
   const std::vector<std::string>& names = values.names(0);
   const std::vector<double>&left = values.numbers(1), &others = values.numbers(2);
@@ -217,14 +223,14 @@ std::string identificationWords(identification::RemarkId id, const RemarkValues&
       return "the tracker's noise is more than half of the deflection: this load step hardly moves the arm";
     case RemarkId::sag_in_sweeps_weighed:
       return fmt::format(
-          "axes and lengths stand on sweeps from which up to {:.1f} mm of the arm's own sag was taken off by the "
+          "axes and lengths stand on sweeps from which up to {} of the arm's own sag was taken off by the "
           "identified stiffnesses; what could hide in these is in the stated uncertainties",
-          values.number(0) / io::kMillimetre);
+          sagWords(values.number(0)));
     case RemarkId::sag_in_sweeps:
       return fmt::format(
-          "axes and lengths stand on sweeps from which up to {:.1f} mm of the arm's own sag was taken off by the "
+          "axes and lengths stand on sweeps from which up to {} of the arm's own sag was taken off by the "
           "identified stiffnesses; what those get wrong of it is not in the stated uncertainties",
-          values.number(0) / io::kMillimetre);
+          sagWords(values.number(0)));
     case RemarkId::sweep_above_noise:
       return fmt::format(
           "the circles of axis {} leave {}, {:.0f} times the tracker's noise: the axis bent during its sweep or "

@@ -247,6 +247,17 @@ TEST(Mark, NegativeAndImprecise) {
   EXPECT_TRUE(estimate.mark(1).is(identification::RemarkId::negative));
   EXPECT_TRUE(estimate.mark(2).is(identification::RemarkId::imprecise));  // sd(c) = 2 c
   EXPECT_NEAR(estimate.stiffnessSd(0), 1e-7 / 1e-12, 1.0);
+
+  // With intervals of their own these decide, whatever the standard deviation: 2 c of joint 3 is in long tails.
+  estimate.stated.assign(6, {0.8e-6, 1.2e-6});
+  estimate.stated[1] = {-1.2e-6, -0.8e-6};
+  estimate.stated[3] = {-0.1e-6, 2.1e-6};  // open above
+  estimate.stated[4] = {0.3e-6, 1.7e-6};   // k up to 3.3 of 1
+  EXPECT_TRUE(estimate.mark(1).is(identification::RemarkId::negative));
+  EXPECT_TRUE(estimate.mark(2).empty());
+  EXPECT_TRUE(estimate.mark(3).is(identification::RemarkId::imprecise));
+  EXPECT_TRUE(estimate.mark(4).is(identification::RemarkId::imprecise));
+  EXPECT_TRUE(estimate.mark(5).empty());
 }
 
 TEST(WristMove, TakesTheLargestTriangleAndTheRootByTheArm) {
