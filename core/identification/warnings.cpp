@@ -87,7 +87,9 @@ std::vector<Remark> warningsOf(const campaign::Campaign& campaign, const Identif
   }
   add(outlyingWarning(campaign, result));
   if (result.noise && result.noise->at_targets > kMostNoise) add(Remark(RemarkId::mostly_noise));
-  if (result.frames.sag_removed) add(Remark(RemarkId::sag_in_sweeps, result.frames.largest_sag));
+  constexpr double kFelt = 1e-6;  // m; of less nothing can be wrong that a tracker reads
+  if (result.frames.sag_removed && result.frames.largest_sag >= kFelt)
+    add(Remark(RemarkId::sag_in_sweeps, result.frames.largest_sag));
   addSweepWarnings(result.frames, cautions);
   return cautions;
 }
