@@ -167,9 +167,7 @@ std::vector<std::string> scopeWords(DayKind kind, bool limits) {
           "A joint counts as seen where the load "
           "turns it by more than three times what wrench, frame and angle uncertainty alone would. A stiffness is "
           "imprecise where U exceeds twice the value, and negative ones are shown as found; uncertainty is not used to "
-          "move "
-          "a "
-          "limit."};
+          "move a limit."};
 }
 
 }  // namespace stiffscope::reports

@@ -73,13 +73,13 @@ std::string implausibleWords(const identification::ApparentStiffness& apparent) 
       value < kSoftArm ? "forces (kN for N) or lengths (um for mm)" : "forces (mN for N) or lengths (m for mm)");
 }
 
-/// Values: see RemarkId::outlying_postures.
 /// Tenths of a millimetre; of a sag that these do not show, micrometres.
 std::string sagWords(double metres) {
   constexpr double kShown = 0.05 * io::kMillimetre;
   return metres < kShown ? withMicro(lengthWords(metres, 0)) : fmt::format("{:.1f} mm", metres / io::kMillimetre);
 }
 
+/// Values: see RemarkId::outlying_postures.
 std::string outlyingWords(const RemarkValues& values) {
   const std::vector<std::string>& names = values.names(0);
   const std::vector<double>&left = values.numbers(1), &others = values.numbers(2);
