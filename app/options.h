@@ -22,6 +22,9 @@ std::vector<identification::Method> methodsNamed(const std::string& name);
 /// ends in `expectation`.
 void requireNoCampaign(const std::filesystem::path& folder, const std::string& expectation);
 
+/// How a folder that is not written over is told of, by commands that have --replace.
+inline constexpr const char* kOrReplace = "expected another folder, or --replace to write over it";
+
 /// The joint angles that `--angles` names: reported or commanded. Throws InputError with the nearest known name.
 calibration::JointAngles jointAnglesNamed(const std::string& name);
 

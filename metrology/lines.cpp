@@ -90,10 +90,11 @@ LinePairNumber signedDistance(const Line& first, const Line& second) {
   };
 }
 
-LinePairNumber tiltAbout(const Eigen::Vector3d& normal) {
-  return [normal](const Line& a, const Line& b) {
-    const double cosine = a.direction.dot(b.direction);
-    return std::atan2(normal.dot(a.direction.cross(b.direction)) * (cosine < 0.0 ? -1.0 : 1.0), std::abs(cosine));
+LinePairNumber tiltAbout(const Eigen::Vector3d& normal, const Line& first, const Line& second) {
+  // The sense is that of the lines as they stand: by that of each moved pair the angle would leap at a right angle.
+  const double sense = first.direction.dot(second.direction) < 0.0 ? -1.0 : 1.0;
+  return [normal, sense](const Line& a, const Line& b) {
+    return std::atan2(sense * normal.dot(a.direction.cross(b.direction)), sense * a.direction.dot(b.direction));
   };
 }
 

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -114,6 +115,9 @@ double distanceAcross(const Line& first, const Line& second, const Eigen::Vector
 /// Angle between two lines, rad, 0..pi/2; accurate for small angles too.
 double angleBetween(const Line& first, const Line& second);
 
+/// rad: lines within a degree count as parallel; where their common perpendicular stands is undetermined.
+inline constexpr double kNearParallel = std::numbers::pi / 180.0;
+
 /// The point of the line nearest to `point`.
 Eigen::Vector3d nearestPoint(const Line& line, const Eigen::Vector3d& point);
 
@@ -131,7 +135,8 @@ using LinePairNumber = std::function<double(const Line&, const Line&)>;
 LinePairNumber signedDistance(const Line& first, const Line& second);
 
 /// The angle between two lines as the tilt about `normal`: the angle has no derivative where it is 0, the tilt has.
-LinePairNumber tiltAbout(const Eigen::Vector3d& normal);
+/// Near `first` and `second`, whose directions may run either way: at a right angle their tilt goes on beyond it.
+LinePairNumber tiltAbout(const Eigen::Vector3d& normal, const Line& first, const Line& second);
 
 /// The common normal about which the angle of two lines is their tilt; exactly parallel lines have none: empty.
 std::optional<Eigen::Vector3d> commonNormal(const Line& first, const Line& second);

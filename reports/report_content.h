@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/accuracy/accuracy_diagnosis.h"
+#include "core/accuracy/diagnose_accuracy.h"
 #include "core/audit/audit.h"
 #include "core/campaign/campaign.h"
 #include "core/comparison/compare.h"
@@ -33,7 +34,7 @@ struct ReportCampaign {
   const extended_model::ExtendedModel* improved =
       nullptr;  ///< effects were asked for: `campaign` and `identification` are of it
   const accuracy::AccuracyDiagnosis* accuracy = nullptr;         ///< of a day without a load; the calibration is in it
-  calibration::CalibrationOptions calibrated_by = {};            ///< how that was held out
+  calibration::CalibrationOptions calibrated_by = accuracy::kDiagnosisFolds;  ///< how that was held out
   const workspace::WorkspaceStiffness* workspace = nullptr;      ///< of a loaded day
   const std::vector<conformity::Decision>* decisions = nullptr;  ///< on the acceptance limits, where there are any
 };

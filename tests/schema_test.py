@@ -36,6 +36,16 @@ LIVE = [
     ("plan_unloaded", "plan --unloaded {samples}/unloaded --postures 12"),
     ("compare_unloaded", "compare {samples}/unloaded {samples}/unloaded"),
     ("identify", "identify {samples}/active --springs-only --method pp --step all --bootstrap 20"),
+    ("identify", "identify {samples}/active --springs-only --method dpp"),
+    ("identify", "identify {samples}/active --springs-only --method cp"),
+    ("compensate", "compensate {samples}/active --springs-only --program {out}/work.mod --out {out}/new.mod "
+                   "--wrench 0,0,-1500,0,0,0"),
+    ("compensate", "compensate {out}/k1_known --springs-only --path {samples}/oval.csv --tool 120,0,300,0,45,0 "
+                   "--workpiece 1900,100,900,0,0,0 --wrench 0,0,-1500,0,0,0"),
+    ("compensate", "compensate {samples}/active --springs-only --path {samples}/oval.csv --tool 120,0,300,0,45,0 "
+                   "--workpiece 3900,100,900,0,0,0 --wrench 0,0,-1500,0,0,0"),
+    ("import_campaign", "import campaign {out}/files/day.xml --out {out}/imported"),
+    ("plan", "plan {out}/k1_known --springs-only --postures 4 --candidates 200"),
     ("export_urdf", "export urdf {samples}/unloaded --out {out}/arm.urdf"),
     ("export_elastic", "export mjcf {samples}/active --springs-only --out {out}/arm.xml"),
     ("export_dcc", "export dcc {out}/certified --springs-only --out {out}/dcc.xml"),
@@ -48,6 +58,25 @@ LIVE = [
 CERTIFICATE = (
     '<certificate number="1" country="DE" languages="en" place="laboratory"><laboratory name="L" city="C"/>'
     '<customer name="K" city="C"/><responsible name="R"/><item serial="S"/></certificate>')
+
+# Joint 3 as FANUC states it.
+READING = '<joint_reading joint="3" plus="2"/>'
+KNOWN = '<known_stiffness joint="1" nm_per_rad="7.1e6" sd_nm_per_rad="2e5" source="maker"/>'
+
+PROGRAM = """MODULE work
+  CONST jointtarget j1:=[[10,5,0,0,20,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+  PROC main()
+    MoveAbsJ j1,v100,fine,tool0;
+  ENDPROC
+ENDMODULE
+"""
+
+DAY = """<day format="1" name="D" date="2026-01-31">
+  <robot urdf="robot.urdf" base_link="base_link" flange_link="tool0"/>
+  <targets><target id="P10"/></targets>
+  <points role="loading" file="points.csv"/> <log file="log.csv"/> <join by="name"/>
+</day>
+"""
 
 BALANCERS = (
     '<balancer kind="gas" from_link="link_1" from_mm="-500 0 0" to_link="link_2" to_mm="-160 0 190" acts="pull" '
@@ -88,6 +117,21 @@ def live(program):
             (certified / file.name).write_bytes(file.read_bytes())
         xml = (certified / "campaign.xml").read_text(encoding="utf-8")
         (certified / "campaign.xml").write_text(xml.replace("<tracker", CERTIFICATE + BALANCERS + "<tracker", 1), encoding="utf-8")
+        known = out / "k1_known"
+        known.mkdir()
+        for file in (SAMPLES / "active").iterdir():
+            (known / file.name).write_bytes(file.read_bytes())
+        (known / "campaign.xml").write_text(xml.replace("<tracker", READING + KNOWN + "<tracker", 1), encoding="utf-8")
+        (out / "work.mod").write_text(PROGRAM, encoding="utf-8")
+        files = out / "files"
+        files.mkdir()
+        (files / "day.xml").write_text(DAY, encoding="utf-8")
+        (files / "robot.urdf").write_bytes((SAMPLES / "m900ib700.urdf").read_bytes())
+        (files / "log.csv").write_text(
+            "pose,step,q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg,fx_n,fy_n,fz_n,mx_nm,my_nm,mz_nm\n"
+            "A,0,10,0,0,0,20,0,0,0,0,0,0,0\nA,1,10,0,0,0,20,0,0,0,-500,0,0,0\n", encoding="utf-8")
+        (files / "points.csv").write_text("pose,step,target,x_mm,y_mm,z_mm\nA,0,P10,1000,2000,300\n"
+                                          "A,1,P10,1000,2000,299.5\n", encoding="utf-8")
         for definition, words in LIVE:
             words = words.format(samples=SAMPLES, out=out, source=SOURCE).split()
             ran = subprocess.run([program, *words, "--json", "-"], capture_output=True, check=False)

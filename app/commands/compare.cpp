@@ -153,12 +153,19 @@ void addCompare(CLI::App& app, Run& run) {
   command->add_option("--seed", arguments->request.seed, "of the bootstrap over postures")->capture_default_str();
   command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
   command->add_option("--html", arguments->html, "of two result files: write the page of them to this file");
-  command->callback([arguments, &run] {
-    run = [arguments] {
+  command->callback([arguments, command, &run] {
+    run = [arguments, command] {
       requireOwnFiles({{"--html", arguments->html}, {"--json", arguments->json}});
       const bool first = reports::namesResults(arguments->before), second = reports::namesResults(arguments->after);
-      if (first && second)
+      if (first && second) {
+        // What results are of is decided: nothing is identified anew.
+        for (const char* const option :
+             {"--step", "--neglect-kc", "--with", "--springs-only", "--raw", "--seed"}) {
+          if (command->count(option) == 0) continue;
+          throw io::InputError({option}, "", "expected two campaigns; of result files nothing is identified anew");
+        }
         return compareResults(arguments->before, arguments->after, arguments->html, commandLineOutlet(arguments->json));
+      }
       if (first != second)
         throw io::InputError({first ? arguments->after : arguments->before}, "",
                              "expected a result file, as the other one is, or a campaign for both");

@@ -24,7 +24,7 @@ std::vector<compensation::PostureToCompensate> posturesOf(const CompensateReques
   if (request.postures) return *request.postures;
   if (request.postures_file.empty()) return compensation::campaignPostures(campaign, step);
   std::vector<std::string> warnings;
-  const auto read = compensation::readPostures(request.postures_file, campaign.robot.joints(), warnings);
+  const auto read = compensation::readPostures(request.postures_file, campaign, warnings);
   for (const std::string& warning : warnings) outlet.warn(warning);
   return read;
 }

@@ -67,7 +67,8 @@ struct DayArguments {
 };
 
 int importCampaign(const DayArguments& arguments) {
-  if (!arguments.replace) requireNoCampaign(arguments.out, "expected another folder, or --replace to write over it");
+  const std::string expectation = arguments.replace ? "" : kOrReplace;
+  if (!arguments.replace) requireNoCampaign(arguments.out, expectation);
   const interchange::ImportedDay day = interchange::importDay(arguments.day);
   std::error_code none;
   printWarnings(day.warnings);
@@ -75,7 +76,7 @@ int importCampaign(const DayArguments& arguments) {
   for (const auto& file : std::filesystem::directory_iterator(arguments.out, none)) io::requireNotRead(file.path());
   const io::ByteSource origins = [&day](const io::ByteSink& sink) { writeJson(reports::importJson(day), sink); };
   campaign::writeCampaign(day.campaign, day.urdf, arguments.out, {{"import.json", origins}},
-                          campaign::WrittenDigits::as_read);
+                          campaign::WrittenDigits::as_read, expectation);
   deliver([&] { return reports::importJson(day); },
           [&] { return reports::importText(day) + arguments.out + ": campaign written, with import.json\n"; },
           arguments.json);

@@ -131,7 +131,9 @@ int planUnloadedDay(const PlanRequest& arguments, const CampaignSource& source, 
   const auto opened = openedFor(arguments, source);
   const campaign::Campaign& campaign = opened->campaign;
   const planning::UnloadedPlan plan = planning::planUnloaded(campaign, options);
-  writeOut(arguments, [&](bool xml) { return xml ? reports::unloadedPlanXml(plan) : reports::unloadedPlanCsv(plan); });
+  writeOut(arguments, [&](bool xml) {
+    return xml ? reports::unloadedPlanXml(plan) : reports::unloadedPlanCsv(campaign, plan);
+  });
   outlet.deliver([&] { return reports::unloadedPlanJson(campaign, plan); },
                  [&] { return reports::unloadedPlanText(campaign, plan); });
   return plan.postures.empty() ? kNotUsable : kDone;
@@ -148,7 +150,7 @@ int planDay(const PlanRequest& arguments, const CampaignSource& source, const Ou
   const campaign::Campaign& campaign = measured.campaign(prepared.campaign);
   options.inputs.effects = doubtOf(measured.model);
   const planning::Plan plan = planning::planCampaign(campaign, measured.identification(), options);
-  writeOut(arguments, [&](bool xml) { return xml ? reports::planXml(plan) : reports::planCsv(plan); });
+  writeOut(arguments, [&](bool xml) { return xml ? reports::planXml(plan) : reports::planCsv(campaign, plan); });
   const auto json = [&] {
     reports::Json result = reports::planJson(campaign, plan);
     return measured.model

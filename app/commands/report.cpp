@@ -238,7 +238,7 @@ std::vector<reports::NamedText> settingsOf(const identification::IdentifyOptions
                 {"subsets", "all up to 250 000, else a sample with seed 1"}};
   }
   if (reports::anyOfKind(content.campaigns, reports::DayKind::unloaded))
-    settings.push_back({"calibration", reports::foldWords(calibration::CalibrationOptions())});
+    settings.push_back({"calibration", reports::foldWords(accuracy::kDiagnosisFolds)});
   return settings;
 }
 
@@ -347,8 +347,12 @@ int writeReport(const ReportArguments& arguments) {
   writeReportFiles(arguments.out, content, page);
   printText((std::filesystem::path(arguments.out) / "report.html").string() + '\n');
   const bool usable = std::any_of(results.begin(), results.end(), [](const Result& one) { return one.usable(); });
+  // A page of readings that are not fit for it is written, and is no result.
+  const bool fit = std::none_of(results.begin(), results.end(), [](const Result& one) {
+    return one.audited.verdict == preparation::AuditVerdict::fail;
+  });
   const bool accepted = !limits || conformity::overall(decisions) == conformity::Verdict::pass;
-  return usable && accepted ? kDone : kNotUsable;
+  return usable && fit && accepted ? kDone : kNotUsable;
 }
 
 }  // namespace

@@ -19,7 +19,8 @@ namespace stiffscope::app {
 
 int simulateDay(const SimulateRequest& request, const Outlet& outlet) {
   const simulation::SimulationSpec spec = simulation::readSimulationSpec(request.spec);
-  if (!request.replace) requireNoCampaign(request.out, "expected another folder, or --replace to write over it");
+  const std::string expectation = request.replace ? "" : kOrReplace;
+  if (!request.replace) requireNoCampaign(request.out, expectation);
   // A description that stands where the campaign goes would be lost.
   for (const char* const file : {"campaign.xml", "truth.json"})
     io::requireNotRead(std::filesystem::path(request.out) / file);
@@ -39,7 +40,8 @@ int simulateDay(const SimulateRequest& request, const Outlet& outlet) {
   campaign::Campaign simulated = simulation::simulate(spec);
   // Whoever is handed the folder, or a report of it, is not to take it for a machine that was measured.
   simulated.texts.note = "simulated by stiffscope; no machine was measured.";
-  campaign::writeCampaign(simulated, spec.urdf_file, request.out, {{"truth.json", textOf(truth) + '\n'}});
+  campaign::writeCampaign(simulated, spec.urdf_file, request.out, {{"truth.json", textOf(truth) + '\n'}},
+                          campaign::WrittenDigits::of_the_format, expectation);
   outlet.deliver([&] { return truth; }, [&] { return request.out + ": campaign written\n"; });
   return kDone;
 }

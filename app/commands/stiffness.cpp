@@ -50,11 +50,11 @@ workspace::WorkspaceOptions optionsOf(const StiffnessArguments& arguments) {
   return options;
 }
 
-/// The postures of the workpiece, of a machine of so many joints.
-std::vector<workspace::NamedPosture> workpieceIn(const std::string& file, int joints) {
+/// The postures of the workpiece, of the campaign's machine.
+std::vector<workspace::NamedPosture> workpieceIn(const std::string& file, const campaign::Campaign& campaign) {
   std::vector<std::string> warnings;
   std::vector<workspace::NamedPosture> postures;
-  for (const compensation::PostureToCompensate& one : compensation::readPostures(file, joints, warnings))
+  for (const compensation::PostureToCompensate& one : compensation::readPostures(file, campaign, warnings))
     postures.push_back({one.id, one.q});
   if (postures.empty()) throw io::InputError({file}, "", "expected at least one posture of the workpiece");
   printWarnings(warnings);
@@ -78,7 +78,7 @@ int stiffnessOf(const StiffnessArguments& arguments) {
   const preparation::PreparedCampaign prepared =
       openPrepared(arguments.campaign, arguments.raw, hashesFor(arguments.json));
   if (!arguments.workpiece.empty())
-    options.workpiece = workpieceIn(arguments.workpiece, prepared.campaign.robot.joints());
+    options.workpiece = workpieceIn(arguments.workpiece, prepared.campaign);
   Identified found = identifiedBy(prepared, arguments.campaign, arguments.model, choice);
   const campaign::Campaign& campaign = found.campaign(prepared);
   workspace::WorkspaceStiffness stiffness;

@@ -10,6 +10,7 @@
 #include <mutex>
 #include <set>
 #include <stdexcept>
+#include <string_view>
 #include <thread>
 
 #include "app/fleet/processes.h"
@@ -168,10 +169,18 @@ std::vector<std::pair<std::size_t, std::size_t>> likelyPairs(const std::vector<F
   return pairs;
 }
 
-/// Texts of a folder's own files without the folder: the same campaign elsewhere has the same result.
+/// Texts of a folder's own files without the folder, where a path begins with it: the same campaign elsewhere has the
+/// same result.
 std::string withoutFolder(std::string text, const std::string& folder) {
-  for (std::size_t at = text.find(folder); at != std::string::npos; at = text.find(folder, at))
-    text.erase(at, folder.size() + (at + folder.size() < text.size() && text[at + folder.size()] == '/' ? 1 : 0));
+  if (text.starts_with(folder + ": ")) text.erase(0, folder.size() + 2);
+  const std::string prefix = folder.ends_with('/') ? folder : folder + '/';
+  for (std::size_t at = text.find(prefix); at != std::string::npos; at = text.find(prefix, at)) {
+    const bool begins = at == 0 || std::string_view(" '\"(").find(text[at - 1]) != std::string_view::npos;
+    if (begins)
+      text.erase(at, prefix.size());
+    else
+      at += prefix.size();
+  }
   return text;
 }
 

@@ -1,5 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
+#include <utility>
 
 #include "core/audit/checks.h"
 #include "core/audit/remarks.h"
@@ -10,6 +13,23 @@
 namespace stiffscope::audit {
 
 namespace {
+
+/// Two nests whose reflectors would stand in each other; of coordinates in metres that pass for millimetres all do.
+std::optional<Remark> nestsTooNear(const campaign::Campaign& campaign) {
+  constexpr double kSmallestReflector = 12.7e-3;  // m, across
+  std::map<std::pair<int, int>, Eigen::Vector3d> first;  // by station and nest
+  for (const campaign::NestReading& row : campaign.nests->rows) {
+    const auto [place, added] = first.try_emplace({row.station, row.nest}, row.point);
+    if (!added) continue;
+    for (const auto& [key, point] : first) {
+      const double apart = (point - row.point).norm();
+      if (key.first != row.station || key.second == row.nest || apart >= kSmallestReflector) continue;
+      return Remark(RemarkId::nests_too_near, campaign.nest_ids[static_cast<std::size_t>(key.second)],
+                    campaign.nest_ids[static_cast<std::size_t>(row.nest)], apart);
+    }
+  }
+  return std::nullopt;
+}
 
 /// `station`: tested.
 preparation::AuditCheck driftCheck(const AuditInput& input, const preparation::StationMotion& station) {
@@ -139,7 +159,9 @@ preparation::AuditCheck stationsCheck(const AuditInput& input) {
 
 }  // namespace
 
-Findings checkNests(const AuditInput& input) {
+namespace {
+
+Findings ofMotion(const AuditInput& input) {
   if (input.stations) {
     Findings findings = driftChecks(input);
     findings.push_back(input.station.tested ? nestCheck(input)
@@ -152,6 +174,21 @@ Findings checkNests(const AuditInput& input) {
             preparation::notTestable("nest_moved", input.station.reason)};
   }
   return {driftCheck(input, input.station), nestCheck(input)};
+}
+
+}  // namespace
+
+Findings checkNests(const AuditInput& input) {
+  Findings findings = ofMotion(input);
+  if (!input.campaign.nests) return findings;
+  const std::optional<Remark> near = nestsTooNear(input.campaign);
+  if (!near) return findings;
+  for (preparation::AuditCheck& check : findings) {
+    if (check.id != "nest_moved") continue;
+    check.verdict = preparation::AuditVerdict::fail;
+    check.message = *near;
+  }
+  return findings;
 }
 
 }  // namespace stiffscope::audit

@@ -77,6 +77,7 @@ enum class RemarkId {
   nests_left,            ///< in parts of the noise, more
   nest_moved,            ///< nest, m
   nests_not_mended,
+  nests_too_near,      ///< two nests, m: closer than the smallest reflector is thick
   of_station,          ///< name, remark
   stations_left,       ///< in parts of the noise, more
   station_at_arm,      ///< name, nests in common, largest standard uncertainty at the arm: m, rad

@@ -142,7 +142,7 @@ std::vector<Remark> notIdentifiable(const ArmFit& fit) {
   return remarks;
 }
 
-std::vector<Remark> notesOf(CalibratedModel model, const ArmFit& fit) {
+std::vector<Remark> notesOf(CalibratedModel model, const ArmFit& fit, std::size_t postures) {
   std::vector<Remark> notes;
   std::size_t k = 0;
   for (const EffectPart& part : fit.parts) {
@@ -151,7 +151,10 @@ std::vector<Remark> notesOf(CalibratedModel model, const ArmFit& fit) {
         notes.push_back(Remark(RemarkId::negative_compliance, std::string(idOf(part.effect)), term.name));
     }
   }
-  if (model == CalibratedModel::effects && fit.parts.empty()) notes.push_back(Remark(RemarkId::no_effect_predicts));
+  if (model == CalibratedModel::effects && fit.parts.empty()) {
+    notes.push_back(postures < kFewestForEffects ? Remark(RemarkId::too_few_for_effects, postures, kFewestForEffects)
+                                                 : Remark(RemarkId::no_effect_predicts));
+  }
   return notes;
 }
 
@@ -242,7 +245,7 @@ Calibration calibrateBy(const campaign::Campaign& campaign, const CalibrationOpt
       }
       addErrors(residuals, of_fold, model.held_out);
     }
-    model.notes = notesOf(model.model, model.fit);
+    model.notes = notesOf(model.model, model.fit, day.postures.size());
     result.models.push_back(std::move(model));
   }
   result.rejected = rejectedOf(campaign, day, result.best().fit);

@@ -316,8 +316,7 @@ class Search {
 }  // namespace
 
 SelectedEffects selectEffects(const UnloadedDay& day, const ArmFit& geometry, const SelectionOptions& options) {
-  constexpr std::size_t kFewest = 20;  // postures
-  if (day.postures.size() < kFewest) return {};
+  if (day.postures.size() < kFewestForEffects) return {};
   const bool enough = day.postures.size() <= options.search_postures;
   Search search(day, geometry, options.search_postures, enough ? options.most_parts : options.search_parts, options);
   const EffectSet found = search.best();

@@ -63,6 +63,9 @@ struct SelectedEffects {
   std::vector<std::pair<UnloadedEffect, double>> detectable;
 };
 
+/// With fewer postures no effect is asked for.
+inline constexpr std::size_t kFewestForEffects = 20;
+
 /// Effects that the residuals of `geometry` ask for. On the equations linearised about the fit, sets of effects are
 /// compared by BIC (as many equations as reflectors of a posture that err together are worth; alternatives that were
 /// tried count as parameters): from none, and from each of the best single ones, one is added, dropped, replaced by

@@ -20,6 +20,7 @@ enum class RemarkId {
   negative_compliance,  ///< what it is called
   // effects
   no_effect_predicts,
+  too_few_for_effects,  ///< postures, postures needed
 };
 
 }  // namespace stiffscope::calibration

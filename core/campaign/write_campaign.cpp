@@ -363,7 +363,7 @@ CampaignNames namesOf(const Campaign& campaign) {
 namespace {
 
 void writeFigures(const Campaign& campaign, const std::filesystem::path& urdf_file, const std::filesystem::path& folder,
-                  const std::vector<io::FileToWrite>& beside, WrittenDigits digits) {
+                  const std::vector<io::FileToWrite>& beside, WrittenDigits digits, const std::string& expectation) {
   const std::string urdf = io::readTextFile(urdf_file, io::kLargestXml);
   const RowWriting writing{namesOf(campaign), digits};
   const int joints = campaign.robot.joints();
@@ -378,6 +378,11 @@ void writeFigures(const Campaign& campaign, const std::filesystem::path& urdf_fi
   files.insert(files.end(), beside.begin(), beside.end());
   // Last, because a folder with a campaign.xml passes for a campaign.
   files.push_back({"campaign.xml", writtenCampaignXml(campaign)});
+  for (const io::FileToWrite& file : files) {
+    std::error_code none;
+    if (expectation.empty() || !std::filesystem::exists(folder / file.name, none)) continue;
+    throw std::runtime_error((folder / file.name).string() + ": not written: it is there; " + expectation);
+  }
   io::writeFolderWhole(folder, files);
 }
 
@@ -385,11 +390,12 @@ void writeFigures(const Campaign& campaign, const std::filesystem::path& urdf_fi
 
 void writeCampaign(const Campaign& campaign, const std::filesystem::path& urdf_file,
                    const std::filesystem::path& folder, const std::vector<io::FileToWrite>& beside,
-                   WrittenDigits digits) {
-  if (campaign.joint_readings.empty()) return writeFigures(campaign, urdf_file, folder, beside, digits);
+                   WrittenDigits digits, const std::string& expectation) {
+  if (campaign.joint_readings.empty())
+    return writeFigures(campaign, urdf_file, folder, beside, digits, expectation);
   Campaign figures = campaign;
   anglesToFigures(figures);
-  writeFigures(figures, urdf_file, folder, beside, digits);
+  writeFigures(figures, urdf_file, folder, beside, digits, expectation);
 }
 
 }  // namespace stiffscope::campaign

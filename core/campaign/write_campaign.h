@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "core/campaign/campaign.h"
@@ -19,8 +20,10 @@ enum class WrittenDigits { of_the_format, as_read };
 /// the tables hold the controller's figures again. `beside`: further files that come with it. Throws InputError where
 /// the URDF cannot be read, std::filesystem::filesystem_error or std::runtime_error where the folder cannot be written
 /// (it is then as it was) or a value cannot be (not finite, an index without a name).
+///
+/// With an `expectation` no file that is there is written over: throws std::runtime_error that names it and ends so.
 void writeCampaign(const Campaign& campaign, const std::filesystem::path& urdf_file,
                    const std::filesystem::path& folder, const std::vector<io::FileToWrite>& beside = {},
-                   WrittenDigits digits = WrittenDigits::of_the_format);
+                   WrittenDigits digits = WrittenDigits::of_the_format, const std::string& expectation = {});
 
 }  // namespace stiffscope::campaign

@@ -1,3 +1,4 @@
+#include "core/campaign/joint_reading.h"
 #include "core/campaign/read_table.h"
 #include "core/compensation/compensate.h"
 #include "core/io/read_file.h"
@@ -25,14 +26,16 @@ campaign::TableLayout<PostureRow> posturesLayout(int joints) {
 
 }  // namespace
 
-std::vector<PostureToCompensate> readPostures(const std::filesystem::path& file, int joints,
+std::vector<PostureToCompensate> readPostures(const std::filesystem::path& file, const campaign::Campaign& campaign,
                                               std::vector<std::string>& warnings) {
+  const int joints = campaign.robot.joints();
+  const campaign::JointConvention convention(campaign.joint_readings, joints);
   const std::string bytes = io::readTextFile(file);
   campaign::CampaignNames names;
   std::vector<PostureToCompensate> postures;
   for (PostureRow& row :
        campaign::readTable<PostureRow>({file.string(), bytes}, posturesLayout(joints), names, warnings)) {
-    postures.push_back({std::move(row.id), row.q, row.wrench_in_cell});
+    postures.push_back({std::move(row.id), convention.angles(row.q), row.wrench_in_cell});
   }
   return postures;
 }

@@ -261,12 +261,12 @@ class Diagnoser {
       station = shrinkOver(station_, options_.resamples, options_.seed);
       result_.shrink_together = station.deflection;
     }
-    const auto named = std::count_if(result_.classes.begin(), result_.classes.end(),
-                                     [](const EffectClass& one) { return one.in_verdict; });
     for (std::size_t i = 0; i < result_.classes.size(); ++i) {
       EffectClass& one = result_.classes[i];
-      // A verdict of one class is what the whole selection finds: its interval repeats that selection.
-      const HeldOutShrink& own = one.in_verdict && named == 1 ? held_out[0] : held_out[i + 1];
+      // Where the selection found just this class, its interval repeats that selection. What else it found, and the
+      // verdict does not name, is not this one's.
+      const bool alone = one.in_verdict && recipes_[i] == fit_.set.models;
+      const HeldOutShrink& own = alone ? held_out[0] : held_out[i + 1];
       one.shrink = own.deflection;
       one.shrink_of_positions = own.position;
       one.explained = own.explained;

@@ -144,12 +144,14 @@ GapCovariance gapCovariance(const SystemInput& input, const SystemState& state, 
     const ReadFrom station = readFrom(posture.read_from, t);
     const Eigen::Matrix3d reading =
         readingCovariance(input.noise, r0_from_points, posture.states.front().points[t], station.from);
-    const Eigen::Matrix3d rest = reading / posture.unloaded_readings, loaded = reading / posture.loaded_readings;
-    result.displacement_trace += (rest + loaded).trace() * static_cast<double>(steps);
-    result.displacements += 3.0 * static_cast<double>(steps);
+    const auto target = static_cast<Eigen::Index>(t);
+    const Eigen::Matrix3d rest = reading / posture.readings(0, target);
     if (at_rest > 0) covariance.block<3, 3>(row, row) = rest + station.pose_covariance;
     for (Eigen::Index s = 0; s < steps; ++s) {
       const Eigen::Index i = at_rest + s * per_state + row;
+      const Eigen::Matrix3d loaded = reading / posture.readings(s + 1, target);
+      result.displacement_trace += (rest + loaded).trace();
+      result.displacements += 3.0;
       if (at_rest > 0) covariance.block<3, 3>(i, row) = covariance.block<3, 3>(row, i) = -rest;
       for (Eigen::Index r = 0; r < steps; ++r) {
         covariance.block<3, 3>(i, at_rest + r * per_state + row) = rest;
@@ -296,8 +298,7 @@ GapPosture unwhitened(const SystemInput& input, const SystemState& state, const 
                       const GapLayout& layout, const SystemRows& rows) {
   GapPosture posture;
   posture.pose = rows.pose;
-  posture.unloaded_readings = rows.unloaded_readings;
-  posture.loaded_readings = rows.loaded_readings;
+  posture.readings = rows.readings;
   const Eigen::Index at_rest = input.absolute ? rows.position.size() : 0;
   const Eigen::Index per_state = rows.states.front().rows();
   posture.position_rows = at_rest;
@@ -374,6 +375,8 @@ void whiten(const GapCovariance& covariance, GapPosture& posture) {
   for (Eigen::Index at = 0; at < size; at += per_state) {
     posture.noise.middleRows(at, per_state) = covariance.by_measuring.block(at, at, per_state, per_state);
   }
+  if (size - at_rest > per_state)
+    posture.noise_across = covariance.by_measuring.block(at_rest + per_state, at_rest, per_state, per_state);
   const Eigen::LLT<Eigen::MatrixXd> cholesky(covariance.whole);
   posture.position_lower = cholesky.matrixLLT().topLeftCorner(at_rest, at_rest).triangularView<Eigen::Lower>();
   posture.normal = numerics::LowerTriangle(normalOf(posture, cholesky));

@@ -78,12 +78,14 @@ struct GapPosture {
   Eigen::MatrixXd columns;  ///< unwhitened: position rows first, then deflection rows
   Eigen::VectorXd right;
   Eigen::Index position_rows = 0;
-  int unloaded_readings = 0, loaded_readings = 0;  ///< as in SystemRows, with what its wrench does
+  Eigen::MatrixXi readings;  ///< as in SystemRows, with what its wrench does
   std::vector<Eigen::Matrix<double, Eigen::Dynamic, 6>> by_wrench;
   std::vector<ReadFrom> read_from;
   /// Covariance of these rows by readings, wrench and a station between its rounds, within each state: its block of the
   /// diagonal, one state's under another's.
   Eigen::MatrixXd noise;
+  /// That of one loaded state's rows with another's: their unloaded readings are the same. Empty with one loaded state.
+  Eigen::MatrixXd noise_across;
   Eigen::MatrixXd position_lower;  ///< Cholesky factor of that of the position rows, inflated
   numerics::LowerTriangle normal;
   StiffnessNormal stiffness_normal;  ///< normal equations of deflection rows alone, over the compliances

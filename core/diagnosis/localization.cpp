@@ -122,6 +122,7 @@ namespace {
 struct LeftOver {
   Eigen::Vector3d left = Eigen::Vector3d::Zero();
   Eigen::Matrix3d noise = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d across = Eigen::Matrix3d::Zero();  ///< with the same reflector in another state of the posture
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   const effects::ArmState* state = nullptr;
   int target = 0;
@@ -138,17 +139,24 @@ std::vector<LeftOver> leftOvers(const LinearSystem& data, const Eigen::VectorXd&
       const Eigen::Index at = deflection ? posture.position_rows + static_cast<Eigen::Index>(s - 1) * per_state : 0;
       for (std::size_t t = 0; t < posture.states[s].points.size(); ++t) {
         const Eigen::Index row = at + 3 * static_cast<Eigen::Index>(t);
-        all.push_back({left.segment<3>(row), posture.noise.block<3, 3>(row, row - at), posture.states[s].points[t],
-                       &posture.states[s], posture.states[s].targets[t]});
+        const Eigen::Matrix3d across = deflection && posture.noise_across.size() > 0
+                                           ? Eigen::Matrix3d(posture.noise_across.block<3, 3>(row - at, row - at))
+                                           : Eigen::Matrix3d(Eigen::Matrix3d::Zero());
+        all.push_back({left.segment<3>(row), posture.noise.block<3, 3>(row, row - at), across,
+                       posture.states[s].points[t], &posture.states[s], posture.states[s].targets[t]});
       }
     }
   }
   return all;
 }
 
-/// Squares along some directions, collected under a name.
+/// Squares along some directions, collected under a name. The states of a posture share their unloaded readings: the
+/// variance of a sum of x^T F x over them is 2 tr(F_k S_kl F_l S_lk) over all pairs of states.
 struct Sum {
   double squares = 0.0, noise = 0.0, variance = 0.0, count = 0.0;
+  int pose = -1;  ///< whose states were added last
+  std::vector<std::pair<int, Eigen::Matrix3Xd>> directions_added;  ///< of its states before, with the reflector
+  std::vector<Eigen::MatrixXd> forms_added;
 
   void add(const LeftOver& one, const Eigen::Matrix3Xd& directions) {
     const Eigen::MatrixXd noise_here = propagated(directions.transpose(), one.noise);
@@ -156,15 +164,33 @@ struct Sum {
     noise += noise_here.trace();
     variance += 2.0 * (noise_here * noise_here).trace();
     count += static_cast<double>(directions.cols());
+    beginPosture(one.state->pose);
+    for (const auto& [target, before] : directions_added) {
+      if (target == one.target) variance += 4.0 * (directions.transpose() * one.across * before).squaredNorm();
+    }
+    directions_added.emplace_back(one.target, directions);
   }
 
-  /// Of the part of `left` that `form`, a symmetric matrix, takes of it: left^T form left.
-  void addPart(const Eigen::VectorXd& left, const Eigen::MatrixXd& form, const Eigen::MatrixXd& covariance) {
+  void beginPosture(int next) {
+    if (next == pose) return;
+    pose = next;
+    directions_added.clear();
+    forms_added.clear();
+  }
+
+  /// Of the part of a state's `left` that `form`, a symmetric matrix, takes of it: left^T form left. `across`: the
+  /// covariance with other states of the posture; empty without.
+  void addPart(int of_pose, const Eigen::VectorXd& left, const Eigen::MatrixXd& form,
+               const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& across) {
     const Eigen::MatrixXd noise_here = form * covariance;
     squares += left.dot(form * left);
     noise += noise_here.trace();
     variance += 2.0 * noise_here.cwiseProduct(noise_here.transpose()).sum();
     count += form.trace();
+    beginPosture(of_pose);
+    for (const Eigen::MatrixXd& before : forms_added)
+      variance += 4.0 * (form * across).cwiseProduct((before * across.transpose()).transpose()).sum();
+    forms_added.push_back(form);
   }
 
   /// The squares are a sum of weighed chi-square variables: nearly one of the same mean and variance (Satterthwaite).
@@ -311,7 +337,8 @@ WhereTable byJoint(const GapFit& fit, const Eigen::VectorXd& parameters, const s
       const auto parts =
           partsByJoint(effects::byEachJoint(posture.states[s], JointVector::Ones(fit.data.layout.joints())));
       for (std::size_t joint = 0; joint < joints; ++joint)
-        sums[joint].addPart(left.segment(at, per_state), parts[joint], posture.noise.middleRows(at, per_state));
+        sums[joint].addPart(posture.pose, left.segment(at, per_state), parts[joint],
+                            posture.noise.middleRows(at, per_state), posture.noise_across);
     }
   }
   WhereTable table{"joint", {}};

@@ -34,10 +34,12 @@ struct Spike {
 ///
 /// What an effect adds to a reading is u = X(s) theta, X the columns of the effect's own record (effects::EffectModel)
 /// in the state s of that reading, at the stiffnesses, geometry and wrenches that identification finds: to readings of
-/// loading and sweeps u, to displacements u less that of the unloaded state; a drift moves the nests as well. Where an
-/// equation bends with its own size (friction, play), X is taken at that size. Wrenches, angles and all else stay as
-/// they were read, so that noise, drift and every effect that the day has stay in it. kinematic_error, whose record has
-/// no columns, turns or shifts what lies beyond a joint by a wrong zero or length, in every reading alike.
+/// loading and sweeps u, to displacements u less that of the unloaded state; a drift moves nests and rail sweep, too.
+/// s is where the prepared day has the reading (stations joined, the carriage at zero); u is added in the axes of the
+/// station that read it. Where an equation bends with its own size (friction, play), X is taken at that size. Wrenches,
+/// angles and all else stay as they were read, so that noise, drift and every effect that the day has stay in it.
+/// kinematic_error, whose record has no columns, turns or shifts what lies beyond a joint by a wrong zero or length, in
+/// every reading alike.
 ///
 /// Size is in the unit of DetectableSize: sqrt(theta^T N theta / n) times the noise of one state's displacement, N the
 /// whitened normal equations of X over the day's n equations, theta at first order. For kinematic_error: rms per
@@ -82,12 +84,17 @@ class SpikedDay {
                            double carriage) const;
   void moveLoading(const Field& field, campaign::Campaign& campaign) const;
   void moveDisplacements(const Field& field, campaign::Campaign& campaign) const;
+  /// A displacement of R0 in the axes in which a station reads it; `r0_from_points` of the first one's frame.
+  Eigen::Vector3d asRead(int station, const Eigen::Isometry3d& r0_from_points, const Eigen::Vector3d& in_r0) const;
+  // `placed`: the same rows of placed_.
   template <class Row>
-  void moveSweep(const Field& field, std::vector<Row>& rows) const;
-  void moveNests(const Field& field, campaign::Campaign& campaign) const;
+  void moveSweep(const Field& field, const std::vector<Row>& placed, std::vector<Row>& rows) const;
+  template <class Row>
+  void moveWithInstrument(const Field& field, const std::vector<Row>& placed, std::vector<Row>& rows) const;
 
   campaign::Campaign campaign_;  ///< as read
   preparation::PreparedCampaign prepared_;
+  campaign::Campaign placed_;  ///< row by row as read, points where the preparation has them
   DiagnosisInput start_;
   SystemInput input_;
   LinearSystem data_;

@@ -6,7 +6,9 @@
 #include <map>
 #include <utility>
 
+#include "core/campaign/row_names.h"
 #include "core/effects/gravity_equilibrium.h"
+#include "core/preparation/rail.h"
 #include "metrology/linear_algebra.h"
 
 namespace stiffscope::diagnosis {
@@ -31,11 +33,28 @@ SystemInput spikeInput(const preparation::PreparedCampaign& prepared, DiagnosisI
   return input;
 }
 
+/// The day as read, row by row, with its points where the preparation has them: in the first station's frame, the
+/// carriage at zero. A drift that the preparation takes off stays in: its millimetre changes levers of metres, and its
+/// turn directions, by less than what an effect of first order leaves out.
+campaign::Campaign placedAsPrepared(campaign::Campaign day, const preparation::PreparedCampaign& prepared) {
+  if (prepared.preparation.stations) {
+    const std::vector<campaign::StationPlace>& stations = prepared.campaign.stations;
+    campaign::forEachPointTable(day, [&](auto& table) {
+      // Rows in base_link are of the first station, which stays where it is.
+      for (auto& row : table.rows)
+        row.point = stations[static_cast<std::size_t>(row.station)].first_from_station * row.point;
+    });
+  }
+  preparation::referToCarriageAtZero(prepared.rail, day);
+  return day;
+}
+
 }  // namespace
 
 SpikedDay::SpikedDay(campaign::Campaign campaign)
     : campaign_(std::move(campaign)),
       prepared_(preparation::prepareCampaign(campaign_)),
+      placed_(placedAsPrepared(campaign_, prepared_)),
       start_(diagnosisInput(prepared_)),
       input_(spikeInput(prepared_, start_)) {
   if (!start_.reason.empty()) return;
@@ -230,12 +249,20 @@ class FieldsByState {
 
 }  // namespace
 
+Eigen::Vector3d SpikedDay::asRead(int station, const Eigen::Isometry3d& r0_from_points,
+                                  const Eigen::Vector3d& in_r0) const {
+  const Eigen::Vector3d in_points = r0_from_points.linear().transpose() * in_r0;
+  if (!prepared_.preparation.stations) return in_points;
+  const campaign::StationPlace& place = prepared_.campaign.stations[static_cast<std::size_t>(station)];
+  return place.first_from_station.linear().transpose() * in_points;
+}
+
 void SpikedDay::moveLoading(const Field& field, campaign::Campaign& campaign) const {
   if (!campaign.loading || !start_.state.geometry.r0_from_loading) return;
-  const Eigen::Matrix3d loading_from_r0 = start_.state.geometry.r0_from_loading->linear().transpose();
   const FieldsByState fields(data_, field);
   for (campaign::LoadingReading& row : campaign.loading->rows) {
-    if (const auto moved = fields.of(row.pose, row.step, row.target)) row.point += loading_from_r0 * *moved;
+    if (const auto moved = fields.of(row.pose, row.step, row.target))
+      row.point += asRead(row.station, *start_.state.geometry.r0_from_loading, *moved);
   }
 }
 
@@ -251,24 +278,26 @@ void SpikedDay::moveDisplacements(const Field& field, campaign::Campaign& campai
 }
 
 template <class Row>
-void SpikedDay::moveSweep(const Field& field, std::vector<Row>& rows) const {
-  const Eigen::Matrix3d sweeps_from_r0 = start_.state.r0_from_sweeps.linear().transpose();
-  for (Row& row : rows) {
-    const effects::PostureStates state{
-        atRest(row.target, row.q, start_.state.r0_from_sweeps * row.point, row.time_s, row.rail)};
-    row.point += sweeps_from_r0 * field(state, 0);
+void SpikedDay::moveSweep(const Field& field, const std::vector<Row>& placed, std::vector<Row>& rows) const {
+  const Eigen::Isometry3d& r0_from_sweeps = start_.state.r0_from_sweeps;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Row& at = placed[i];
+    const effects::PostureStates state{atRest(at.target, at.q, r0_from_sweeps * at.point, at.time_s, at.carriage)};
+    rows[i].point += asRead(at.station, r0_from_sweeps, field(state, 0));
   }
 }
 
-void SpikedDay::moveNests(const Field& field, campaign::Campaign& campaign) const {
-  if (!campaign.nests || !start_.state.geometry.r0_from_loading) return;
+template <class Row>
+void SpikedDay::moveWithInstrument(const Field& field, const std::vector<Row>& placed, std::vector<Row>& rows) const {
   const Eigen::Isometry3d& r0_from_tracker = *start_.state.geometry.r0_from_loading;
   effects::PostureStates state(1);
   state.front().targets = {0};
-  for (campaign::NestReading& row : campaign.nests->rows) {
-    state.front().time_s = row.time_s;
-    state.front().points = {r0_from_tracker * row.point};
-    row.point += r0_from_tracker.linear().transpose() * field(state, 0);
+  // These points stand where they were read, those of the arm where it is with the carriage at zero.
+  if (prepared_.rail) state.front().carriage = 0.0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    state.front().time_s = placed[i].time_s;
+    state.front().points = {r0_from_tracker * placed[i].point};
+    rows[i].point += asRead(placed[i].station, r0_from_tracker, field(state, 0));
   }
 }
 
@@ -277,10 +306,15 @@ campaign::Campaign SpikedDay::with(const Spike& spike, double size) const {
   const Field field = fieldOf(spike, size);
   moveLoading(field, spiked);
   moveDisplacements(field, spiked);
-  if (spike.effect == effects::Effect::tracker_drift) moveNests(field, spiked);
+  if (spike.effect == effects::Effect::tracker_drift && start_.state.geometry.r0_from_loading) {
+    if (spiked.nests) moveWithInstrument(field, placed_.nests->rows, spiked.nests->rows);
+    // Its points are the loading's where both tables are in one frame.
+    if (spiked.rail_sweep && spiked.loading && spiked.rail_sweep->frame == spiked.loading->frame)
+      moveWithInstrument(field, placed_.rail_sweep->rows, spiked.rail_sweep->rows);
+  }
   if (!input_.sweeps) return spiked;
-  if (spiked.circle_sweeps) moveSweep(field, spiked.circle_sweeps->rows);
-  if (spiked.wrist_sweep) moveSweep(field, spiked.wrist_sweep->rows);
+  if (spiked.circle_sweeps) moveSweep(field, placed_.circle_sweeps->rows, spiked.circle_sweeps->rows);
+  if (spiked.wrist_sweep) moveSweep(field, placed_.wrist_sweep->rows, spiked.wrist_sweep->rows);
   return spiked;
 }
 

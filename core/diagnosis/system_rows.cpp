@@ -140,8 +140,14 @@ class LoadingRowMaker {
                                    at_.withoutMovedInstrument(corrections_.frame).inverse();
     for (const int target : targets) rest.points.push_back(here * moveOf(cases.front(), target).unloaded);
     if (cases.front().flange_unloaded) rest.flange = *cases.front().flange_unloaded;
-    rows.unloaded_readings = std::max(1, cases.front().targets.front().unloaded_readings);
-    rows.loaded_readings = std::max(1, cases.front().targets.front().loaded_readings);
+    rows.readings.resize(states + 1, static_cast<Eigen::Index>(targets.size()));
+    for (Eigen::Index t = 0; t < rows.readings.cols(); ++t) {
+      const int target = targets[static_cast<std::size_t>(t)];
+      // Of displacements nobody states how many.
+      rows.readings(0, t) = std::max(1, moveOf(cases.front(), target).unloaded_readings);
+      for (Eigen::Index k = 0; k < states; ++k)
+        rows.readings(k + 1, t) = std::max(1, moveOf(cases[static_cast<std::size_t>(k)], target).loaded_readings);
+    }
     rows.states.reserve(cases.size() + 1);
     rows.states.push_back(rest);
     Unloaded unloaded{robot::geometricStiffness(rest.axes, rest.posture, geometry_.weight),

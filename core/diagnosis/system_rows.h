@@ -54,7 +54,7 @@ struct SystemRows {
   JointRows by_compliance;       ///< of the displacement: K_c and the middle posture in
   Eigen::VectorXd position;      ///< measured less the rigid model's; empty without absolute points
   JointRows sag_by_compliance;
-  int unloaded_readings = 0, loaded_readings = 0;  ///< means over these, per reflector and state
+  Eigen::MatrixXi readings;  ///< over which each state's points are means, a row a state, a column a reflector
   std::vector<Eigen::Matrix<double, Eigen::Dynamic, 6>>
       by_wrench;                    ///< of each loaded state: displacement by its wrench
   std::vector<ReadFrom> read_from;  ///< of each reflector; empty on a day of one station

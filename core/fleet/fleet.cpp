@@ -16,7 +16,8 @@ using identification::Method;
 std::string machineOf(const std::string& robot_serial, const std::string& item, const std::string& folder) {
   if (!robot_serial.empty()) return robot_serial;
   if (!item.empty()) return item;
-  std::filesystem::path path = std::filesystem::path(folder).lexically_normal();
+  // The same folder however it is named: from above, from within, or as `.`.
+  std::filesystem::path path = std::filesystem::absolute(folder).lexically_normal();
   if (!path.has_filename()) path = path.parent_path();
   const std::string above = path.parent_path().filename().string();
   return above.empty() ? path.filename().string() : above;

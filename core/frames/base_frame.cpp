@@ -28,7 +28,7 @@ robot::Robot inFrame(const robot::Robot& nominal, const Eigen::Isometry3d& r0_fr
 
 std::size_t axisAcrossLast(const robot::ArmAxes& axes) {
   std::size_t across = axes.size() - 2;
-  while (across > 0 && metrology::angleBetween(axes[across], axes.back()) < kNearParallel) --across;
+  while (across > 0 && metrology::angleBetween(axes[across], axes.back()) < metrology::kNearParallel) --across;
   return across;
 }
 

@@ -30,9 +30,7 @@ struct SweepReadings {
 class Gatherer {
  public:
   explicit Gatherer(const campaign::Campaign& campaign) {
-    if (!campaign.tracker) return;
-    const campaign::Tracker& tracker = *campaign.tracker;
-    noise_ = {tracker.range_fixed, tracker.range_per_m, tracker.angle_fixed, tracker.angle_per_m, tracker.station};
+    if (campaign.tracker) noise_ = trackerNoise(*campaign.tracker);
   }
 
   template <class Row>

@@ -47,7 +47,8 @@ metrology::LineNumbers numbersOf(const std::vector<metrology::MeasuredLine>& axe
     distances.push_back(links[i].near_parallel ? metrology::LinePairNumber()
                                                : metrology::signedDistance(first.line, second.line));
     // Exactly parallel axes, as only drawings have them, tilt about any normal.
-    angles.push_back(metrology::tiltAbout(metrology::commonNormal(first.line, second.line).value_or(first.across_u)));
+    const Eigen::Vector3d normal = metrology::commonNormal(first.line, second.line).value_or(first.across_u);
+    angles.push_back(metrology::tiltAbout(normal, first.line, second.line));
   }
   return [at, distances, angles](const std::vector<metrology::Line>& moved) {
     Eigen::VectorXd numbers(at.wrist_centre);
@@ -144,7 +145,7 @@ void stateUncertainties(const FramesCovariance& covariance, const MeasuredAxes& 
   }
   if (!wrist.measured) return;
   wrist.covariance = total.block<3, 3>(at.wrist_centre, at.wrist_centre);
-  const Eigen::Matrix3d common = wrist.covariance - wrist.spheres.covariance.topLeftCorner<3, 3>();
+  const Eigen::Matrix3d common = wrist.covariance - wrist.spheres.covariance.topLeftCorner<3, 3>() + wrist.by_station;
   Eigen::Matrix3d own = Eigen::Matrix3d::Zero();
   for (const WristTableRow& row : wrist.table) own += row.covariance;
   const auto rows = static_cast<double>(std::max<std::size_t>(1, wrist.table.size()));

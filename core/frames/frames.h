@@ -43,12 +43,14 @@ struct WristCentre {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();    ///< of it, with R0's (FramesCovariance); R0 axes, m^2
   Eigen::Vector3d centre_at_zero_in_r0 = Eigen::Vector3d::Zero();  ///< with the arm's joints turned back to zero
   std::vector<double> radii;  ///< |P_wrist P1X| by target; NaN for a target that was not swept
-  metrology::SphereFit
-      spheres;               ///< in R0 as it is measured: its covariance is that of the wrist sweep's readings alone
-  std::vector<int> targets;  ///< of the spheres
-  std::vector<WristTableRow> table;  ///< Table I
+  /// In R0 as it is measured: its covariance is that of the wrist sweep's readings and of the station's pose.
+  metrology::SphereFit spheres;
+  Eigen::Matrix3d by_station = Eigen::Matrix3d::Zero();  ///< of it by that pose, which moves all spheres alike, m^2
+  std::vector<int> targets;                              ///< of the spheres
+  std::vector<WristTableRow> table;                      ///< Table I
   Eigen::Vector3d table_mean_in_r0 = Eigen::Vector3d::Zero();
-  /// Covariance of the mean: the rows' readings are independent of each other, R0 is common to them. R0 axes, m^2.
+  /// Covariance of the mean: the rows' readings are independent of each other, R0 and the station's pose are common to
+  /// them. R0 axes, m^2.
   Eigen::Matrix3d table_mean_covariance = Eigen::Matrix3d::Zero();
 
   // Side by side with the sphere centre, all at q (docs/method.md, Wrist centre).

@@ -184,7 +184,7 @@ class Calibration {
     options.max_num_iterations = 50;
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem_, &summary);
-    if (!summary.IsSolutionUsable()) {
+    if (summary.termination_type != ceres::CONVERGENCE) {
       result.reason = Remark(RemarkId::calibration_not_settling, summary.message);
       return result;
     }

@@ -147,11 +147,17 @@ bool turnBackToZero(const MeasuredAxes& axes, int axis, MeasuredAxis& measured) 
 /// Of a coupled arm no axis has circles of its own: they have what all sweeps together say.
 void measureCoupled(const campaign::Campaign& campaign, const RigidPoints& points, MeasuredAxes& axes) {
   const CoupledAxes found = fitCoupledAxes(campaign, points);
+  std::set<int> stations;
+  if (campaign.circle_sweeps) {
+    for (const campaign::CircleReading& reading : campaign.circle_sweeps->rows) stations.insert(reading.station);
+  }
   for (std::size_t i = 0; i < axes.size(); ++i) {
     axes[i].measured = found.reason.empty();
     axes[i].reason = axes[i].measured ? Remark(RemarkId::coupled_joints) : found.reason;
     if (!axes[i].measured) continue;
-    axes[i].as_swept = axes[i].at_zero = found.at_zero[i];
+    axes[i].as_swept = found.at_zero[i];
+    axes[i].as_swept.covariance += byStations(campaign, stations, axes[i].as_swept);
+    axes[i].at_zero = axes[i].as_swept;
     axes[i].fit.rms = found.rms;
     axes[i].fit.chi2_per_dof = found.chi2_per_dof;
   }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <numbers>
 #include <vector>
 
 #include "core/campaign/campaign.h"
@@ -14,9 +13,6 @@ namespace stiffscope::frames {
 
 /// rad: a joint that moves less stands still; the resolution of a controller's read-back.
 inline constexpr double kStandsStill = 1e-5;
-
-/// rad: two axes within a degree count as parallel; where their common perpendicular stands is undetermined.
-inline constexpr double kNearParallel = std::numbers::pi / 180.0;
 
 /// One joint axis from its circle sweeps.
 struct MeasuredAxis {

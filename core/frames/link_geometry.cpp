@@ -6,7 +6,7 @@ namespace stiffscope::frames {
 
 Eigen::Vector3d hayatiPoint(const robot::ArmAxes& axes, std::size_t first) {
   if (first == 0) return axes[0].point;
-  if (metrology::angleBetween(axes[first - 1], axes[first]) < kNearParallel)
+  if (metrology::angleBetween(axes[first - 1], axes[first]) < metrology::kNearParallel)
     return metrology::nearestPoint(axes[first], hayatiPoint(axes, first - 1));
   return metrology::commonPerpendicular(axes[first - 1], axes[first]).foot_on_second;
 }
@@ -19,7 +19,7 @@ Links linkGeometry(const robot::Robot& nominal, const ArmInR0& arm) {
     LinkGeometry& link = links[i];
     link.angle = metrology::angleBetween(actual[i], actual[i + 1]);
     link.nominal_angle = metrology::angleBetween(urdf[i], urdf[i + 1]);
-    link.near_parallel = link.nominal_angle < kNearParallel;
+    link.near_parallel = link.nominal_angle < metrology::kNearParallel;
     if (link.near_parallel) {
       link.at_point_in_r0 = hayatiPoint(actual, i);
       link.distance = metrology::distanceAcross(actual[i], actual[i + 1], link.at_point_in_r0);

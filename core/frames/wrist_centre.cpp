@@ -48,16 +48,17 @@ SweepOfTargets collect(const campaign::Campaign& campaign, const ArmInR0& arm, c
 
 /// The pose of the station from which the wrist was read moves its centre as a whole: the largest, where there are
 /// several.
-void addStations(const campaign::Campaign& campaign, const ArmInR0& arm, metrology::SphereFit& spheres) {
+void addStations(const campaign::Campaign& campaign, const ArmInR0& arm, WristCentre& wrist) {
   if (campaign.stations.empty()) return;
-  const Eigen::Vector3d centre = arm.r0_from_points.inverse() * spheres.centre;
+  const Eigen::Vector3d centre = arm.r0_from_points.inverse() * wrist.spheres.centre;
   Eigen::Matrix3d largest = Eigen::Matrix3d::Zero();
   for (const campaign::WristReading& reading : campaign.wrist_sweep->rows) {
     const Eigen::Matrix3d own = campaign::stationCovariance(campaign, reading.station, centre);
     if (own.trace() > largest.trace()) largest = own;
   }
   const Eigen::Matrix3d turn = arm.r0_from_points.linear();
-  spheres.covariance.topLeftCorner<3, 3>() += turn * largest * turn.transpose();
+  wrist.by_station = turn * largest * turn.transpose();
+  wrist.spheres.covariance.topLeftCorner<3, 3>() += wrist.by_station;
 }
 
 bool armStoodStill(const campaign::WristSweep& sweep) {
@@ -139,7 +140,7 @@ WristCentre measureWristCentre(const campaign::Campaign& campaign, const ArmInR0
     wrist.reason = wrist.spheres.reason;
     return wrist;
   }
-  addStations(campaign, arm, wrist.spheres);
+  addStations(campaign, arm, wrist);
   wrist.centre_in_r0 = wrist.spheres.centre;
   wrist.targets = sweep.targets;
   wrist.centre_at_zero_in_r0 =

@@ -60,7 +60,7 @@ CharacteristicLength characteristicLength(const std::vector<LoadCase>& cases, co
     if (result.curve.back().second < result.curve[static_cast<std::size_t>(best)].second) best = i;
   }
   const double golden = (std::sqrt(5.0) - 1.0) / 2.0;
-  double left = low + (best - 1) * step, right = low + (best + 1) * step;
+  double left = low + std::max(best - 1, 0) * step, right = low + std::min(best + 1, kPoints - 1) * step;
   constexpr double kClose = 1e-6;
   while (right - left > kClose) {
     const double a = right - golden * (right - left), b = left + golden * (right - left);

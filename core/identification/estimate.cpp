@@ -275,10 +275,11 @@ Remark StiffnessEstimate::mark(int joint) const {
   return {};
 }
 
-JointMatrix scatterCovariance(const std::vector<JointVector>& influences, const robot::JointMask& unknown) {
+JointMatrix scatterCovariance(const std::vector<JointVector>& influences, const robot::JointMask& unknown,
+                              double per_posture) {
   const double unknowns = static_cast<double>(std::count(unknown.begin(), unknown.end(), true));
   const auto joints = static_cast<Eigen::Index>(unknown.size());
-  if (static_cast<double>(influences.size()) < unknowns / 3.0 + 2.0) {
+  if (static_cast<double>(influences.size()) < unknowns / per_posture + 2.0) {
     return JointMatrix::Constant(joints, joints, std::numeric_limits<double>::quiet_NaN());
   }
   JointMatrix sum = JointMatrix::Zero(joints, joints);
@@ -286,16 +287,17 @@ JointMatrix scatterCovariance(const std::vector<JointVector>& influences, const 
   return sum;
 }
 
-void setScatter(std::vector<JointVector> influences, const JointVector& dof, StiffnessEstimate& estimate) {
+void setScatter(std::vector<JointVector> influences, const JointVector& dof, StiffnessEstimate& estimate,
+                double per_posture) {
   estimate.parts = CovarianceParts(static_cast<Eigen::Index>(estimate.identifiable.size()));
-  estimate.parts.scatter = scatterCovariance(influences, estimate.identifiable);
+  estimate.parts.scatter = scatterCovariance(influences, estimate.identifiable, per_posture);
   estimate.covariance = estimate.parts.scatter;
   estimate.scatter_dof = dof;
   estimate.influences = std::move(influences);
 }
 
 void setScatterOfOneStage(const std::vector<NormalEquations>& normal, const NormalEquations& sum,
-                          StiffnessEstimate& estimate) {
+                          StiffnessEstimate& estimate, double per_posture) {
   const PostureGains gain(sum, estimate.identifiable);
   GainOfEach gains(static_cast<Eigen::Index>(estimate.identifiable.size()), normal.size());
   std::vector<JointVector> influences(normal.size());
@@ -314,7 +316,7 @@ void setScatterOfOneStage(const std::vector<NormalEquations>& normal, const Norm
         dof[joint] = matchedDof(influenceCovariance(gains, normal, inverse, joint));
       },
       normal.size() >= numerics::kWorthThreads);
-  setScatter(std::move(influences), dof, estimate);
+  setScatter(std::move(influences), dof, estimate, per_posture);
 }
 
 void describeResiduals(const std::vector<CaseEquations>& equations, StiffnessEstimate& estimate) {

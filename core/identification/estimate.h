@@ -83,15 +83,18 @@ struct StiffnessEstimate {
 
 /// Covariance of least squares from the scatter between postures, which errors shared within a posture (its
 /// unloaded readings, its wrench) do not fool: the sum of g_p g_p^T over the influences g_p of the postures.
-/// Not a number with fewer than two postures beyond those that `unknowns` take up (a posture gives three coordinates).
-JointMatrix scatterCovariance(const std::vector<JointVector>& influences, const robot::JointMask& unknown);
+/// Not a number with fewer than two postures beyond those that `unknowns` take up, a posture giving `per_posture` of
+/// them: by the tracker the three coordinates of what it sees.
+JointMatrix scatterCovariance(const std::vector<JointVector>& influences, const robot::JointMask& unknown,
+                              double per_posture = 3.0);
 
 /// Puts influences, scatter covariance and its degrees of freedom into an estimate, and the covariance so far.
-void setScatter(std::vector<JointVector> influences, const JointVector& dof, StiffnessEstimate& estimate);
+void setScatter(std::vector<JointVector> influences, const JointVector& dof, StiffnessEstimate& estimate,
+                double per_posture = 3.0);
 
 /// The same of one least-squares problem, a posture each, solved by `estimate.compliance` over `estimate.identifiable`.
 void setScatterOfOneStage(const std::vector<NormalEquations>& normal, const NormalEquations& sum,
-                          StiffnessEstimate& estimate);
+                          StiffnessEstimate& estimate, double per_posture = 3.0);
 
 /// Fills rms_residual and sigma from the positional residuals of `equations`.
 void describeResiduals(const std::vector<CaseEquations>& equations, StiffnessEstimate& estimate);

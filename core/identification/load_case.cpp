@@ -57,12 +57,13 @@ LoadReadings::LoadReadings(const campaign::Campaign& campaign, std::vector<int> 
       targets_(campaign.targets.size()),
       states_((steps_.size() + 1) * poses_, nullptr) {
   const auto asked = [&](int step) { return slot(step) <= steps_.size(); };
-  const auto add = [&](const auto& row, const Eigen::Vector3d& value, std::vector<ReadingSum>& table) {
-    if (!asked(row.step)) return;
+  const auto add = [&](const auto& row, const Eigen::Vector3d& value, std::vector<ReadingSum>& table) -> ReadingSum* {
+    if (!asked(row.step)) return nullptr;
     ReadingSum& sum =
         table[at(static_cast<std::size_t>(row.pose), row.step) * targets_ + static_cast<std::size_t>(row.target)];
     sum.sum += value;
     ++sum.readings;
+    return &sum;
   };
   const auto gatherStates = [&] {
     if (!campaign.states) return;
@@ -73,7 +74,10 @@ LoadReadings::LoadReadings(const campaign::Campaign& campaign, std::vector<int> 
   const auto gatherReadings = [&] {
     if (campaign.loading) {
       points_.resize(states_.size() * targets_);
-      for (const campaign::LoadingReading& row : campaign.loading->rows) add(row, row.point, points_);
+      for (const campaign::LoadingReading& row : campaign.loading->rows) {
+        ReadingSum* const sum = add(row, row.point, points_);
+        if (sum != nullptr && sum->readings == 1) sum->station = row.station, sum->from = row.from;
+      }
     }
     if (campaign.displacements) {
       differences_.resize(states_.size() * targets_);

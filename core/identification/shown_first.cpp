@@ -71,7 +71,9 @@ std::optional<ShownFirst> chosenBy(const Judgement& judgement, Judged at, const 
   for (const Method method : candidates) {
     if (method == most) break;
     const MeanOverSubsets behind = judgement.more(most, method);
-    if (!(behind.mean <= behind.sd)) continue;
+    // Where the subsets tell little, a large difference is still more than none.
+    constexpr double kAlike = 0.1;
+    if (!(behind.mean <= std::min(behind.sd, kAlike))) continue;
     return ShownFirst{method, at,
                       Remark(RemarkId::shown_as_good_as_most, at, method, most, behind.mean, behind.sd, names, shares)};
   }

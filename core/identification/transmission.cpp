@@ -243,7 +243,9 @@ Transmission measureTransmission(const campaign::Campaign& campaign, const frame
   const GearFit fit = fitOf(day, campaign.pose_ids.size(), estimate.identifiable, torques, weight, nullptr);
   const NormalEquations sum = sumOf(fit.normal);
   estimate.compliance = solveNormal(sum, estimate.identifiable);
-  setScatterOfOneStage(fit.normal, sum, estimate);
+  // Each gear is a line of its own: a posture gives an equation to every one of them.
+  const auto gears = std::count(estimate.identifiable.begin(), estimate.identifiable.end(), true);
+  setScatterOfOneStage(fit.normal, sum, estimate, static_cast<double>(gears));
   addSharedParts(campaign, day, by_axes, fit, estimate);
   for (int j = 0; j < joints; ++j) {
     const auto at = static_cast<std::size_t>(j);
@@ -280,8 +282,10 @@ std::optional<GearAndStructure> gearAndStructure(const Transmission& transmissio
     apart.sd = std::sqrt(by_tracker.covariance(joint, joint) + transmission.estimate.covariance(joint, joint));
     apart.interval = {apart.structure - std::hypot(seen - tracker.low, encoders.high - by_encoders),
                       apart.structure + std::hypot(tracker.high - seen, by_encoders - encoders.low)};
+    const bool open = !std::isfinite(apart.interval.low) || !std::isfinite(apart.interval.high);
     apart.agreement = apart.interval.low > 0.0    ? GearAgreement::structure_seen
                       : apart.interval.high < 0.0 ? GearAgreement::contradicts
+                      : open                      ? GearAgreement::apart
                                                   : GearAgreement::gear_alone;
   } else {
     apart.structure = seen;

@@ -108,7 +108,8 @@ Transmission measureTransmission(const campaign::Campaign& campaign, const frame
 
 /// How the gear by its encoders and the joint by the tracker go together.
 enum class GearAgreement {
-  apart,           ///< not in series: the tracker does not see the gear, nothing to hold against each other
+  apart,           ///< not in series: the tracker does not see the gear, nothing to hold against each other; or an
+                   ///< uncertainty is open
   structure_seen,  ///< in series, and the structure's interval is above zero
   gear_alone,      ///< in series, and no structure besides the gear is seen: the two agree
   contradicts      ///< in series, and the gear alone gives more than the tracker sees in all

@@ -202,6 +202,10 @@ double ColumnTable::number(const Row& row, const std::string& quantity) const {
   return decimal(row.cells[column.place], text_.decimalSign(), text_.file, row.line, column.name) * column.si_per_unit;
 }
 
+double ColumnTable::numberOrBlank(const Row& row, const std::string& quantity) const {
+  return row.cells[numbers_.at(quantity).place].empty() ? campaign::kNotGiven : number(row, quantity);
+}
+
 bool ColumnTable::hasNumbers(const std::vector<std::string>& quantities) const {
   return std::all_of(quantities.begin(), quantities.end(), [&](const std::string& one) { return hasNumber(one); });
 }

@@ -35,6 +35,8 @@ class ColumnTable {
 
   /// A number in SI, by the column's name without its unit (x, q1, fx, time). Throws InputError where it is none.
   double number(const Row& row, const std::string& quantity) const;
+  /// The same of a table that may leave the cell blank: not a number then.
+  double numberOrBlank(const Row& row, const std::string& quantity) const;
   /// fx, fy, fz, mx, my, mz, of a table that has them.
   Vector6d wrench(const Row& row) const;
   bool hasNumber(const std::string& quantity) const { return numbers_.contains(quantity); }

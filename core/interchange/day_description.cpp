@@ -163,6 +163,9 @@ DayDescription parseDayDescription(const std::string& file, std::string_view byt
   day.file = file;
   day.folder = std::filesystem::path(file).parent_path();
   day.xml = campaign::readCampaignElements(root, dayElements(), warnings);
+  if (const auto certificate = root.child("certificate"))
+    warnings.push_back(certificate->warning("certificate", certificate->attribute("number").value_or(""),
+                                            "is not taken over; it belongs into the campaign.xml that is written"));
   const JoinBy by = readJoin(root, day.clock, warnings);
   for (const io::XmlNode& node : root.children("points")) day.points.push_back(readPointsSource(node, by, warnings));
   for (const io::XmlNode& node : root.children("log")) {

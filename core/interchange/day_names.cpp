@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <tuple>
+#include <utility>
 
 #include "core/io/input_error.h"
 #include "core/io/numbers.h"
@@ -30,9 +31,14 @@ int DayNames::targetNamed(const std::string& name) const {
   return found == targets.end() ? -1 : static_cast<int>(found - targets.begin());
 }
 
+std::optional<DayNames::Fields> DayNames::fieldsOf(const PointsSource& source, const PointReading& point) {
+  if (!source.target.empty() && point.name.empty()) return Fields();
+  return source.names.fieldsIn(point);
+}
+
 std::optional<DayReading> DayNames::readingOf(std::size_t source_index, const PointReading& point) const {
   const PointsSource& source = day_.points[source_index];
-  const auto fields = source.names.fieldsIn(point);
+  const auto fields = fieldsOf(source, point);
   if (!fields) return std::nullopt;
   const auto field = [&](const char* name) {
     if (const auto found = fields->find(name); found != fields->end()) return found->second;
@@ -50,7 +56,9 @@ std::optional<DayReading> DayNames::readingOf(std::size_t source_index, const Po
   }
   reading.target = targetNamed(name);
   if (reading.target < 0) return std::nullopt;
-  reading.pose = !source.pose.empty() ? source.pose : !field("index").empty() ? field("index") : field("pose");
+  // Of a sweep the index tells rows apart. Beside a pose it counts the rows of a table, of which one pose has several.
+  const auto [own, other] = source.role == Role::loading ? std::pair("pose", "index") : std::pair("index", "pose");
+  reading.pose = !source.pose.empty() ? source.pose : !field(own).empty() ? field(own) : field(other);
   if (reading.pose.empty() && source.by != JoinBy::clock) reading.pose = std::to_string(point.occurrence);
   const std::string step = source.step.empty() ? field("step") : source.step;
   reading.step = source.role == Role::loading ? wholeStep(day_.pathOf(source.file), point.line, step) : 0;
@@ -69,11 +77,12 @@ std::optional<DayReading> DayNames::readingOf(std::size_t source_index, const Po
 }
 
 std::string DayNames::nestOf(const PointsSource& source, const PointReading& point) const {
-  const auto fields = source.names.fieldsIn(point);
+  const auto fields = fieldsOf(source, point);
   if (!fields) return {};
-  const std::string name = mapped(fields->contains("nest")     ? fields->at("nest")
-                                  : fields->contains("target") ? fields->at("target")
-                                                               : point.name);
+  const std::string name = !source.target.empty()       ? source.target
+                           : fields->contains("nest")   ? mapped(fields->at("nest"))
+                           : fields->contains("target") ? mapped(fields->at("target"))
+                                                        : mapped(point.name);
   const bool kept = source.only.empty() ? targetNamed(name) < 0 : isAmong(source.only, name);
   return kept ? name : std::string();
 }

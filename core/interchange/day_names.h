@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 
@@ -18,8 +19,8 @@ class DayNames {
   /// none of the role's. Throws InputError for a step or an axis that is none.
   std::optional<DayReading> readingOf(std::size_t source, const PointReading& point) const;
 
-  /// The name of the nest that a point is of; empty where it is of none. Without `only` all names are nests that are no
-  /// reflectors.
+  /// The name of the nest that a point is of, by the source's target where it has one; empty where it is of none.
+  /// Without `only` all names are nests that are no reflectors.
   std::string nestOf(const PointsSource& source, const PointReading& point) const;
 
   /// Where names have no pose, their occurrence is the pose: throws InputError where the reflectors of a file were not
@@ -27,6 +28,9 @@ class DayNames {
   void requireEqualOccurrences(std::size_t source, const PointFile& points) const;
 
  private:
+  using Fields = std::map<std::string, std::string>;
+  /// What a point's name says; nullopt where it is none of the source's. A file of one reflector needs no names.
+  static std::optional<Fields> fieldsOf(const PointsSource& source, const PointReading& point);
   std::string mapped(const std::string& name) const;
   int targetNamed(const std::string& name) const;
 

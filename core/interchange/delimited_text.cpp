@@ -17,9 +17,21 @@ bool isBlank(char c) { return c == ' ' || c == '\t'; }
 
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
 
+bool isQuoted(std::string_view cell) { return cell.size() >= 2 && cell.front() == '"' && cell.back() == '"'; }
+
+/// The quotes around a cell stay where it has some in it, too: a view cannot leave out one of two (cellText does).
 std::string_view unquoted(std::string_view cell) {
-  const bool quoted = cell.size() >= 2 && cell.front() == '"' && cell.back() == '"';
-  return quoted ? trimmed(cell.substr(1, cell.size() - 2)) : cell;
+  if (!isQuoted(cell)) return cell;
+  const std::string_view inside = cell.substr(1, cell.size() - 2);
+  return inside.find("\"\"") == std::string_view::npos ? trimmed(inside) : cell;
+}
+
+/// Where the quote that opens at `opening` closes, two in a row being a letter; npos where it does not.
+std::size_t closingQuote(std::string_view line, std::size_t opening) {
+  for (std::size_t at = line.find('"', opening + 1); at != std::string_view::npos; at = line.find('"', at + 2)) {
+    if (at + 1 == line.size() || line[at + 1] != '"') return at;
+  }
+  return std::string_view::npos;
 }
 
 }  // namespace
@@ -75,7 +87,7 @@ std::vector<std::string_view> cellsBetween(std::string_view line, char separator
     std::size_t from = 0;
     if (!start.empty() && start.front() == '"') {
       const auto opening = static_cast<std::size_t>(start.data() - line.data());
-      const std::size_t closing = line.find('"', opening + 1);
+      const std::size_t closing = closingQuote(line, opening);
       if (closing != std::string_view::npos) from = closing;
     }
     const std::size_t end = line.find(separator, from);
@@ -83,6 +95,16 @@ std::vector<std::string_view> cellsBetween(std::string_view line, char separator
     if (end == std::string_view::npos) return cells;
     line.remove_prefix(end + 1);
   }
+}
+
+std::string cellText(std::string_view cell) {
+  if (!isQuoted(cell) || cell.find("\"\"", 1) >= cell.size() - 2) return std::string(cell);
+  std::string text;
+  for (std::size_t i = 1; i + 1 < cell.size(); ++i) {
+    text += cell[i];
+    if (cell[i] == '"' && i + 2 < cell.size() && cell[i + 1] == '"') ++i;
+  }
+  return std::string(trimmed(text));
 }
 
 std::vector<std::string_view> cellsBetweenBlanks(std::string_view line, std::size_t least) {

@@ -51,11 +51,15 @@ void requireLines(const std::string& file, std::string_view text);
 /// Without blanks at both ends; tabs and the no-break space are blanks.
 std::string_view trimmed(std::string_view text);
 
-/// Cells between separators, trimmed and without the double quotes around them. Nothing between two separators is a
-/// cell. They are views into the line, which must outlive them: a temporary is refused by the compiler.
+/// Cells between separators, trimmed and without the double quotes around them, in which separators are text (RFC
+/// 4180). A cell with quotes in its quotes, each written twice, stays as it is written: cellText. Nothing between two
+/// separators is a cell. They are views into the line, which must outlive them: a temporary is refused by the compiler.
 std::vector<std::string_view> cellsBetween(std::string_view line, char separator);
 template <std::same_as<std::string> Temporary>
 void cellsBetween(Temporary&& line, char separator) = delete;
+
+/// What a cell says: `"a ""b"" c"` is a "b" c. A cell that is not written so is its own text.
+std::string cellText(std::string_view cell);
 
 /// Cells between runs of at least `least` blanks; a tab counts as many as it takes. Views into the line, as above.
 std::vector<std::string_view> cellsBetweenBlanks(std::string_view line, std::size_t least);

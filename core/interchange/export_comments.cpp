@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <vector>
 
 #include "core/interchange/length_unit.h"
@@ -134,17 +135,68 @@ double numberBefore(std::string_view text, std::size_t end) {
   return decimalOrNan(digits, digits.find(',') != std::string_view::npos ? DecimalSign::comma : DecimalSign::point);
 }
 
+bool isOneOf(const std::string& word, std::initializer_list<std::string_view> words) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+/// Parts of the words for uncertainty, coverage and confidence: English, German, Romance languages, Dutch, Swedish,
+/// Norwegian, Polish, Czech, Turkish, Japanese, Chinese, Korean.
+constexpr std::array kCoverageWords{"uncertain",
+                                    "coverage",
+                                    "confiden",
+                                    "unsicher",
+                                    "vertrauen",
+                                    "konfiden",
+                                    "berdeckung",
+                                    "erweiterungsfaktor",
+                                    "incert",
+                                    "couverture",
+                                    "confian",
+                                    "cobertura",
+                                    "copertura",
+                                    "fiducia",
+                                    "onzeker",
+                                    "betrouwba",
+                                    "os\xC3\xA4ker",
+                                    "usikker",
+                                    "niepewno",
+                                    "ufno\xC5\x9B",
+                                    "nejist",
+                                    "belirsiz",
+                                    "\xE4\xB8\x8D\xE7\xA2\xBA",
+                                    "\xE4\xBF\xA1\xE9\xA0\xBC",
+                                    "\xE4\xB8\x8D\xE7\xA1\xAE\xE5\xAE\x9A",
+                                    "\xE7\xBD\xAE\xE4\xBF\xA1",
+                                    "\xEB\xB6\x88\xED\x99\x95",
+                                    "\xEC\x8B\xA0\xEB\xA2\xB0"};
+
+/// Whether a comment in small letters is about uncertainties, their coverage or confidence: by these words, by the
+/// labels of the columns, or as it says nothing else than a level. A share of something else, of humidity, says nothing
+/// of uncertainties.
+bool isAboutCoverage(const std::string& small) {
+  const std::vector<std::string> words = wordsOf(small);
+  if (namesAxes(words) || uncertaintiesNamed(small) > 0) return true;
+  const bool level = std::all_of(words.begin(), words.end(), [](const std::string& word) {
+    return isOneOf(word, {"sigma", "\xCF\x83", "k", "level", "interval", "range", "niveau", "bereich", "intervalle",
+                          "nivel", "intervalo", "livello", "intervallo"});
+  });
+  return level || std::any_of(kCoverageWords.begin(), kCoverageWords.end(),
+                              [&](const char* part) { return small.find(part) != std::string::npos; });
+}
+
 /// The coverage factor that a comment states: "2 sigma", or a level of confidence, of which 95 % is k = 2 as the Guide
-/// has it. 0: it states none.
+/// has it. 0: it states none, or is about something else.
 double coverageIn(std::string_view comment) {
   const std::string small = lowered(comment);
+  if (!isAboutCoverage(small)) return 0.0;
   const std::size_t sigma = std::min(small.find("sigm"), small.find("\xCF\x83"));
   if (sigma != std::string::npos) {
     const double factor = numberBefore(small, sigma);
     if (factor > 0.0 && factor <= 5.0) return factor;
   }
   const std::size_t percent = small.find('%');
-  if (percent == std::string::npos) return 0.0;
+  // Of two shares it is not known which is the level.
+  if (percent == std::string::npos || small.find('%', percent + 1) != std::string::npos) return 0.0;
   const double level = numberBefore(small, percent);
   struct Level {
     double percent, factor;
@@ -154,6 +206,33 @@ double coverageIn(std::string_view comment) {
     if (std::abs(level - known.percent) < 0.6) return known.factor;
   }
   return 0.0;
+}
+
+/// Words of a unit, of which deg and C are no angle.
+bool isAngleUnit(const std::string& small) {
+  const std::vector<std::string> words = wordsOf(small);
+  const bool temperature = std::any_of(words.begin(), words.end(), [](const std::string& word) {
+    return isOneOf(word, {"c", "f", "degc", "degf", "\xC2\xB0\x63", "\xC2\xB0\x66", "celsius", "fahrenheit"});
+  });
+  return !temperature && std::any_of(words.begin(), words.end(), [](const std::string& word) {
+    return word.starts_with("d\xC3\xA9g") || word.starts_with("radian") ||
+           isOneOf(word, {"deg", "degs", "degree", "degrees", "rad", "grad", "grads", "grades", "gradi", "grados",
+                          "graus", "graden", "gon", "\xC2\xB0", "\xE5\xBA\xA6"});
+  });
+}
+
+/// Whether a comment names the axes of points, Cartesian or not: two coordinates, or a length beside an angle.
+bool isAboutAxes(const std::vector<std::string>& words, const std::vector<std::string_view>& units) {
+  const auto coordinates = std::count_if(words.begin(), words.end(), [](const std::string& word) {
+    return isOneOf(word, {"x",     "y",    "z",         "r",        "h",        "v",    "d",       "rho",
+                          "theta", "phi",  "\xCE\xB8",  "\xCF\x86", "\xCF\x81", "az",   "azimuth", "azimut",
+                          "el",    "elev", "elevation", "zenith",   "hz",       "dist", "distance"});
+  });
+  if (coordinates >= 2) return true;
+  return std::any_of(units.begin(), units.end(), [](std::string_view unit) {
+    const std::vector<std::string> parts = wordsOf(unit);
+    return std::any_of(parts.begin(), parts.end(), [](const std::string& part) { return metresIn(part).has_value(); });
+  });
 }
 
 void readExportComment(const FileText& text, const TextLine& line, std::string_view comment, ExportComments& header) {
@@ -180,10 +259,11 @@ void readExportComment(const FileText& text, const TextLine& line, std::string_v
     header.uncertainties = uncertaintiesNamed(comment);
   else if (header.uncertainties)
     *header.uncertainties += uncertaintiesNamed(comment);
-  for (const std::string_view unit : bracketed(comment)) {
+  const std::vector<std::string_view> units = bracketed(comment);
+  const bool about_axes = isAboutAxes(words, units);
+  for (const std::string_view unit : units) {
     const std::string small = lowered(unit);
-    if (small.find("deg") != std::string::npos || small.find("rad") != std::string::npos ||
-        small.find("grad") != std::string::npos) {
+    if (about_axes && isAngleUnit(small)) {
       throw io::InputError({text.file, line.number, ""}, std::string(comment),
                            "expected Cartesian axes; these have an angle: export x, y, z");
     }

@@ -10,6 +10,9 @@
 #include "core/campaign/repeated_keys.h"
 #include "core/campaign/table_layouts.h"
 #include "core/interchange/day_names.h"
+#include "core/interchange/nest_times.h"
+#include "core/interchange/state_samples.h"
+#include "core/interchange/stated_uncertainty.h"
 #include "core/io/input_error.h"
 #include "core/io/read_file.h"
 #include "core/io/units.h"
@@ -40,7 +43,8 @@ class DayImport {
   }
 
   ImportedDay made() {
-    findUncertainties();
+    // Before the joins, which empty the files' contents.
+    const auto stated = statedUncertainty(files_.points, result_.campaign.tracker);
     for (const Role role : {Role::circle_sweeps, Role::wrist_sweep, Role::loading}) importRole(role);
     requireNew(Role::circle_sweeps, campaign::circleSweepsLayout(files_.robot.joints()),
                result_.campaign.circle_sweeps);
@@ -56,7 +60,11 @@ class DayImport {
       // A file read for two tables has each row in one of them, or is left out once.
       if (use(file, row.line)) result_.skipped.push_back({file, row});
     }
-    warnOfUncertainties();
+    if (stated) {
+      result_.stated_sigma = stated->sigma;
+      result_.stated_over_declared = stated->over_declared;
+      if (const auto warning = warningOf(*stated, day_.file)) result_.warnings.push_back(*warning);
+    }
     campaign::checkCampaign(result_.campaign, result_.warnings);
     return std::move(result_);
   }
@@ -94,16 +102,19 @@ class DayImport {
         }
       }
       for (const SkippedRow& row : files_.points[s].content.skipped) skipped_.emplace_back(files_.points[s].file, row);
-      if (readings.size() == before)
-        throw io::InputError(
-            {day_.file, source.line, "names"}, source.file,
-            fmt::format("expected readings of the targets; none of its {} names is of one, the first is '{}'",
-                        files_.points[s].content.points.size(),
-                        files_.points[s].content.points.empty() ? "" : files_.points[s].content.points.front().name));
+      if (readings.size() == before) refuseNames(s, "the targets");
       // Each file of points is read for one role: what it said is in the readings now.
       files_.points[s].content = {};
     }
     return readings;
+  }
+
+  /// A file of which nothing is of its role is another file, or its names are others.
+  [[noreturn]] void refuseNames(std::size_t source, const char* of) const {
+    const std::vector<PointReading>& points = files_.points[source].content.points;
+    throw io::InputError({day_.file, day_.points[source].line, "names"}, day_.points[source].file,
+                         fmt::format("expected readings of {}; none of its {} names is of one, the first is '{}'", of,
+                                     points.size(), points.empty() ? "" : points.front().name));
   }
 
   /// Of a day without any log.
@@ -124,6 +135,19 @@ class DayImport {
     return common;
   }
 
+  JoinTask taskOf(std::size_t log, Role role) const {
+    return {day_, result_.campaign.robot, day_.logs[log], files_.logs[log].content, day_.pathOf(day_.logs[log].file),
+            role};
+  }
+
+  /// What a join says beside its states.
+  void keepSaid(std::size_t log, const StateJoin& join) {
+    for (const std::size_t sample : join.merged)
+      skipped_.emplace_back(files_.logs[log].file,
+                            SkippedRow{files_.logs[log].content.samples[sample].line, Skip::repeated_row});
+    result_.warnings.insert(result_.warnings.end(), join.warnings.begin(), join.warnings.end());
+  }
+
   void importRole(Role role) {
     std::set<std::pair<JoinBy, std::size_t>> joins;
     for (const PointsSource& source : day_.points) {
@@ -135,12 +159,12 @@ class DayImport {
         addRows(role, log, joinNothing(readings), readings);
         continue;
       }
-      const JoinTask task{day_, result_.campaign.robot, day_.logs[log], files_.logs[log].content,
-                          day_.pathOf(day_.logs[log].file)};
+      const JoinTask task = taskOf(log, role);
       const StateJoin join = by == JoinBy::name    ? joinByName(task, readings)
                              : by == JoinBy::order ? joinByOrder(task, readings)
                                                    : joinByClock(task, readings);
       if (join.clock) result_.clocks.push_back(*join.clock);
+      keepSaid(log, join);
       stretches_[log].insert(join.stretches.begin(), join.stretches.end());
       for (const JoinedState& state : join.states) used_samples_[log].insert(state.first);
       for (const auto& [i, reason] : join.left_out) {
@@ -159,14 +183,13 @@ class DayImport {
                                     [](const PointsSource& source) { return source.role != Role::nests; });
     if (points) return;
     for (std::size_t log = 0; log < day_.logs.size(); ++log) {
-      const JoinTask task{day_, result_.campaign.robot, day_.logs[log], files_.logs[log].content,
-                          day_.pathOf(day_.logs[log].file)};
-      StateJoin join = posturesOf(task);
+      StateJoin join = posturesOf(taskOf(log, Role::loading));
       // Of several logs each has its own numbers.
       for (JoinedState& state : join.states) {
         if (day_.logs.size() > 1) state.pose = fmt::format("{}.{}", log + 1, state.pose);
       }
       // Each stretch is a posture: none is left unread.
+      keepSaid(log, join);
       addRows(Role::loading, log, join, {});
     }
   }
@@ -187,8 +210,6 @@ class DayImport {
                       "this robot?",
                       *misfit * 1e3)));
   }
-
-  static double timeOf(const PointReading& point) { return point.time ? point.time->seconds : campaign::kNoTime; }
 
   template <class Row>
   campaign::Table<Row>& tableOf(std::optional<campaign::Table<Row>>& table, Role role, const PointsSource& source) {
@@ -213,7 +234,7 @@ class DayImport {
     if (role == Role::loading && log != kNoLog && !join.states.empty()) reserveStates(join.states.size());
     for (const JoinedState& state : join.states) {
       const JointVector q = log == kNoLog ? JointVector() : convention.angles(state.figures);
-      if (role == Role::loading && log != kNoLog) addState(state, log, q, readings);
+      if (role == Role::loading && log != kNoLog) addState(state, log, q, convention, readings);
       std::map<int, int> counts;
       for (const std::size_t i : state.readings) {
         const DayReading& reading = readings[i];
@@ -254,8 +275,9 @@ class DayImport {
   }
 
   void addState(const JoinedState& state, std::size_t log, const JointVector& q,
-                const std::vector<DayReading>& readings) {
-    const JointSample& sample = files_.logs[log].content.samples[state.first];
+                const campaign::JointConvention& convention, const std::vector<DayReading>& readings) {
+    const RobotLog& content = files_.logs[log].content;
+    const JointSample& sample = content.samples[state.first];
     auto& table = result_.campaign.states;
     campaign::State row(files_.robot.joints());
     row.pose = poseNumber(state.pose);
@@ -264,11 +286,17 @@ class DayImport {
     // Times of a log alone are the robot's.
     row.time_s =
         state.readings.empty() ? sample.time_s.value_or(campaign::kNoTime) : readings[state.readings.front()].time_s;
-    const campaign::StatedPose pose = meanToolPose(files_.logs[log].content.samples, state.first, state.last);
-    if (!std::isnan(sample.temperature_c)) row.extras().temperature_c = sample.temperature_c;
-    if (pose.hasPosition() || pose.hasTurn()) row.extras().tool_pose = pose;
+    const StateMeans means = meansOf(content, state.first, state.last);
+    if (!std::isnan(means.temperature_c)) row.extras().temperature_c = means.temperature_c;
+    if (means.tool_pose.hasPosition() || means.tool_pose.hasTurn()) row.extras().tool_pose = means.tool_pose;
+    const auto givenAngles = [&](const JointVector& figures) {
+      return figures.size() > 0 && !figures.array().isNaN().all();
+    };
+    if (givenAngles(means.motor_side))
+      row.extras().motor_side = convention.anglesBeside(means.motor_side, state.figures);
+    if (givenAngles(means.commanded)) row.extras().commanded = convention.anglesBeside(means.commanded, state.figures);
     row.line = table->rows.size() + 2;
-    if (sample.wrench.allFinite()) row.wrench_in_cell = sample.wrench;
+    if (means.wrench.allFinite()) row.wrench_in_cell = means.wrench;
     if (!files_.loads.empty()) {
       const auto load = files_.loads.find({state.pose, state.step});
       if (load == files_.loads.end())
@@ -280,8 +308,7 @@ class DayImport {
       result_.wrenches.push_back({load->second.file, load->second.line, load->second.line});
     }
     table->rows.push_back(row);
-    result_.rows["states"].push_back(
-        {files_.logs[log].file, sample.line, files_.logs[log].content.samples[state.last].line});
+    result_.rows["states"].push_back({files_.logs[log].file, sample.line, content.samples[state.last].line});
   }
 
   void addLoading(const JoinedState& state, const DayReading& reading, int count) {
@@ -343,11 +370,12 @@ class DayImport {
 
   void importNests() {
     std::map<std::string, int> nests;
-    std::set<std::pair<double, int>> times;
+    std::vector<double> resolutions;
     for (std::size_t s = 0; s < day_.points.size(); ++s) {
       const PointsSource& source = day_.points[s];
       if (source.role != Role::nests) continue;
       auto& table = tableOf(result_.campaign.nests, Role::nests, source);
+      const std::size_t before = table.rows.size();
       for (const SkippedRow& row : files_.points[s].content.skipped) skipped_.emplace_back(files_.points[s].file, row);
       for (const PointReading& point : files_.points[s].content.points) {
         const std::string name = names_.nestOf(source, point);
@@ -361,61 +389,36 @@ class DayImport {
         use(files_.points[s].file, point.line);
         const auto [nest, added] = nests.emplace(name, static_cast<int>(result_.campaign.nest_ids.size()));
         if (added) result_.campaign.nest_ids.push_back(name);
-        // Within the last digit of a clock one follows another.
-        double time = timeOf(point);
-        constexpr double kTick = 0.1;
-        while (!times.emplace(std::round(time / kTick) * kTick, nest->second).second) time += kTick;
-        table.rows.push_back({time, nest->second, point.point, table.rows.size() + 2});
+        resolutions.push_back(point.time->resolution);
+        table.rows.push_back({point.time->seconds, nest->second, point.point, table.rows.size() + 2});
         result_.rows["nests"].push_back({files_.points[s].file, point.line, point.line});
       }
+      if (table.rows.size() == before) refuseNames(s, "nests");
     }
+    if (result_.campaign.nests) keepNestsApart(result_.campaign.nests->rows, resolutions);
   }
 
-  /// The files' standard uncertainties beside what the campaign declares of the tracker: medians.
-  void findUncertainties() {
-    const std::optional<campaign::Tracker>& tracker = result_.campaign.tracker;
-    std::vector<double> sigmas, ratios;
-    for (const DayFiles::Points& file : files_.points) {
-      for (const PointReading& point : file.content.points) {
-        if (!point.sigma) continue;
-        sigmas.push_back(point.sigma->norm() / std::sqrt(3.0));
-        if (!tracker) continue;
-        const double distance = (point.point - tracker->station).norm();
-        const double along = tracker->range_fixed + tracker->range_per_m * distance,
-                     across = tracker->angle_fixed + tracker->angle_per_m * distance;
-        ratios.push_back(point.sigma->norm() / std::sqrt(along * along + 2.0 * across * across));
-      }
-    }
-    if (sigmas.empty()) return;
-    result_.stated_sigma = middleOf(sigmas);
-    if (ratios.empty()) return;
-    result_.stated_over_declared = middleOf(ratios);
-    compared_ = ratios.size();
-  }
-
-  void warnOfUncertainties() {
-    if (!result_.stated_over_declared) return;
-    const double ratio = *result_.stated_over_declared;
-    // As the audit's check of declared noise.
-    constexpr double kApart = 2.0;
-    if (ratio <= kApart && ratio >= 1.0 / kApart) return;
+  void keepNestsApart(std::vector<campaign::NestReading>& rows, const std::vector<double>& resolutions) {
+    const MovedNests moved = keepTimesApart(rows, resolutions);
+    if (moved.count == 0) return;
+    const RowOrigin& origin = result_.rows.at("nests")[moved.first];
     result_.warnings.push_back(io::inputMessage(
-        {day_.file, 0, "tracker"}, "",
-        fmt::format("the uncertainties in the files, {:.1f} um (median of {} readings), are {:.2g} times the noise "
-                    "declared of the tracker",
-                    *result_.stated_sigma / io::kMicrometre, compared_, ratio)));
-  }
-
-  static double middleOf(std::vector<double>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
+        {day_.pathOf(result_.files[origin.file].name), origin.line, "time"}, "",
+        fmt::format("{} readings of nests, this one first, have the time of an earlier one of the same nest; they are "
+                    "written by up to {:g} s later, to be told apart",
+                    moved.count, moved.farthest_s)));
   }
 
   /// Standstills, rows and targets of a log in which nothing was read, and what it has without joint angles.
   void skipUnread(std::size_t log) {
     const DayFiles::Log& own = files_.logs[log];
     for (const SkippedRow& row : own.content.skipped) skipped_.emplace_back(own.file, row);
+    const auto states = result_.rows.find("states");
+    const bool given =
+        states != result_.rows.end() && std::any_of(states->second.begin(), states->second.end(),
+                                                    [&](const RowOrigin& row) { return row.file == own.file; });
+    const auto warning = warningOfUntaken(own.content, day_.pathOf(day_.logs[log].file), given, !files_.loads.empty());
+    if (warning) result_.warnings.push_back(*warning);
     for (const auto& [first, last] : stretches_[log]) {
       const auto used = used_samples_[log].lower_bound(first);
       if (used == used_samples_[log].end() || *used > last)
@@ -433,7 +436,6 @@ class DayImport {
   std::vector<std::set<std::pair<std::size_t, std::size_t>>> stretches_;  ///< by log, what could be joined
   std::set<std::pair<std::string, int>> used_loads_;
   std::vector<std::pair<std::size_t, SkippedRow>> skipped_;
-  std::size_t compared_ = 0;                       ///< readings whose uncertainty was compared with the tracker's
   std::map<std::string, std::vector<bool>> used_;  ///< by the file's name, its lines
 };
 

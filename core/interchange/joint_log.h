@@ -44,6 +44,10 @@ struct RobotLog {
   std::vector<JointSample> samples;
   /// Of a program: where the figures of each sample stand in the text, joint by joint.
   std::vector<PerJoint<TextSpan>> places;
+  /// Of each sample, as the controller states them, rad: angles of the motors' side over the gear ratio, and commanded
+  /// ones, not a number where a row has none. Empty where the table has no such column.
+  std::vector<JointVector> motor_side, commanded;
+  std::vector<std::string> index;  ///< of each sample, of a table that has it beside pose; else empty
   std::vector<SkippedRow> skipped;
   std::vector<std::string> warnings;
 };

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -24,6 +25,7 @@ struct JointHeader {
   std::optional<std::array<std::size_t, 6>> pose;  ///< X Y Z W P R
   std::optional<std::size_t> time;
   double seconds_per_unit = 1.0;
+  std::vector<std::string> unread;  ///< other columns, as they are written, but those behind `beyond`
 };
 
 std::vector<std::string_view> logCells(std::string_view line, char separator) {
@@ -86,6 +88,15 @@ std::optional<std::array<std::size_t, 6>> poseColumns(const std::vector<std::str
   return places;
 }
 
+/// Keeps the names of the columns before `end` that nothing is read of.
+void noteUnread(JointHeader& header, const std::vector<std::string_view>& cells, std::size_t end) {
+  for (std::size_t k = 0; k < std::min(end, cells.size()); ++k) {
+    const bool joint = std::find(header.joints.begin(), header.joints.end(), k) != header.joints.end();
+    const bool pose = header.pose && std::find(header.pose->begin(), header.pose->end(), k) != header.pose->end();
+    if (!joint && !pose && header.time != k && !cells[k].empty()) header.unread.emplace_back(cells[k]);
+  }
+}
+
 JointHeader jointHeaderOf(const LogText& text, LogFormat format, int joints) {
   for (const TextLine& line : linesOf(text.text)) {
     if (line.number <= text.options.table.skip || trimmed(line.text).empty()) continue;
@@ -113,7 +124,9 @@ JointHeader jointHeaderOf(const LogText& text, LogFormat format, int joints) {
         }
         if (!all || (format == LogFormat::fanuc_karel && !header.time)) continue;
         if (format == LogFormat::fanuc_karel) header.pose = poseColumns(cells);
-        if (std::find(cells.begin(), cells.end(), beyond) != cells.end()) header.beyond = beyond;
+        const auto more = std::find(cells.begin(), cells.end(), beyond);
+        if (more != cells.end()) header.beyond = beyond;
+        noteUnread(header, logCells(line.text, separator), static_cast<std::size_t>(more - cells.begin()));
         return header;
       }
     }
@@ -143,6 +156,44 @@ std::string leftOut(const LogText& text, std::size_t line, const std::string& co
                                       column, countedJoints(text.options.joints)));
 }
 
+/// The warning of columns of another kind: currents and speeds, or an external axis, which may have carried the arm.
+std::string notRead(const LogText& text, const JointHeader& header) {
+  constexpr std::size_t kNamed = 8;
+  const std::vector<std::string>& all = header.unread;
+  const std::vector<std::string> named(all.begin(),
+                                       all.begin() + static_cast<std::ptrdiff_t>(std::min(kNamed, all.size())));
+  return io::inputMessage(
+      {text.file, header.line, ""}, "",
+      fmt::format("columns that are not read: {}{}", fmt::join(named, ", "),
+                  all.size() > kNamed ? fmt::format(" and {} more", all.size() - kNamed) : std::string()));
+}
+
+/// Joints that a table has a column of such a kind for, from 0: m1, m2 and so on of `m`.
+std::vector<int> jointsOf(const ColumnTable& table, const std::string& kind, int joints) {
+  std::vector<int> found;
+  for (int j = 0; j < joints; ++j) {
+    if (table.hasNumber(kind + std::to_string(j + 1))) found.push_back(j);
+  }
+  return found;
+}
+
+/// The angles of these joints, not a number of the others and where a cell is blank. Throws InputError for one that no
+/// table of states could hold.
+JointVector anglesIn(const ColumnTable& table, const ColumnTable::Row& row, const std::string& kind,
+                     const std::vector<int>& of, const LogText& text) {
+  constexpr double kMost = 720.0 * io::kDegree;
+  JointVector angles = JointVector::Constant(text.options.joints, campaign::kNotGiven);
+  for (const int j : of) {
+    const std::string quantity = kind + std::to_string(j + 1);
+    angles[j] = table.numberOrBlank(row, quantity);
+    if (std::abs(angles[j]) > kMost)
+      throw io::InputError({text.file, row.line, quantity}, fmt::format("{:.6g} deg", angles[j] / io::kDegree),
+                           "expected an angle within +-720 deg: of the motors' side it is the motor's over the gear "
+                           "ratio");
+  }
+  return angles;
+}
+
 }  // namespace
 
 std::string countedJoints(int joints) {
@@ -170,6 +221,7 @@ RobotLog readJointTable(const LogText& text, LogFormat format) {
   const double angle = format == LogFormat::fanuc_karel ? io::kDegree : 1.0;
   RobotLog log;
   log.format = format;
+  if (!header.unread.empty()) log.warnings.push_back(notRead(text, header));
   if (!header.beyond.empty()) log.warnings.push_back(leftOut(text, header.line, header.beyond));
   // A cell and what parts it from the next are a byte each at least.
   log.samples.reserve(std::min(io::linesIn(text.text), text.text.size() / (2 * header.cells - 1) + 1));
@@ -212,8 +264,12 @@ RobotLog readJointColumns(const LogText& text) {
   RobotLog log;
   log.format = LogFormat::columns;
   log.warnings = table.warnings();
-  if (table.hasNumber(columns.beyond))
-    log.warnings.push_back(leftOut(text, text.options.table.skip + 1, columns.beyond));
+  for (const char* kind : {"q", "m", "c"}) {
+    const std::string beyond = kind + std::to_string(joints + 1);
+    if (table.hasNumber(beyond)) log.warnings.push_back(leftOut(text, text.options.table.skip + 1, beyond));
+  }
+  const std::vector<int> motors = jointsOf(table, "m", joints), commands = jointsOf(table, "c", joints);
+  const bool indexed = table.has("pose") && table.has("index");
   log.samples.reserve(table.mostRows());
   table.forEachRow([&](const ColumnTable::Row& row) {
     JointSample sample(joints);
@@ -231,6 +287,9 @@ RobotLog readJointColumns(const LogText& text) {
     if (turn) sample.tool_pose.rpy = {table.number(row, "pw"), table.number(row, "pp"), table.number(row, "pr")};
     if (table.hasNumber("temperature")) sample.temperature_c = table.number(row, "temperature");
     if (wrench) sample.wrench = table.wrench(row);
+    if (!motors.empty()) log.motor_side.push_back(anglesIn(table, row, "m", motors, text));
+    if (!commands.empty()) log.commanded.push_back(anglesIn(table, row, "c", commands, text));
+    if (indexed) log.index.push_back(table.text(row, "index"));
     log.samples.push_back(std::move(sample));
   });
   return log;

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -17,6 +18,7 @@ struct LeicaColumn {
   Kind kind = Kind::other;
   int axis = -1;
   std::optional<double> unit;
+  std::string title;  ///< as the header has it
 };
 
 /// What stands in the last pair of brackets; the name without it.
@@ -58,10 +60,21 @@ bool hasPart(const std::vector<std::string>& parts, std::initializer_list<std::s
   });
 }
 
+/// Whether a column of a coordinate has what the coordinate should be, or how far from there it is.
+bool isNotMeasured(const std::vector<std::string>& parts) {
+  return hasPart(parts,
+                 {"nominal", "nominals", "nom",        "soll",        "sollwert",   "ref",   "reference",  "referenz",
+                  "design",  "cad",      "theo",       "theoretical", "expected",   "delta", "\xCE\x94",   "\xCE\xB4",
+                  "d",       "dev",      "deviation",  "abw",         "abweichung", "diff",  "difference", "differenz",
+                  "error",   "err",      "fehler",     "residual",    "residuum",   "tol",   "tolerance",  "toleranz",
+                  "offset",  "corr",     "correction", "korrektur",   "min",        "max",   "range"});
+}
+
 LeicaColumn columnNamed(std::string_view header) {
   using Kind = LeicaColumn::Kind;
   LeicaColumn column;
-  std::string name = lowered(header);
+  column.title = cellText(header);
+  std::string name = lowered(column.title);
   const bool expanded = cutExpanded(name);
   name = std::string(trimmed(name));
   column.unit = metresIn(unitOf(name));
@@ -75,12 +88,13 @@ LeicaColumn columnNamed(std::string_view header) {
   });
   const bool turned =
       quaternion || hasPart(parts, {"rot", "rotation", "angle", "rx", "ry", "rz", "roll", "pitch", "yaw"});
-  const bool length = column.axis >= 0 && column.unit && !turned;
+  const bool standard = hasPart(parts, {"std", "sd", "sigma", "stddev", "stdev", "standard", "standardabweichung"});
+  const bool length = column.axis >= 0 && column.unit && !turned && (standard || !isNotMeasured(parts));
   if (quaternion)
     column.kind = Kind::quaternion;
   else if (length && expanded)
     column.kind = Kind::expanded;
-  else if (length && hasPart(parts, {"std", "sd", "sigma", "stddev", "deviation", "stdev"}))
+  else if (length && standard)
     column.kind = Kind::standard;
   else if (length)
     column.kind = Kind::coordinate;
@@ -102,6 +116,7 @@ struct LeicaHeader {
   std::array<int, 3> coordinates{-1, -1, -1}, expanded{-1, -1, -1}, standard{-1, -1, -1};
   int name = -1, target = -1, group = -1, time = -1;
   bool quaternion = false;
+  std::optional<std::array<std::size_t, 2>> doubled;  ///< columns that may be the same
 
   bool whole(const std::array<int, 3>& places) const { return places[0] >= 0 && places[1] >= 0 && places[2] >= 0; }
 };
@@ -113,15 +128,19 @@ void placeColumns(LeicaHeader& header) {
     const auto place = static_cast<int>(i);
     const auto axis = static_cast<std::size_t>(std::max(column.axis, 0));
     const auto first = [place](int& into) { into = into < 0 ? place : into; };
+    const auto only = [&](int& into) {
+      if (into >= 0 && !header.doubled) header.doubled = {static_cast<std::size_t>(into), i};
+      first(into);
+    };
     switch (column.kind) {
       case Kind::coordinate:
-        first(header.coordinates[axis]);
+        only(header.coordinates[axis]);
         break;
       case Kind::expanded:
-        first(header.expanded[axis]);
+        only(header.expanded[axis]);
         break;
       case Kind::standard:
-        first(header.standard[axis]);
+        only(header.standard[axis]);
         break;
       case Kind::quaternion:
         header.quaternion = true;
@@ -160,6 +179,35 @@ LeicaHeader leicaHeaderOf(const FileText& text) {
     }
   }
   return {};
+}
+
+/// Throws InputError where two columns may be one coordinate: which of them was measured the file does not say.
+void requireOneOfEach(const FileText& text, const LeicaHeader& header) {
+  if (!header.doubled) return;
+  const auto& [one, other] = *header.doubled;
+  throw io::InputError({text.file, header.line, fmt::format("column {}", other + 1)}, header.columns[other].title,
+                       fmt::format("expected one column of this axis; '{}' is of it, too: name the columns (format "
+                                   "columns)",
+                                   header.columns[one].title));
+}
+
+/// What the header names and is not read; nothing where all is.
+std::vector<std::string> unreadColumns(const FileText& text, const LeicaHeader& header) {
+  const bool expanded = header.whole(header.expanded), standard = !expanded && header.whole(header.standard);
+  std::vector<std::string> unread;
+  for (std::size_t i = 0; i < header.columns.size(); ++i) {
+    const auto place = static_cast<int>(i);
+    const auto among = [place](const std::array<int, 3>& places) {
+      return std::find(places.begin(), places.end(), place) != places.end();
+    };
+    const bool read = among(header.coordinates) || (expanded && among(header.expanded)) ||
+                      (standard && among(header.standard)) || place == header.group || place == header.time ||
+                      place == (header.name >= 0 ? header.name : header.target);
+    if (!read && !header.columns[i].title.empty()) unread.push_back(header.columns[i].title);
+  }
+  if (unread.empty()) return {};
+  return {io::inputMessage({text.file, header.line, ""}, "",
+                           fmt::format("columns that are not read: {}", fmt::join(unread, ", ")))};
 }
 
 std::optional<Eigen::Vector3d> leicaSigma(const FileText& text, const LeicaHeader& header,
@@ -221,6 +269,8 @@ PointFile readLeica(const FileText& text) {
                          "expected a header line that names X, Y and Z with their units, as X [mm]");
   PointFile points;
   points.format = PointFormat::leica;
+  requireOneOfEach(text, header);
+  points.warnings = unreadColumns(text, header);
   PointGroups groups;
   for (const TextLine& line : linesOf(text.text)) {
     if (line.number <= header.line || trimmed(line.text).empty()) continue;

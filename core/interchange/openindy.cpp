@@ -97,6 +97,14 @@ std::optional<PointReading> pointOfReading(const io::XmlNode& reading) {
   return point;
 }
 
+/// As XML writes truth, by either of its two ways.
+bool isValid(const io::XmlNode& observation) {
+  const std::string value = observation.attribute("isValid").value_or("1");
+  if (value == "1" || value == "true") return true;
+  if (value != "0" && value != "false") observation.refuse("isValid", value, "expected 1 or true, 0 or false");
+  return false;
+}
+
 }  // namespace
 
 bool looksLikeOpenIndy(std::string_view text) {
@@ -118,9 +126,10 @@ PointFile readOpenIndy(const FileText& text) {
   if (!observations) root.refuse("observations", "", "expected this element, which holds the readings");
   for (const io::XmlNode& observation : observations->children("observation")) {
     const std::string station = nameBy(observation, "station", stations);
+    const bool valid = isValid(observation);
     for (const io::XmlNode& reading : observation.children("reading")) {
       auto point = pointOfReading(reading);
-      if (observation.attribute("isValid").value_or("1") == "0" || !point) {
+      if (!valid || !point) {
         points.skipped.push_back({reading.line(), point ? Skip::marked_invalid : Skip::no_point});
         continue;
       }

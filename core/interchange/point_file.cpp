@@ -120,6 +120,31 @@ void requireOptionsOf(PointFormat format, const FileText& text) {
   if (!options.separator.empty() && format != PointFormat::columns)
     throw io::InputError({text.file, 0, "separator"}, options.separator,
                          fmt::format("expected no separator: that of format {} is known", nameOf(format)));
+  const bool project = format == PointFormat::openindy;
+  if (options.skip > 0 && (project || format == PointFormat::leica))
+    throw io::InputError({text.file, 0, "skip"}, std::to_string(options.skip),
+                         fmt::format("expected no lines to skip: where rows of format {} start is known{}",
+                                     nameOf(format), project ? "" : " (format columns skips)"));
+  if (options.decimal_comma && project)
+    throw io::InputError({text.file, 0, "decimal_comma"}, "yes",
+                         fmt::format("expected no decimal commas: numbers of format {} have points", nameOf(format)));
+  if (!options.columns.empty() && project)
+    throw io::InputError({text.file, 0, "columns"}, options.columns,
+                         fmt::format("expected no columns: files of format {} are no tables", nameOf(format)));
+}
+
+/// Names in quotes as they are meant; most files have none.
+void readQuotedNames(PointFile& points) {
+  PointGroups groups;
+  for (PointReading& point : points.points) {
+    point.name = cellText(point.name);
+    const std::string collection = cellText(point.collection()), group = cellText(point.group());
+    if (collection != point.collection() || group != point.group()) point.of = groups.of(collection, group);
+    if (!point.columns) continue;
+    PointReading::Columns columns;
+    for (const auto& [name, cell] : *point.columns) columns[name] = cellText(cell);
+    if (columns != *point.columns) point.columns = std::make_shared<const PointReading::Columns>(std::move(columns));
+  }
 }
 
 /// A name that a table could not hold again is no name.
@@ -157,6 +182,8 @@ PointFile parsePointFile(const std::string& file, std::string_view bytes, const 
   requireOptionsOf(format, text);
   PointFile points = readAs(format, text);
   points.encoding = decoded.encoding;
+  // In XML two quotes are a value that is empty.
+  if (format != PointFormat::openindy && text.text.find("\"\"") != std::string_view::npos) readQuotedNames(points);
   if (points.points.empty() && points.skipped.empty())
     throw io::InputError({file, 0, ""}, "", "expected points; there are none");
   if (!options.target.empty()) {

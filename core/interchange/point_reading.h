@@ -125,6 +125,7 @@ enum class Skip {
   outside_log,       ///< before the log's first or behind its last sample
   no_readings,       ///< a standstill, a target or a load for which nothing was read
   joints_not_given,  ///< a target in space, without angles
+  repeated_row,      ///< says the same as an earlier row of its pose and step
 };
 
 struct SkippedRow {

@@ -7,65 +7,13 @@
 
 #include "core/interchange/export_comments.h"
 #include "core/interchange/point_formats.h"
+#include "core/interchange/spatial_analyzer_row.h"
 #include "core/io/input_error.h"
 #include "core/io/numbers.h"
 
 namespace stiffscope::interchange {
 
 namespace {
-
-/// How the cells of the rows are kept apart.
-struct SaSeparator {
-  bool comma = false;
-  std::size_t blanks = 1;  ///< at least so many between two cells; of commas without meaning
-};
-
-std::vector<std::string_view> saCellsOf(std::string_view line, const SaSeparator& separator) {
-  return separator.comma ? cellsBetween(line, ',') : cellsBetweenBlanks(line, separator.blanks);
-}
-
-/// A row with its time, if any, cut out.
-struct SaRow {
-  std::size_t line = 0;
-  bool ended = true;
-  std::vector<std::string_view> cells;
-  std::optional<Timestamp> time;
-  bool lone_time = false;  ///< a time of day without its date, which is not read
-};
-
-/// Cuts date and time, or a lone time, out of the cells at `at`, which is the last of them. A time without its day, if
-/// it is not the 00:00:00 of a point that nobody measured, is said to be there: no clock can use it.
-bool cutTimeAt(std::size_t at, SaRow& row) {
-  std::vector<std::string_view>& cells = row.cells;
-  const auto erase = [&](std::size_t from) {
-    cells.erase(cells.begin() + static_cast<std::ptrdiff_t>(from), cells.begin() + static_cast<std::ptrdiff_t>(at) + 1);
-    return true;
-  };
-  const std::string_view last = cells[at];
-  if (at > 0 && isTimeOfDay(last) && isDate(cells[at - 1])) {
-    row.time = parseTimestamp(fmt::format("{} {}", cells[at - 1], last));
-    return erase(at - 1);
-  }
-  if (isTimeOfDay(last)) {
-    row.lone_time = !isNoTime(last);
-    return erase(at);
-  }
-  if (last.find(':') == std::string_view::npos) return false;
-  const std::optional<Timestamp> time = parseTimestamp(last);
-  const std::size_t blank = last.find(' ');
-  const bool nothing = blank != std::string_view::npos && isNoTime(trimmed(last.substr(blank)));
-  if (!time && !nothing) return false;  // left to be refused as no number
-  row.time = time;
-  return erase(at);
-}
-
-/// The time stands last, or before comments and details of the target; in front of it are at least x y z.
-void cutTime(SaRow& row) {
-  constexpr std::size_t kLeast = 3;
-  for (std::size_t at = row.cells.size(); at-- > kLeast;) {
-    if (cutTimeAt(at, row)) return;
-  }
-}
 
 /// Calls use(line) for every line that is a row, until `use` returns false where it returns something.
 template <class Use>
@@ -211,15 +159,6 @@ class PossibleNames {
           (cut ? "; the file ends in the middle of this line" : ""));
 }
 
-/// A line as a row.
-SaRow saRowOf(const TextLine& line, const SaSeparator& separator) {
-  SaRow row{line.number, line.ended, saCellsOf(line.text, separator), std::nullopt, false};
-  // A separator behind the last cell ends nothing.
-  if (separator.comma && !row.cells.empty() && row.cells.back().empty()) row.cells.pop_back();
-  cutTime(row);
-  return row;
-}
-
 /// Calls use(row) for every row of the file, one after the other: a file of 100 MB has two million.
 template <class Use>
 void forEachRow(const FileText& text, const SaSeparator& separator, const Use& use) {
@@ -248,6 +187,10 @@ class SaSurvey {
     before_last_ = std::move(last_);
     last_ = row;
     if (row.lone_time && lone_time == 0) lone_time = row.line;
+    if (!row.unread_time.empty() && unread_time.empty()) {
+      unread_time = row.unread_time;
+      unread_line = row.line;
+    }
     ++rows;
   }
 
@@ -283,7 +226,8 @@ class SaSurvey {
   const SaRow& last() const { return last_; }
   std::size_t most() const { return most_; }
 
-  std::size_t rows = 0, lone_time = 0;
+  std::size_t rows = 0, lone_time = 0, unread_line = 0;
+  std::string unread_time;  ///< of the first row that has one
 
  private:
   static constexpr std::size_t kStart = 20;
@@ -377,6 +321,10 @@ void warnOfColumns(const FileText& text, const ExportComments& header, const SaS
   if (columns.uncertainties && header.coverage == 0.0)
     warn(0, "the uncertainties' coverage is not stated: taken as one sigma");
   if (survey.lone_time > 0) warn(survey.lone_time, "a time without its date is not read: its day is not known");
+  if (!survey.unread_time.empty())
+    warnings.push_back(io::inputMessage({text.file, survey.unread_line, "time"}, survey.unread_time,
+                                        "no time that can be read, so that these rows have none: dates with slashes "
+                                        "have the month first, those with points the day"));
   if (!survey.last().ended)
     warn(survey.last().line, "the last line has no line end; its last cell may have been cut short");
 }

@@ -84,6 +84,8 @@ struct StateJoin {
   std::vector<std::pair<std::size_t, Skip>> left_out;          ///< readings, and why
   std::vector<std::pair<std::size_t, std::size_t>> stretches;  ///< first and last sample of all that could be joined
   std::optional<ClockReport> clock;
+  std::vector<std::size_t> merged = {};  ///< samples that say the same as an earlier one of their pose and step
+  std::vector<std::string> warnings = {};
 };
 
 /// What the joining needs to know beside readings and log.
@@ -92,28 +94,31 @@ struct JoinTask {
   const robot::Robot& robot;
   const LogSource& source;
   const RobotLog& log;
-  std::string file;  ///< the log's, for messages
+  std::string file;           ///< the log's, for messages
+  Role role = Role::loading;  ///< of the readings; sweeps take the joints alone
 };
 
-/// The joints of every pose that readings name, by the names of the log's rows or targets. Throws InputError for a pose
-/// without joints, and for two rows of one pose with different joints.
+/// The joints of every pose that readings name, by the names of the log's rows or targets. Joints of a log that names
+/// no step hold for all steps of their pose. Throws InputError for a pose or step without joints, for two rows of one
+/// pose and step that differ, and for two steps that would share a wrench or an angle of the motor's side.
 StateJoin joinByName(const JoinTask& task, const std::vector<DayReading>& readings);
 
 /// Poses in the order in which they were first read, and the log's targets, or the standstills of a log by time, in
-/// theirs. Throws InputError where they are not as many.
+/// theirs. Throws InputError where they are not as many, and where the wrench changes within a standstill.
 StateJoin joinByOrder(const JoinTask& task, const std::vector<DayReading>& readings);
 
 /// Poses by their names or occurrences, without joints: of a day that has no log.
 StateJoin joinNothing(const std::vector<DayReading>& readings);
 
 /// Every posture of a log on its own: the standstills of one with times, or a sample every so often, numbered from 1;
-/// else its rows or targets by their names. Throws InputError where there is none, and for a name that repeats.
+/// else its rows or targets by their names. Throws InputError where there is none, for two rows of one pose and step
+/// that differ, and where the wrench changes within a standstill.
 StateJoin posturesOf(const JoinTask& task);
 
 /// Readings by the standstill that they fall into, with the offset of the clocks that puts most of them into one. Where
 /// several offsets put nearly as many there, and leave hardly more in motion, distances between the reflectors' places
-/// decide (chord check above). Throws
-/// InputError where a time is missing, no offset serves, several do alike, or the one stated does not.
+/// decide (chord check above). Throws InputError where a time is missing, no offset serves, several do alike, the one
+/// stated does not, or the wrench changes while a state is read.
 StateJoin joinByClock(const JoinTask& task, const std::vector<DayReading>& readings);
 
 /// One reading of each reflector and state, for the check of distances. Loads move reflectors by millimetres; readings

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "core/campaign/row_names.h"
 #include "core/io/units.h"
@@ -92,12 +93,11 @@ bool searchLostRow(SearchedArm& arm) {
   for (const bool next : {true, false}) {
     // Those at the end whose own angles do not fit and whose neighbour's do; a row that is there twice fits once more.
     std::size_t from = postures.size();
-    const auto shifted = [&](const OfPosture& one) {
-      return one.own > kFits && (next ? one.before : one.after) < kFits;
-    };
+    const auto withNeighbours = [&](const OfPosture& one) { return next ? one.before : one.after; };
+    const auto shifted = [&](const OfPosture& one) { return one.own > kFits && withNeighbours(one) < kFits; };
     const auto atEnd = [&](std::size_t i) { return i + 1 == postures.size(); };  // it has no neighbour
     while (from > 0 && (shifted(postures[from - 1]) || atEnd(from - 1))) --from;
-    if (from > 0 && postures[from - 1].own > kFits) --from;  // whose own row is the one that is lost
+    if (next && from > 0 && postures[from - 1].own > kFits) --from;  // whose own row is the one that is lost
     if (postures.size() - from < kFew + 1 || from < kFew) continue;
     const auto fitting = [&](std::size_t i) { return postures[i].own < kFits; };
     std::size_t well = 0;
@@ -111,18 +111,33 @@ bool searchLostRow(SearchedArm& arm) {
                              fileOfAngles(arm.campaign, SourceTable::loading)),
                       Remark(RemarkId::rows_lost, first, next),
                       {}};
-    cure.rms = postures[from].before;
     cure.day = arm.day;
+    // The posture whose own row is lost, or was pushed off the end, has angles in no row: without it.
+    double before = 0.0, after = 0.0, count = 0.0;
+    std::set<int> of_neighbour, of_none;
+    for (std::size_t i = from; i < postures.size(); ++i) {
+      if (withNeighbours(postures[i]) >= kFits) {
+        of_none.insert(postures[i].pose);
+        continue;
+      }
+      of_neighbour.insert(postures[i].pose);
+      before += std::pow(postures[i].own, 2);
+      after += std::pow(withNeighbours(postures[i]), 2);
+      count += 1.0;
+    }
+    std::erase_if(cure.day.unloaded, [&](const UnloadedReading& one) { return of_none.contains(one.pose); });
+    std::erase_if(cure.day.loaded, [&](const LoadedReading& one) { return of_none.contains(one.pose); });
     std::map<int, JointVector> q;
     for (UnloadedReading& reading : cure.day.unloaded) {
-      if (reading.pose < postures[from].pose) continue;
+      if (!of_neighbour.contains(reading.pose)) continue;
       reading.q = next ? reading.q_before : reading.q_after;
       q[reading.pose] = reading.q;
     }
     for (LoadedReading& reading : cure.day.loaded) {
       if (q.contains(reading.pose)) reading.q = q.at(reading.pose);
     }
-    arm.add(std::move(cure), RemarkId::group_misses_arm, postures[from].own);
+    cure.rms = std::sqrt(after / count);
+    arm.add(std::move(cure), RemarkId::group_misses_arm, std::sqrt(before / count));
     return true;
   }
   return false;

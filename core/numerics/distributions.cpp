@@ -5,6 +5,7 @@
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
+#include <boost/math/special_functions/gamma.hpp>
 #include <stdexcept>
 
 namespace stiffscope::numerics {
@@ -46,6 +47,10 @@ double chiSquareDeviate(double value, double dof) {
   const double above = math::cdf(math::complement(chi_square, std::max(0.0, value)));
   if (above < 0.5) return math::quantile(math::complement(normal, std::max(above, least)));
   return math::quantile(normal, std::max(math::cdf(chi_square, std::max(0.0, value)), least));
+}
+
+double poissonTail(std::size_t count, double mean) {
+  return count == 0 ? 1.0 : math::gamma_p(static_cast<double>(count), mean, Policy());
 }
 
 Rate binomialRate(int hits, int trials, double level) {

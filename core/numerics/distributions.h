@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 namespace stiffscope::numerics {
 
 // Critical values, by Boost.Math. Without degrees of freedom, and where `tail` is 1 or more, they are zero.
@@ -19,6 +21,9 @@ inline constexpr double kLargestDeviate = 8.222;
 /// A chi-square variable's value as standard normal deviates: chance exceeds both as often. dof > 0, not necessarily
 /// whole. Within +- kLargestDeviate: beyond it neither the noise nor its distribution is known well enough.
 double chiSquareDeviate(double value, double dof);
+
+/// P(N >= count), N of Poisson's distribution with that mean; mean 0 or more.
+double poissonTail(std::size_t count, double mean);
 
 /// A share seen in trials, with its exact interval.
 struct Rate {

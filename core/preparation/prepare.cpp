@@ -7,12 +7,12 @@
 #include <set>
 #include <utility>
 
-#include "core/campaign/repeated_keys.h"
 #include "core/campaign/row_names.h"
 #include "core/frames/joint_axes.h"
 #include "core/io/input_error.h"
 #include "core/numerics/parallel.h"
 #include "core/preparation/drift_nests.h"
+#include "core/preparation/duplicate_readings.h"
 #include "core/preparation/nest_network.h"
 #include "core/preparation/remarks.h"
 #include "core/preparation/repeatability.h"
@@ -43,23 +43,6 @@ std::vector<RejectedReading> lostBeams(const campaign::Campaign& campaign) {
   campaign::forEachPointTable(campaign, [&](const auto& table) {
     for (const auto& row : table.rows) {
       if (row.point.isZero(0.0)) found.push_back({table.file, row.line, Remark(RemarkId::beam_lost)});
-    }
-  });
-  return found;
-}
-
-std::vector<RejectedReading> duplicates(const campaign::Campaign& campaign) {
-  std::vector<RejectedReading> found;
-  campaign::forEachPointTable(campaign, [&](const auto& table) {
-    campaign::RepeatCheck seen(table.rows.size());
-    for (std::size_t i = 0; i < table.rows.size(); ++i) {
-      const auto& row = table.rows[i];
-      campaign::KeyHash place;
-      for (const double coordinate : row.point) place.add(coordinate);
-      const std::size_t first =
-          seen.add(i, place, [&](std::size_t other) { return table.rows[other].point == row.point; });
-      if (first == campaign::RepeatCheck::kNew) continue;
-      found.push_back({table.file, row.line, Remark(RemarkId::same_as_line, table.rows[first].line)});
     }
   });
   return found;
@@ -115,7 +98,7 @@ Screening screenReadings(campaign::Campaign campaign) {
   NestOutliers nests;
   numerics::onAllCores(3, [&](std::size_t part) {
     if (part == 0) scatter = repeatScatter(result.campaign);
-    if (part == 1) same = duplicates(result.campaign);
+    if (part == 1) same = duplicateReadings(result.campaign);
     if (part == 2) nests = nestOutliers(result.campaign);
   });
   screen("duplicate_readings", AuditVerdict::warn, same, RemarkId::readings_repeated,

@@ -337,6 +337,15 @@ Rail railAlong(const UrdfJoint& joint, const Eigen::Isometry3d& base_from_joint)
   return {joint.name, (base_from_joint.linear() * urdfAxis(joint.node)).normalized(), lower, upper};
 }
 
+/// R0 stands where the common perpendicular of axes 1 and 2 meets axis 1, with y0 along axis 2 (metrology::baseFrame).
+void requireBaseFrame(const std::vector<const UrdfJoint*>& turning, const ArmAxes& axes) {
+  if (metrology::angleBetween(axes[0], axes[1]) > metrology::kNearParallel) return;
+  turning[1]->node.refuse("axis", turning[1]->name,
+                          fmt::format("expected an axis that is not parallel to that of joint '{}': the two define the "
+                                      "frame R0 in which results are stated",
+                                      turning[0]->name));
+}
+
 void placeChain(const Chain& chain, const std::string& base, Robot& robot) {
   Eigen::Isometry3d base_from_link = Eigen::Isometry3d::Identity();
   robot.links.push_back({base, 0, base_from_link});
@@ -364,6 +373,7 @@ void placeChain(const Chain& chain, const std::string& base, Robot& robot) {
     }
     robot.links.push_back({joint->child, static_cast<int>(turning.size()), base_from_link});
   }
+  requireBaseFrame(turning, robot.axes_in_base_at_zero);
   robot.axes_in_base_at_zero.couplings = couplingsOf(turning);
   robot.base_from_flange_at_zero = base_from_link;
   robot.bodies.resize(robot.axes_in_base_at_zero.size() + 1);

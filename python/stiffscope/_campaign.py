@@ -14,7 +14,7 @@ from . import _core
 from ._errors import InputError, InputWarning
 from ._results import Columns, Record, Result
 
-_TABLES = ("circle_sweeps", "wrist_sweep", "loading", "states", "displacements", "nests")
+_TABLES = ("circle_sweeps", "wrist_sweep", "rail_sweep", "loading", "states", "displacements", "nests")
 
 
 def _result(command, computed):

@@ -84,6 +84,7 @@ class Canvas {
   void outline(const Box& box, Colour colour, double width);
   /// Straight from one spot to the other; dashes of `dash` pixels when that is positive.
   void line(Spot from, Spot to, Colour colour, double width, double dash = 0);
+  /// Convex, or seen whole from its first corner.
   void polygon(const std::vector<Spot>& corners, Colour colour);
   void disc(Spot centre, double radius, Colour colour);
 
@@ -101,6 +102,8 @@ class Canvas {
   void mark(Spot at, const std::string& series, const std::string& category, double value, double category_at = 0,
             const std::string& quantity = "");
   std::vector<Mark> takeMarks() { return std::move(marks_); }
+  /// Draws what has been asked for and is not drawn yet: at the end of a painting.
+  void finish();
 
  private:
   void setStyle(double size, bool bold, Colour colour, Direction direction) const;
@@ -111,6 +114,8 @@ class Canvas {
   Fonts fonts_;
   double unit_;
   std::vector<Mark> marks_;
+  std::vector<float> strip_;  ///< x, y of polygons of one colour that are not drawn yet
+  Colour strip_colour_;
   mutable std::map<std::tuple<std::string, double, bool>, double> widths_;  ///< of runs measured so far
 };
 

@@ -64,6 +64,7 @@ Painting::Painting(vtkRenderer& layer, const Surface& surface, std::function<voi
     try {
       Canvas canvas(context, surface, fonts);
       paint(canvas);
+      canvas.finish();
     } catch (...) {
       outcome->failure = std::current_exception();
     }

@@ -161,6 +161,9 @@ Json framesJson(const campaign::Campaign& campaign, const frames::Frames& frames
 /// The result of `plan`: a row a posture, and what random postures would give.
 Json planJson(const campaign::Campaign& campaign, const planning::Plan& plan);
 
+/// Adds `reading_deg` to a planned posture: its angles as the controller states them, where the campaign says how.
+void addReading(const campaign::Campaign& campaign, const JointVector& q, Json& row);
+
 /// The result of `plan --unloaded`: rows (a posture each, in the order of the day: predicted_mm with it and all before,
 /// gain: by how much the variance grows without it, a share), predicted_mm and predicted_geometry_mm (rms uncertainty
 /// of a 3-D position over the workspace, effects free and not), effects (effect, detail, detectable_mm, inflation; null

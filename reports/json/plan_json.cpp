@@ -2,10 +2,17 @@
 #include "reports/json/campaign_json.h"
 #include "reports/json/json.h"
 
+#include "core/campaign/joint_reading.h"
 #include "core/io/units.h"
 #include "reports/words/remark_words.h"
 
 namespace stiffscope::reports {
+
+void addReading(const campaign::Campaign& campaign, const JointVector& q, Json& row) {
+  if (campaign.joint_readings.empty()) return;
+  const campaign::JointConvention convention(campaign.joint_readings, campaign.robot.joints());
+  row["reading_deg"] = array(convention.figures(q), 1.0 / io::kDegree);
+}
 
 namespace {
 
@@ -18,7 +25,7 @@ void addUncertainties(const planning::Plan& plan, const JointVector& sd, Json& r
   row["sd_nm_per_rad"] = array(of_k);
 }
 
-Json rowJson(const planning::Plan& plan, const planning::PlannedPosture& posture) {
+Json rowJson(const campaign::Campaign& campaign, const planning::Plan& plan, const planning::PlannedPosture& posture) {
   Json row{{"pose", posture.id},
            {"q_deg", array(posture.candidate.q, 1.0 / io::kDegree)},
            {"load_n", plan.arm.load},
@@ -27,6 +34,7 @@ Json rowJson(const planning::Plan& plan, const planning::PlannedPosture& posture
            {"expected_moment_in_cell_nm", array(posture.reading.tail<3>())},
            {"dexterity", posture.dexterity},
            {"tracker_distance_m", posture.tracker_distance ? Json(*posture.tracker_distance) : Json(nullptr)}};
+  addReading(campaign, posture.candidate.q, row);
   Json gain{{"log_det", number(posture.log_det_gain)}};
   addUncertainties(plan, posture.sd, gain);
   row["gain"] = gain;
@@ -70,7 +78,7 @@ Json planJson(const campaign::Campaign& campaign, const planning::Plan& plan) {
   }
   json["log_det"] = number(plan.log_determinant);
   Json rows = Json::array();
-  for (const planning::PlannedPosture& posture : plan.postures) rows.push_back(rowJson(plan, posture));
+  for (const planning::PlannedPosture& posture : plan.postures) rows.push_back(rowJson(campaign, plan, posture));
   json["rows"] = rows;
   json["random"] = randomJson(plan, plan.random_same);
   json["random_twice"] = randomJson(plan, plan.random_double);

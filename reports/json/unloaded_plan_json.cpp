@@ -43,6 +43,7 @@ Json unloadedPlanJson(const campaign::Campaign& campaign, const planning::Unload
                     {"tracker_distance_m", posture.tracker_distance ? Json(*posture.tracker_distance) : Json(nullptr)},
                     {"predicted_mm", number(posture.predicted / io::kMillimetre)},
                     {"gain", number(posture.gain)}});
+    addReading(campaign, posture.q, rows.back());
   }
   json["rows"] = rows;
   json["effects"] = effectsJson(plan.sight.effects);

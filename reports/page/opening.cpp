@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <algorithm>
+#include <array>
 #include <optional>
 
 #include "reports/page/facts.h"
@@ -12,6 +13,7 @@
 #include "reports/words/audit_plain.h"
 #include "reports/words/conformity_words.h"
 #include "reports/words/day_words.h"
+#include "reports/words/effect_words.h"
 #include "reports/words/names.h"
 #include "reports/words/numbers.h"
 #include "reports/words/preparation_words.h"
@@ -42,6 +44,22 @@ void addAuditWarnings(const audit::AuditReport& audit, std::vector<std::string>&
   }
 }
 
+/// What the machine itself does, which the audit does not know: a reader who sees both can tell why it warns.
+std::string whyTheAuditWarns(const reports::ReportCampaign& one) {
+  if (one.diagnosis == nullptr || one.diagnosis->verdict.entries.empty()) return {};
+  constexpr std::array kByTheMachine{"circle_residual", "axis_agreement", "wrist_sphere", "unloaded_positions"};
+  const bool warns =
+      std::any_of(one.audit->checks.begin(), one.audit->checks.end(), [&](const preparation::AuditCheck& check) {
+        return check.verdict == preparation::AuditVerdict::warn &&
+               std::find(kByTheMachine.begin(), kByTheMachine.end(), check.id) != kByTheMachine.end();
+      });
+  if (!warns) return {};
+  return fmt::format(
+      "The audit knows the URDF and joint springs alone: warnings of circles, axes, wrist and unloaded positions can "
+      "come from what the readings show besides, {}.",
+      reports::presentWords(one.diagnosis->verdict));
+}
+
 /// What a reader must know before believing the numbers of a campaign.
 std::vector<std::string> warningsOf(const reports::ReportCampaign& one) {
   std::vector<std::string> items;
@@ -50,6 +68,7 @@ std::vector<std::string> warningsOf(const reports::ReportCampaign& one) {
     if (!untested.empty()) items.push_back(untested);
     for (std::string& mistake : suspectedWords(*one.audit)) items.push_back(std::move(mistake));
     addAuditWarnings(*one.audit, items);
+    if (std::string why = whyTheAuditWarns(one); !why.empty()) items.push_back(std::move(why));
   }
   if (one.preparation != nullptr && (one.preparation->drift.taken_off || !one.preparation->rejected.empty())) {
     items.push_back(fmt::format("Readings: {}.", reports::withMicro(reports::preparationWords(*one.preparation))));

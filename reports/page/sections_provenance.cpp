@@ -321,10 +321,13 @@ void writeScope(Html& html, const reports::ReportContent& content) {
   html.leaf("h2", "Uncertainty, decision rule and scope");
   std::vector<std::string> items;
   if (!content.limits_file.empty()) items.push_back(reports::decisionRuleWords());
+  const bool weighed = std::any_of(content.campaigns.begin(), content.campaigns.end(), [](const auto& one) {
+    return reports::hiddenIsHeld(one.identification);
+  });
   using reports::DayKind;
   for (const DayKind kind : {DayKind::unloaded, DayKind::loaded, DayKind::sweeps}) {
     if (!reports::anyOfKind(content.campaigns, kind)) continue;
-    for (const std::string& item : reports::scopeWords(kind, !content.limits_file.empty())) {
+    for (const std::string& item : reports::scopeWords(kind, !content.limits_file.empty(), weighed)) {
       if (std::find(items.begin(), items.end(), item) == items.end()) items.push_back(item);
     }
   }

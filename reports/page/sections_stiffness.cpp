@@ -206,9 +206,7 @@ std::string degrees(double of_freedom) {
 }
 
 std::string uncertaintyWords(const identification::Identification& result) {
-  const bool weighed = std::any_of(result.methods.begin(), result.methods.end(),
-                                   [](const auto& method) { return !method.estimate.stated.empty(); });
-  if (weighed) {
+  if (reports::hiddenIsHeld(result)) {
     return "± is the expanded uncertainty U, coverage about 95\u00a0%: the farther end of the interval that holds the "
            "scatter between postures, what they all share (frames, wrist radii, calibrated geometry), and what effects "
            "in "

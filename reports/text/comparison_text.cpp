@@ -154,7 +154,10 @@ std::string comparisonText(const campaign::Campaign& before, const campaign::Cam
     fmt::format_to(out, "  {}\n", wrapped("caution: " + caution, 4));
   if (comparison.comparable) {
     if (comparison.shown_first)
-      fmt::format_to(out, "\n{}\n", wrapped(fmt::format("Shown first: {}.", words(comparison.shown_first->reason)), 2));
+      fmt::format_to(out, "\n{}\n",
+                     wrapped(fmt::format("Shown first: {}, by joint springs alone, as both days are compared.",
+                                         words(comparison.shown_first->reason)),
+                             2));
     const identification::Method first = comparison.best();
     writeMethod(comparison.of(first), first, comparison.ratiosHold(), out);
     for (const identification::Method method : identification::kMethods) {

@@ -12,6 +12,7 @@
 #include <iterator>
 #include <limits>
 
+#include "core/campaign/joint_reading.h"
 #include "core/io/units.h"
 #include "reports/words/compensation_words.h"
 #include "reports/words/names.h"
@@ -77,6 +78,7 @@ std::string compensationText(const campaign::Campaign& campaign, identification:
                              const std::vector<std::string>& cautions) {
   std::string text;
   auto out = std::back_inserter(text);
+  const campaign::JointConvention convention(campaign.joint_readings, campaign.robot.joints());
   fmt::format_to(out, "{}: predicted deflection of P_TCP and the commands that cancel it, by {}\n\n", campaign.name,
                  namesOf(method).full);
   fmt::format_to(out, "  {:<10}{:>27}{:>9}   {}\n", "pose", "deflection in R0 (mm)", "U", "command (deg)");
@@ -90,8 +92,8 @@ std::string compensationText(const campaign::Campaign& campaign, identification:
     fmt::format_to(out, "  {:<10}{:>9.3f}{:>9.3f}{:>9.3f}{:>9.3f}   ", posture.posture.id, unsignedZero(mm.x(), 3),
                    unsignedZero(mm.y(), 3), unsignedZero(mm.z(), 3), posture.tcp.expanded / io::kMillimetre);
     if (posture.solved) {
-      for (Eigen::Index joint = 0; joint < posture.commands.size(); ++joint)
-        fmt::format_to(out, "{:>10.4f}", unsignedZero(posture.commands[joint] / io::kDegree, 4));
+      for (const double figure : convention.figures(posture.commands))
+        fmt::format_to(out, "{:>10.4f}", unsignedZero(figure / io::kDegree, 4));
       fmt::format_to(out, "\n");
     } else {
       fmt::format_to(out, "refused: {}\n", words(posture.reason));
@@ -103,6 +105,7 @@ std::string compensationText(const campaign::Campaign& campaign, identification:
       "the\n  stiffnesses, the effects in the model, those that could hide, and what the day left unexplained. "
       "Commands\n  are joints 1 to {}.\n",
       campaign.robot.joints());
+  if (!campaign.joint_readings.empty()) fmt::format_to(out, "  {}\n", kAsControllerStates);
   addKnowledge(postures, known, cautions, text);
   return text;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "core/campaign/joint_reading.h"
 #include "core/io/units.h"
 #include "reports/words/numbers.h"
 #include "reports/words/remark_words.h"
@@ -31,15 +32,16 @@ void writeUncertainties(const planning::Plan& plan, const std::string& name, con
   fmt::format_to(out, "\n");
 }
 
-void writePostures(const planning::Plan& plan, Out out) {
+void writePostures(const campaign::Campaign& campaign, const planning::Plan& plan, Out out) {
+  const campaign::JointConvention convention(campaign.joint_readings, campaign.robot.joints());
   fmt::format_to(out, "\n  {:<8}", "pose");
   const int joints = plan.arm.geometry.arm.joints();
   for (int joint = 1; joint <= joints; ++joint) fmt::format_to(out, "{:>9}", fmt::format("q{} (deg)", joint));
   fmt::format_to(out, "{:>11}{}\n", "log det +", plan.arm.pull ? "   pull in base_link" : "");
   for (const planning::PlannedPosture& posture : plan.postures) {
     fmt::format_to(out, "  {:<8}", posture.id);
-    for (int joint = 0; joint < joints; ++joint)
-      fmt::format_to(out, "{:>9.2f}", unsignedZero(posture.candidate.q[joint] / io::kDegree, 2));
+    for (const double figure : convention.figures(posture.candidate.q))
+      fmt::format_to(out, "{:>9.2f}", unsignedZero(figure / io::kDegree, 2));
     fmt::format_to(out, "{:>11}",
                    std::isfinite(posture.log_det_gain) ? fmt::format("{:.2f}", posture.log_det_gain) : "-");
     if (plan.arm.pull) {
@@ -49,6 +51,7 @@ void writePostures(const planning::Plan& plan, Out out) {
     }
     fmt::format_to(out, "\n");
   }
+  if (!campaign.joint_readings.empty()) fmt::format_to(out, "  {}\n", kAsControllerStates);
 }
 
 void writeGain(const planning::Plan& plan, Out out) {
@@ -104,17 +107,18 @@ std::string planText(const campaign::Campaign& campaign, const planning::Plan& p
     fmt::format_to(out, "  only {} postures keep apart from each other within the limits\n", plan.postures.size());
   }
   if (plan.postures.empty()) return text;
-  writePostures(plan, out);
+  writePostures(campaign, plan, out);
   writeGain(plan, out);
   return text;
 }
 
-std::string planCsv(const planning::Plan& plan) {
+std::string planCsv(const campaign::Campaign& campaign, const planning::Plan& plan) {
+  const campaign::JointConvention convention(campaign.joint_readings, campaign.robot.joints());
   std::string text = "pose";
   for (int joint = 1; joint <= plan.arm.geometry.arm.joints(); ++joint) text += fmt::format(",q{}_deg", joint);
   text += ",fx_n,fy_n,fz_n,mx_nm,my_nm,mz_nm,pull_x,pull_y,pull_z\n";
   for (const planning::PlannedPosture& posture : plan.postures) {
-    text += fmt::format("{},{},{},{}\n", posture.id, joined(posture.candidate.q, 5, ",", 1.0 / io::kDegree),
+    text += fmt::format("{},{},{},{}\n", posture.id, joined(convention.figures(posture.candidate.q), 5, ",", 1.0 / io::kDegree),
                         joined(posture.reading, 3, ","), joined(posture.pull_in_base, 6, ","));
   }
   return text;

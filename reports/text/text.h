@@ -171,19 +171,23 @@ std::string posturesText(const campaign::Campaign& campaign, const identificatio
 /// what the numbers hold.
 std::string workspaceText(const campaign::Campaign& campaign, const workspace::WorkspaceStiffness& found);
 
+/// Below angles of a campaign with joint readings.
+inline constexpr const char* kAsControllerStates = "Angles as the controller states them (joint_reading).";
+
 /// The result of `plan` for a terminal.
 std::string planText(const campaign::Campaign& campaign, const planning::Plan& plan);
 
-/// The planned postures as a CSV table: pose, q1_deg.. of each joint, the load-cell reading expected (as `compensate
-/// --postures` takes it), and the pull's direction in base_link, pull_x..pull_z.
-std::string planCsv(const planning::Plan& plan);
+/// The planned postures as a CSV table: pose, q1_deg.. of each joint as the campaign's tables state them (joint
+/// readings), the load-cell reading expected (as `compensate --postures` takes it), and the pull's direction in
+/// base_link, pull_x..pull_z.
+std::string planCsv(const campaign::Campaign& campaign, const planning::Plan& plan);
 
 /// The same as the `postures` element of a simulation's specification.
 std::string planXml(const planning::Plan& plan);
 
 /// The plan of a day without a load: pose, q1_deg.. of each joint, in the order of the day.
 std::string unloadedPlanText(const campaign::Campaign& campaign, const planning::UnloadedPlan& plan);
-std::string unloadedPlanCsv(const planning::UnloadedPlan& plan);
+std::string unloadedPlanCsv(const campaign::Campaign& campaign, const planning::UnloadedPlan& plan);
 std::string unloadedPlanXml(const planning::UnloadedPlan& plan);
 
 /// The rates and, effect by effect, how many were answered right, for a terminal.

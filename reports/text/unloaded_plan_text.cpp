@@ -3,6 +3,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "core/campaign/joint_reading.h"
 #include "core/io/units.h"
 #include "core/planning/unloaded_plan.h"
 #include "reports/text/text.h"
@@ -22,16 +23,19 @@ std::string angles(const JointVector& q, const char* between) {
   return text;
 }
 
-void writePostures(const planning::UnloadedPlan& plan, Out out) {
+void writePostures(const campaign::Campaign& campaign, const planning::UnloadedPlan& plan, Out out) {
+  const campaign::JointConvention convention(campaign.joint_readings, campaign.robot.joints());
   fmt::format_to(out, "\n  {:<8}", "pose");
   const int joints = plan.arm.geometry.arm.joints();
   for (int joint = 1; joint <= joints; ++joint) fmt::format_to(out, "{:>9}", fmt::format("q{} (deg)", joint));
   fmt::format_to(out, "{:>15}{:>10}\n", "predicted, mm", "gain, %");
   for (const planning::UnloadedPosture& posture : plan.postures) {
     fmt::format_to(out, "  {:<8}", posture.id);
-    for (int j = 0; j < joints; ++j) fmt::format_to(out, "{:>9.2f}", unsignedZero(posture.q[j] / io::kDegree, 2));
+    for (const double figure : convention.figures(posture.q))
+      fmt::format_to(out, "{:>9.2f}", unsignedZero(figure / io::kDegree, 2));
     fmt::format_to(out, "{:>15.4f}{:>10.1f}\n", posture.predicted / io::kMillimetre, 100.0 * posture.gain);
   }
+  if (!campaign.joint_readings.empty()) fmt::format_to(out, "  {}\n", kAsControllerStates);
   fmt::format_to(out, "  {}\n",
                  wrapped("In the order of the day: it tells effects of the order (backlash, read-back, drift) apart. "
                          "predicted: rms uncertainty of a position over the workspace with it and all before, effects "
@@ -84,18 +88,19 @@ std::string unloadedPlanText(const campaign::Campaign& campaign, const planning:
   if (static_cast<int>(plan.postures.size()) < plan.asked)
     fmt::format_to(out, "  only {} postures keep apart from each other within the limits\n", plan.postures.size());
   if (plan.postures.empty()) return text;
-  writePostures(plan, out);
+  writePostures(campaign, plan, out);
   writeGain(plan, out);
   writeEffects(plan, out);
   return text;
 }
 
-std::string unloadedPlanCsv(const planning::UnloadedPlan& plan) {
+std::string unloadedPlanCsv(const campaign::Campaign& campaign, const planning::UnloadedPlan& plan) {
+  const campaign::JointConvention convention(campaign.joint_readings, campaign.robot.joints());
   std::string text = "pose";
   for (int joint = 1; joint <= plan.arm.geometry.arm.joints(); ++joint) text += fmt::format(",q{}_deg", joint);
   text += "\n";
   for (const planning::UnloadedPosture& posture : plan.postures)
-    text += fmt::format("{},{}\n", posture.id, angles(posture.q, ","));
+    text += fmt::format("{},{}\n", posture.id, angles(convention.figures(posture.q), ","));
   return text;
 }
 

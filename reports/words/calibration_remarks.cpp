@@ -48,6 +48,8 @@ std::string calibrationWords(calibration::RemarkId id, const RemarkValues& value
     case RemarkId::negative_compliance:
       return fmt::format("{} of {} would be negative, which no spring is: left at zero", nameOfId(values.name(0)),
                          values.name(1));
+    case RemarkId::too_few_for_effects:
+      return fmt::format("no effect was asked for: {} postures, which takes {}", values.count(0), values.count(1));
     case RemarkId::no_effect_predicts:
       return "no effect predicts postures that were held out better than geometry alone";
   }

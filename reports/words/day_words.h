@@ -24,7 +24,11 @@ std::string doubtedNumbersWords();
 /// That too few checks could be made to trust the readings for what such a day is for.
 std::string untestedWords(const audit::AuditReport& audit, DayKind kind);
 
+/// Whether the stated intervals hold what effects in the model or beside it could still do.
+bool hiddenIsHeld(const identification::Identification& identification);
+
 /// Uncertainty and decision rule, an item each. `limits`: acceptance limits were given, whose rule stands with them.
-std::vector<std::string> scopeWords(DayKind kind, bool limits = false);
+/// `hidden`: intervals hold what effects in the model or beside it could still do.
+std::vector<std::string> scopeWords(DayKind kind, bool limits = false, bool hidden = false);
 
 }  // namespace stiffscope::reports

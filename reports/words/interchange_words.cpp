@@ -21,6 +21,8 @@ std::string skipWords(interchange::Skip reason) {
       return "nothing was read there";
     case Skip::joints_not_given:
       return "a target in space, without joint angles";
+    case Skip::repeated_row:
+      return "says the same as an earlier row of its pose and step";
   }
   return {};
 }

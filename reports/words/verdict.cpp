@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <cmath>
 
 #include "core/comparison/matched_postures.h"
 #include "reports/words/accuracy_words.h"
@@ -132,6 +133,27 @@ std::string gapSentences(const std::vector<ReportCampaign>& campaigns) {
 
 namespace {
 
+/// Joints that no double encoder holds and that differ between its two states all the same: then the encoders are not
+/// all that changed from the one day to the other.
+std::string changedWithoutEncoder(const std::vector<ReportCampaign>& campaigns, const AvoidedByEncoders& avoided) {
+  if (!avoided.by_joint.available) return {};
+  constexpr double kLevel = 0.05, kLeast = 0.01;  // of all joints together; of the stiffness: less is no news
+  const std::vector<int>& having = campaigns.front().campaign.double_encoder_joints;
+  if (having.empty()) return {};
+  std::vector<std::string> changes;
+  for (std::size_t j = 0; j < avoided.by_joint.joints.size(); ++j) {
+    const comparison::JointChange& joint = avoided.by_joint.joints[j];
+    const double change = joint.ratio.value - 1.0;
+    const bool held = std::find(having.begin(), having.end(), static_cast<int>(j)) != having.end();
+    if (held || !joint.comparable || !(joint.p_holm < kLevel) || !(std::abs(change) > kLeast)) continue;
+    changes.push_back(fmt::format("{} by {}{}", jointName(static_cast<int>(j)), change > 0.0 ? "+" : "\u2212",
+                                  percent(std::abs(change), 0)));
+  }
+  if (changes.empty()) return {};
+  return fmt::format(" Joints that have none differ as well ({}): not only the encoders changed between the two days.",
+                     fmt::join(changes, ", "));
+}
+
 /// Of the days with a load.
 std::string stiffnessVerdict(const std::vector<ReportCampaign>& campaigns,
                              const std::optional<AvoidedByEncoders>& avoided) {
@@ -140,6 +162,7 @@ std::string stiffnessVerdict(const std::vector<ReportCampaign>& campaigns,
   if (avoided && avoided->available) {
     text += fmt::format(" The double encoders avoid {} of the deflection at {}.", percent(avoided->share, 0),
                         pointOf(*avoided));
+    text += changedWithoutEncoder(campaigns, *avoided);
   }
   return text;
 }

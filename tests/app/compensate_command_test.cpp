@@ -89,7 +89,7 @@ void restate(const fs::path& day) {
   }
 }
 
-// The same targets as postures by the URDF's angles, and in a program by the controller's: the commands agree.
+// The same targets in a table of postures and in a program, both as the controller states them: the commands agree.
 TEST(CompensateProgram, ReplacesTargetsByTheControllersFigures) {
   const ScratchFolder scratch;
   const fs::path day = dayWithK1(
@@ -99,7 +99,7 @@ TEST(CompensateProgram, ReplacesTargetsByTheControllersFigures) {
                  postures = scratch.path() / "postures.csv";
   std::ofstream(program) << kProgram;
   std::ofstream(postures) << "pose,q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg,fx_n,fy_n,fz_n,mx_nm,my_nm,mz_nm\n"
-                             "XP1,5,10,-10,0,-60,0,0,100,900,10,0,0\nXP3,-10,-10,-15,20,-70,10,0,100,900,10,0,0\n";
+                             "XP1,5,-80,80,0,-60,0,0,100,900,10,0,0\nXP3,-10,-100,75,20,-70,10,0,100,900,10,0,0\n";
   const Ran by_program = runProgram("compensate" + quoted(day) + kQuick + "--program" + quoted(program) + "--out" +
                                         quoted(out) + "--wrench 0,100,900,10,0,0 --json -",
                                     scratch.path());
@@ -112,6 +112,12 @@ TEST(CompensateProgram, ReplacesTargetsByTheControllersFigures) {
   EXPECT_EQ(json["program"]["format"], "kuka_krl");
   EXPECT_EQ(json["program"]["in_space"], nlohmann::json::array({3}));
   for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(json["rows"][i]["command_deg"], other["rows"][i]["command_deg"]);
+  // What a terminal shows of them are the controller's figures, too.
+  const Ran text =
+      runProgram("compensate" + quoted(day) + kQuick + "--postures" + quoted(postures), scratch.path());
+  const double command_2 = json["rows"][0]["command_deg"][1].get<double>() - 90.0;
+  EXPECT_NE(text.out.find(fmt::format("{:10.4f}", command_2)), std::string::npos) << text.out;
+  EXPECT_NE(text.out.find("Angles as the controller states them (joint_reading)."), std::string::npos);
   // The program as it was, the commands written into it by hand: 90 deg off and with four decimals.
   std::string expected = kProgram;
   const std::array<std::array<std::string, 6>, 2> written{
@@ -131,6 +137,36 @@ TEST(CompensateProgram, ReplacesTargetsByTheControllersFigures) {
   }
   EXPECT_EQ(contentsOf(out), expected);
   EXPECT_LT(json["program"]["rounding_mm"].get<double>(), 0.01);
+}
+
+// What is planned for such a controller can be driven to, and compensated as it stands.
+TEST(Plan, StatesAnglesAsTheControllerDoes) {
+  const ScratchFolder scratch;
+  const fs::path day = dayWithK1(
+      scratch, "<joint_reading joint=\"2\" offset_deg=\"90\"/><joint_reading joint=\"3\" offset_deg=\"-90\"/>");
+  restate(day);
+  const fs::path out = scratch.path() / "plan.csv";
+  const Ran planned = runProgram("plan" + quoted(day) + "--springs-only --postures 3 --candidates 100 --out" +
+                                     quoted(out) + "--json -",
+                                 scratch.path());
+  ASSERT_EQ(planned.status, 0) << planned.err;
+  const auto plan = nlohmann::json::parse(planned.out);
+  const auto cells = cellsOf(contentsOf(out));
+  const std::size_t q2 = column(cells[0], "q2_deg"), q3 = column(cells[0], "q3_deg");
+  for (std::size_t i = 0; i < plan["rows"].size(); ++i) {
+    const auto& row = plan["rows"][i];
+    EXPECT_NEAR(row["reading_deg"][1].get<double>(), row["q_deg"][1].get<double>() - 90.0, 1e-9);
+    EXPECT_NEAR(row["reading_deg"][2].get<double>(), row["q_deg"][2].get<double>() + 90.0, 1e-9);
+    EXPECT_NEAR(std::stod(cells[i + 1][q2]), row["reading_deg"][1].get<double>(), 6e-6);
+    EXPECT_NEAR(std::stod(cells[i + 1][q3]), row["reading_deg"][2].get<double>(), 6e-6);
+  }
+  const Ran compensated =
+      runProgram("compensate" + quoted(day) + kQuick + "--postures" + quoted(out) + "--json -", scratch.path());
+  ASSERT_EQ(compensated.status, 0) << compensated.err;
+  const auto rows = nlohmann::json::parse(compensated.out)["rows"];
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t j = 0; j < 6; ++j)
+      EXPECT_NEAR(rows[i]["q_deg"][j].get<double>(), plan["rows"][i]["q_deg"][j].get<double>(), 6e-6);
 }
 
 const std::string kPath =

@@ -71,6 +71,13 @@ TEST_F(KeptInputs, AReportGoesIntoNoCampaignAndOverNoFileOfTheUser) {
 TEST_F(KeptInputs, ASimulationReplacesACampaignWhereAskedTo) {
   const std::string words = "simulate '" STIFFSCOPE_SOURCE_DIR "/samples/inactive.xml' --out" + quoted(campaign_);
   refused(words, campaign_ / "campaign.xml", "it holds a campaign; expected another folder, or --replace");
+  // Neither does it write over tables that stand there alone.
+  const fs::path mine = scratch_.path() / "mine";
+  fs::create_directory(mine);
+  std::ofstream(mine / "states.csv") << "mine\n";
+  refused("simulate '" STIFFSCOPE_SOURCE_DIR "/samples/inactive.xml' --out" + quoted(mine), mine / "states.csv",
+          "states.csv: not written: it is there; expected another folder, or --replace");
+  EXPECT_FALSE(fs::exists(mine / "campaign.xml"));
   const std::string before = contentsOf(campaign_ / "campaign.xml");
   EXPECT_EQ(runProgram(words + "--replace", scratch_.path()).status, 0);
   EXPECT_FALSE(contentsOf(campaign_ / "campaign.xml") == before);

@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -89,6 +91,34 @@ TEST(Readme, ShowsWhatTheProgramPrints) {
       gap = false;
     }
   }
+}
+
+/// The first example of a document whose commands stand in a block of their own, as a shell runs it.
+TEST(Compensation, ItsExampleIsWhatTheProgramPrints) {
+  const ScratchFolder scratch;
+  std::filesystem::create_directory_symlink(STIFFSCOPE_SOURCE_DIR "/samples", scratch.path() / "samples");
+  std::string script = "stiffscope() { env -u DISPLAY '" STIFFSCOPE_BINARY "' \"$@\"; }\ncd '" +
+                       scratch.path().string() + "'\n";
+  std::vector<std::string> shown;
+  bool console = false, command = false;
+  for (const std::string& line : linesOf(contentsOf(STIFFSCOPE_SOURCE_DIR "/docs/compensation.md"))) {
+    if (line.starts_with("```")) {
+      if (console) break;
+      console = line == "```console";
+    } else if (console && (command || line.starts_with("$ "))) {
+      script += (command ? line : line.substr(2)) + "\n";
+      command = line.ends_with('\\');
+    } else if (console && line != "...") {
+      shown.push_back(line);
+    }
+  }
+  ASSERT_GT(shown.size(), 8u);
+  std::ofstream(scratch.path() / "script") << script;
+  const std::string out = (scratch.path() / "out").string();
+  ASSERT_EQ(std::system(("bash '" + (scratch.path() / "script").string() + "' >'" + out + "'").c_str()), 0);
+  const std::vector<std::string> printed = linesOf(contentsOf(out));
+  ASSERT_GE(printed.size(), shown.size());
+  for (std::size_t i = 0; i < shown.size(); ++i) EXPECT_TRUE(alike(shown[i], printed[i])) << printed[i];
 }
 
 }  // namespace readme_test

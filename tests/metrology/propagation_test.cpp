@@ -1,4 +1,6 @@
 #include <gtest/gtest.h>
+#include <cmath>
+#include <numbers>
 #include "metrology/lines.h"
 #include "metrology/rigid_motion.h"
 #include "tests/metrology/simulated_points.h"
@@ -48,6 +50,28 @@ TEST(LineDerivatives, OfAPointsHeightAboveALine) {
   const Eigen::Vector3d from = x - line.line.point;
   const Eigen::RowVector4d expected(0.0, 0.0, line.across_u.dot(from), line.across_v.dot(from));
   EXPECT_LT((by - expected).norm(), 1e-8);  // rounding of metres over steps of 2e-7
+}
+
+TEST(LineDerivatives, TheTiltOfPerpendicularLinesGoesOnBeyondTheRightAngle) {
+  // About x: the second line, along y, tilts by its own tilt towards z one to one, in either sense of its direction.
+  metrology::MeasuredLine first, second;
+  first.line = {Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ()};
+  first.across_u = Eigen::Vector3d::UnitX(), first.across_v = Eigen::Vector3d::UnitY();
+  for (const double sense : {1.0, -1.0}) {
+    for (const double off : {0.0, 1e-12, -1e-12}) {
+      second.line = {Eigen::Vector3d::UnitX(), sense * Eigen::Vector3d(0.0, 1.0, off).normalized()};
+      second.across_u = Eigen::Vector3d::UnitX(), second.across_v = Eigen::Vector3d::UnitZ();
+      const metrology::LinePairNumber tilt = metrology::tiltAbout(Eigen::Vector3d::UnitX(), first.line, second.line);
+      EXPECT_NEAR(std::abs(tilt(first.line, second.line)), 0.5 * std::numbers::pi, 1e-11);
+      const Eigen::MatrixXd by =
+          metrology::derivativesByLines({first, second}, [&](const std::vector<metrology::Line>& lines) {
+            return Eigen::VectorXd::Constant(1, tilt(lines[0], lines[1]));
+          });
+      EXPECT_NEAR(std::abs(by(0, 7)), 1.0, 1e-7) << sense << ", " << off;
+      EXPECT_NEAR(std::abs(by(0, 3)), 1.0, 1e-7);
+      EXPECT_NEAR(by(0, 6), 0.0, 1e-7);
+    }
+  }
 }
 
 TEST(FrameError, AFrameTurnedByHand) {

@@ -424,6 +424,38 @@ TEST(Avoided, AgainstTheSumsByHand) {
   EXPECT_TRUE(has(verdict, "The double encoders avoid 50\u00a0% of the deflection at P_{wrist}.")) << verdict;
 }
 
+TEST(Avoided, AJointWithoutAnEncoderThatDiffersIsNamed) {
+  SmallResult inactive(campaign::DoubleEncoder::inactive, 2.0), active(campaign::DoubleEncoder::active, 1.0);
+  inactive.campaign.double_encoder_joints = active.campaign.double_encoder_joints = {0, 1, 2};
+  const std::vector<reports::ReportCampaign> both{{inactive.campaign, inactive.identification},
+                                                  {active.campaign, active.identification}};
+  auto avoided = reports::avoidedByEncoders(both);
+  ASSERT_TRUE(avoided.has_value());
+  avoided->by_joint.available = true;
+  comparison::JointChange changed;
+  changed.comparable = true;
+  changed.p_holm = 0.001;
+  changed.ratio.value = 1.534;
+  avoided->by_joint.joints = PerJoint<comparison::JointChange>(6);
+  const auto said = [&] { return has(reports::verdictOf(both, avoided), "Joints that have none differ as well"); };
+  EXPECT_FALSE(said());
+  avoided->by_joint.joints[1] = changed;  // which the encoder may well have done
+  EXPECT_FALSE(said());
+  avoided->by_joint.joints[4] = changed;
+  const std::string verdict = reports::verdictOf(both, avoided);
+  EXPECT_TRUE(has(verdict, "Joints that have none differ as well (k_{5} by +53\u00a0%): not only the encoders changed"))
+      << verdict;
+  avoided->by_joint.joints[4].p_holm = 0.06;
+  EXPECT_FALSE(said());
+  avoided->by_joint.joints[4].p_holm = 0.001;
+  avoided->by_joint.joints[4].ratio.value = 1.005;
+  EXPECT_FALSE(said());
+  // Nobody stated which joints have one.
+  avoided->by_joint.joints[4] = changed;
+  inactive.campaign.double_encoder_joints.clear();
+  EXPECT_FALSE(said());
+}
+
 TEST(Avoided, NeedsBothStatesAndACommonPosture) {
   SmallResult inactive(campaign::DoubleEncoder::inactive), active(campaign::DoubleEncoder::active);
   EXPECT_FALSE(reports::avoidedByEncoders({{active.campaign, active.identification}}).has_value());

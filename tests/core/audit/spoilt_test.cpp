@@ -87,6 +87,17 @@ TEST(SpoiltCampaign, DuplicatedReading) {
   EXPECT_ONLY(report, {"duplicate_readings", "completeness"});
 }
 
+TEST(SpoiltCampaign, NestsInMetres) {
+  const audit::AuditReport report = auditSpoilt([&](campaign::Campaign& campaign) {
+    for (campaign::NestReading& row : campaign.nests->rows) row.point *= 1e-3;
+  });
+  const preparation::AuditCheck& check = checkNamed(report, "nest_moved");
+  EXPECT_EQ(check.verdict, preparation::AuditVerdict::fail);
+  EXPECT_NE(reports::words(check.message).find("closer than two reflectors can: the coordinates are in another unit"),
+            std::string::npos)
+      << reports::words(check.message);
+}
+
 TEST(SpoiltCampaign, OneRepeatOff) {
   std::size_t line = 0;
   const audit::AuditReport report = auditSpoilt([&](campaign::Campaign& campaign) {

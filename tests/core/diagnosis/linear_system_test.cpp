@@ -1,6 +1,13 @@
 #include "core/diagnosis/linear_system.h"
 
 #include <gtest/gtest.h>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <random>
+#include <string>
+#include <vector>
+#include "core/diagnosis/localization.h"
 #include "core/diagnosis/projection.h"
 #include "tests/fixtures/extended_day.h"
 
@@ -28,6 +35,86 @@ TEST(LinearSystem, IsWeighedAgainAsItIsMadeAgain) {
   EXPECT_EQ(data.sweep_rows, made.sweep_rows);
   EXPECT_EQ(data.state_noise, made.state_noise);
   EXPECT_EQ(data.as_read.rows.size(), 0);
+}
+
+/// Repeats differ from reflector to reflector and from state to state: each mean has the noise of its own.
+TEST(LinearSystem, EachMeanHasTheNoiseOfItsOwnReadings) {
+  campaign::Campaign campaign = simulation::simulate(springsAlone(8));
+  const extended_model::EffectFit effects =
+      extended_model::fitEffects(campaign, extended_model::requestedEffects({"bearing_tilt:3"}, campaign));
+  const auto left = [](const campaign::LoadingReading& row) {
+    const int kept = row.target == 0 ? 3 : (row.step == 0 ? 1 : 2);
+    return row.repeat <= kept;
+  };
+  std::erase_if(campaign.loading->rows, [&](const campaign::LoadingReading& row) { return !left(row); });
+  const auto readings = [&](int pose, int step, int target) {
+    return std::count_if(campaign.loading->rows.begin(), campaign.loading->rows.end(), [&](const auto& row) {
+      return row.pose == pose && row.step == step && row.target == target;
+    });
+  };
+  diagnosis::SystemInput input{campaign, effects.input->noise, 0.0, 0.0, effects.input->models, true, false, {}};
+  const diagnosis::LinearSystem data = diagnosis::linearSystem(input, effects.fit.state, {});
+  const diagnosis::GapPosture& posture = data.postures[2];
+  ASSERT_GE(posture.states.size(), 3u);
+  ASSERT_NE(readings(posture.pose, 0, 0), readings(posture.pose, 0, 1));
+  for (int t = 0; t < 3; ++t) {
+    const Eigen::Matrix3d rest = posture.noise.block<3, 3>(3 * t, 3 * t);
+    EXPECT_LT((posture.noise_across.block<3, 3>(3 * t, 3 * t) - rest).norm(), 1e-9 * rest.norm());
+    const Eigen::Matrix3d one = rest * static_cast<double>(readings(posture.pose, 0, t));
+    for (std::size_t s = 1; s < posture.states.size(); ++s) {
+      const Eigen::Index at = posture.position_rows + 9 * static_cast<Eigen::Index>(s - 1) + 3 * t;
+      const Eigen::Matrix3d expected =
+          rest + one / static_cast<double>(readings(posture.pose, posture.states[s].step, t));
+      EXPECT_LT((posture.noise.block<3, 3>(at, 3 * t) - expected).norm(), 1e-9 * expected.norm()) << t << ", " << s;
+    }
+  }
+}
+
+/// "sd above" of the tables that say where a gap is: of noise alone it is a standard normal number, though the states of
+/// a posture share their unloaded readings.
+TEST(WhereDeflection, OfNoiseAloneIsAsOftenAboveAsANormalNumber) {
+  const campaign::Campaign campaign = simulation::simulate(springsAlone(8));
+  extended_model::EffectFit effects =
+      extended_model::fitEffects(campaign, extended_model::requestedEffects({"bearing_tilt:3"}, campaign));
+  const diagnosis::SystemInput& input = *effects.input;
+  diagnosis::GapFit fit = effects.fit;
+  fit.data = diagnosis::linearSystem(input, fit.state, {});
+  std::vector<Eigen::MatrixXd> roots;
+  for (const diagnosis::GapPosture& posture : fit.data.postures) {
+    ASSERT_GE(posture.states.size(), 3u);
+    const Eigen::Index size = posture.right.size() - posture.position_rows, each = posture.noise.cols();
+    Eigen::MatrixXd covariance(size, size);
+    for (Eigen::Index row = 0; row < size; row += each) {
+      for (Eigen::Index column = 0; column < size; column += each)
+        covariance.block(row, column, each, each) =
+            row == column ? posture.noise.middleRows(posture.position_rows + row, each) : posture.noise_across;
+    }
+    roots.emplace_back(covariance.llt().matrixL());
+  }
+  std::mt19937_64 random(17);
+  std::normal_distribution<double> standard;
+  std::map<std::string, std::vector<double>> deviates;
+  constexpr int kDraws = 400;
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(fit.data.layout.end);
+  for (int draw = 0; draw < kDraws; ++draw) {
+    for (std::size_t p = 0; p < roots.size(); ++p) {
+      Eigen::VectorXd normal(roots[p].rows());
+      for (double& x : normal) x = standard(random);
+      fit.data.postures[p].right.tail(normal.size()) = roots[p] * normal;
+    }
+    for (const diagnosis::WhereTable& table : diagnosis::whereDeflection(input, fit, none)) {
+      for (const diagnosis::WhereRow& row : table.rows) {
+        if (table.by == "reflector" || table.by == "joint") deviates[row.name].push_back(row.significance);
+      }
+    }
+  }
+  EXPECT_EQ(deviates.size(), 9u);
+  for (const auto& [name, values] : deviates) {
+    double squares = 0.0;
+    for (const double value : values) squares += value * value;
+    // Of 400 draws the root of the mean square scatters by 3.5 %.
+    EXPECT_NEAR(std::sqrt(squares / values.size()), 1.0, 0.13) << name;
+  }
 }
 
 }  // namespace linear_system_test

@@ -3,12 +3,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <map>
+#include <vector>
 #include "core/diagnosis/spike_study.h"
 #include "core/effects/all.h"
+#include "core/preparation/rail.h"
 #include "core/preparation/subsample.h"
+#include "core/validation/machine_kinds.h"
+#include "metrology/linear_algebra.h"
+#include "metrology/rigid_motion.h"
 #include "tests/fixtures/extended_day.h"
 #include "tests/fixtures/on_one_core.h"
+#include "tests/fixtures/station_day.h"
 
 namespace stiffscope {
 namespace spike_test {
@@ -138,6 +145,143 @@ TEST(SpikedDay, MovesWhatTheEffectMovesAndNothingElse) {
   ASSERT_TRUE(drift.has_value());
   const campaign::Campaign drifted = day.with(*drift, 1e-4);
   EXPECT_GT((drifted.nests->rows.back().point - campaign.nests->rows.back().point).norm(), 0.0);
+}
+
+/// What a spike adds to a reading, in the axes of the first station.
+template <class Row>
+Eigen::Vector3d added(const Row& before, const Row& after) {
+  const Eigen::Vector3d own = after.point - before.point;
+  return before.station == 0 ? own : Eigen::Vector3d(secondStation().linear() * own);
+}
+
+/// One day in two forms, row by row the same readings, each with what it becomes by an effect.
+struct TwoForms {
+  const campaign::Campaign &one, &one_spiked, &other, &other_spiked;
+};
+
+template <class Table>
+void expectSameMoves(const TwoForms& days, std::optional<Table> campaign::Campaign::*table, effects::Effect effect) {
+  const auto& rows = (days.one.*table)->rows;
+  double moved = 0.0, apart = 0.0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Eigen::Vector3d one = added(rows[i], (days.one_spiked.*table)->rows[i]);
+    const Eigen::Vector3d other = added((days.other.*table)->rows[i], (days.other_spiked.*table)->rows[i]);
+    moved += one.squaredNorm();
+    apart += (one - other).squaredNorm();
+  }
+  ASSERT_GT(moved, 0.0) << (days.one.*table)->file;
+  // Both days are identified for themselves: from another place the same readings weigh otherwise.
+  EXPECT_LT(std::sqrt(apart / moved), 1e-3) << effects::idOf(effect) << ", " << (days.one.*table)->file;
+}
+
+/// As good as exact; without any noise repeats would pass for copies of each other.
+constexpr double kExact = 1e-6;
+
+// Half of the postures, the wrist sweep and half of the nests read from another place, in a frame of its own: an effect
+// moves the same reflectors by the same displacements.
+TEST(SpikedDay, MovesWhatASecondStationReadsInItsOwnFrame) {
+  const campaign::Campaign whole = simulation::simulate(cleanDay(5, kExact));
+  campaign::Campaign split = seenFromTwo(whole, 10);
+  for (campaign::WristReading& row : split.wrist_sweep->rows) {
+    row.station = 1;
+    row.point = secondStation().inverse() * row.point;
+  }
+  const diagnosis::SpikedDay one(whole), two(split);
+  ASSERT_TRUE(one.unusable().empty() && two.unusable().empty());
+  for (const effects::Effect effect :
+       {effects::Effect::kinematic_error, effects::Effect::bearing_tilt, effects::Effect::tracker_drift}) {
+    constexpr double kSize = 1e-4;
+    numerics::RandomStream random(4, "station");
+    const auto spike = one.draw(effect, kSize, random);
+    ASSERT_TRUE(spike.has_value());
+    const campaign::Campaign of_one = one.with(*spike, kSize), of_two = two.with(*spike, kSize);
+    const TwoForms days{whole, of_one, split, of_two};
+    expectSameMoves(days, &campaign::Campaign::loading, effect);
+    expectSameMoves(days, &campaign::Campaign::circle_sweeps, effect);
+    expectSameMoves(days, &campaign::Campaign::wrist_sweep, effect);
+    if (effect == effects::Effect::tracker_drift) expectSameMoves(days, &campaign::Campaign::nests, effect);
+  }
+}
+
+/// Of an arm on a rail, its carriage at 1.5 to 4.5 m.
+campaign::Campaign railDay() {
+  const auto folder = std::filesystem::temp_directory_path() / "stiffscope_spike_rail";
+  std::filesystem::create_directories(folder);
+  simulation::SimulationSpec spec =
+      validation::drawMachineOfKind(validation::MachineKind::rail, 41, "case", folder / "robot.urdf").spec;
+  spec.tracker.true_noise_factor = kExact;
+  return simulation::simulate(spec);
+}
+
+// The same readings as they would be with the carriage at zero, which is where an arm of this geometry stands.
+TEST(SpikedDay, TheCarriageIsNoLever) {
+  const campaign::Campaign day = railDay();
+  campaign::Campaign at_zero = day;
+  preparation::referToCarriageAtZero(preparation::prepareCampaign(day).rail, at_zero);
+  at_zero.rail_sweep.reset();
+  ASSERT_GT((day.wrist_sweep->rows.front().point - at_zero.wrist_sweep->rows.front().point).norm(), 2.0);
+  const diagnosis::SpikedDay one(day), other(at_zero);
+  ASSERT_TRUE(one.unusable().empty() && other.unusable().empty());
+  for (const effects::Effect effect : {effects::Effect::kinematic_error, effects::Effect::bearing_tilt}) {
+    constexpr double kSize = 1e-4;
+    numerics::RandomStream random(4, "rail");
+    const auto spike = one.draw(effect, kSize, random);
+    ASSERT_TRUE(spike.has_value());
+    const campaign::Campaign of_one = one.with(*spike, kSize), of_other = other.with(*spike, kSize);
+    const TwoForms days{day, of_one, at_zero, of_other};
+    expectSameMoves(days, &campaign::Campaign::loading, effect);
+    expectSameMoves(days, &campaign::Campaign::circle_sweeps, effect);
+    expectSameMoves(days, &campaign::Campaign::wrist_sweep, effect);
+  }
+}
+
+/// The readings' times and points as read, and what was added to each.
+struct Moves {
+  std::vector<double> times;
+  std::vector<Eigen::Vector3d> points, added;
+
+  template <class Rows>
+  void add(const Rows& before, const Rows& after) {
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      times.push_back(before[i].time_s);
+      points.push_back(before[i].point);
+      added.push_back(after[i].point - before[i].point);
+    }
+  }
+};
+
+// A drift is one motion of the instrument, whatever it reads and wherever the carriage stood: (t - t0) (w x p + v) in
+// the frame of the readings. What no such motion fits is the rail's own tilt, some 3 mm beside levers of metres, and
+// the seconds between the readings of one state.
+TEST(SpikedDay, OnARailADriftIsOneMotionOfAllReadings) {
+  const campaign::Campaign day = railDay();
+  const diagnosis::SpikedDay spiked_day(day);
+  ASSERT_TRUE(spiked_day.unusable().empty());
+  Eigen::VectorXd motion(6);  // rad, m
+  motion << 1e-4, -2e-4, 3e-4, 1e-4, 0.0, -1e-4;
+  const diagnosis::Spike drift{
+      effects::Effect::tracker_drift, modelOf(day, effects::Effect::tracker_drift), {}, motion, 1.0};
+  const campaign::Campaign spiked = spiked_day.with(drift, 1.0);
+  Moves moves;
+  moves.add(day.circle_sweeps->rows, spiked.circle_sweeps->rows);
+  moves.add(day.wrist_sweep->rows, spiked.wrist_sweep->rows);
+  moves.add(day.rail_sweep->rows, spiked.rail_sweep->rows);
+  moves.add(day.loading->rows, spiked.loading->rows);
+  moves.add(day.nests->rows, spiked.nests->rows);
+  const auto rows = 3 * static_cast<Eigen::Index>(moves.points.size());
+  Eigen::MatrixXd columns(rows, 12);  // w, v, t0 w, t0 v
+  Eigen::VectorXd right(rows);
+  for (std::size_t i = 0; i < moves.points.size(); ++i) {
+    const Eigen::Index row = 3 * static_cast<Eigen::Index>(i);
+    const double hours = moves.times[i] / 3600.0;
+    Eigen::Matrix<double, 3, 6> by_motion;
+    by_motion << -metrology::crossMatrix(moves.points[i]), Eigen::Matrix3d::Identity();
+    columns.middleRows<3>(row) << hours * by_motion, by_motion;
+    right.segment<3>(row) = moves.added[i];
+  }
+  const Eigen::VectorXd left = right - columns * leastSquaresSolution(columns, right);
+  ASSERT_GT(right.norm(), 1e-3);
+  EXPECT_LT(left.norm(), 0.01 * right.norm());
 }
 
 /// Of eight postures: a diagnosis costs a third.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <random>
 
 #include "core/fleet/remarks.h"
@@ -135,7 +136,12 @@ TEST(Fleet, WhoseACampaignIs) {
   EXPECT_EQ(machineOf("", "arm of cell 3", "lab/cell3/2026-01-05"), "arm of cell 3");
   EXPECT_EQ(machineOf("", "", "lab/cell3/2026-01-05"), "cell3");
   EXPECT_EQ(machineOf("", "", "lab/cell3/2026-01-05/"), "cell3");
-  EXPECT_EQ(machineOf("", "", "2026-01-05"), "2026-01-05");
+  // From within the folder above it is the same machine as from elsewhere.
+  const std::filesystem::path here = std::filesystem::current_path();
+  EXPECT_EQ(machineOf("", "", "2026-01-05"), here.filename().string());
+  EXPECT_EQ(machineOf("", "", "./2026-01-05"), here.filename().string());
+  EXPECT_EQ(machineOf("", "", "."), here.parent_path().filename().string());
+  EXPECT_EQ(machineOf("", "", "/2026-01-05"), "2026-01-05");
 }
 
 // Two days that follow each other: the difference with what their postures share taken off, by hand.

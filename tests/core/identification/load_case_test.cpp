@@ -4,6 +4,7 @@
 
 #include "core/campaign/read_campaign.h"
 #include "core/identification/identify.h"
+#include "core/identification/noise_share.h"
 
 namespace stiffscope {
 namespace load_case_test {
@@ -42,6 +43,41 @@ TEST(LoadCaseMaker, APosturesCasesAreThoseOfItsSteps) {
   }
   EXPECT_EQ(compared, by_posture.size());
   EXPECT_EQ(compared, 57u);  // 19 postures, three steps
+}
+
+/// The noise of a displacement is that of the sights from where its readings were taken.
+TEST(LoadCaseMaker, AMoveKnowsFromWhereItWasRead) {
+  campaign::Campaign day = sample();
+  const identification::Identification identified = identification::identify(day, identification::estimatesOnly());
+  constexpr int kFirstOfSecond = 7;
+  const Eigen::Vector3d second(6.0, 2.5, 0.1);
+  day.stations = {{"A"}, {"B"}};
+  for (campaign::LoadingReading& row : day.loading->rows) {
+    if (row.pose >= kFirstOfSecond) row.station = 1, row.from = second;
+  }
+  const frames::LoadingGeometry& geometry = identified.geometry;
+  std::size_t of_second = 0;
+  for (const identification::LoadCase& one :
+       identification::loadCases(day, identification::LoadReadings(day, {2}), geometry, 2)) {
+    for (const identification::TargetMove& move : one.targets) {
+      const bool by_second = one.pose >= kFirstOfSecond;
+      EXPECT_EQ(move.station, by_second ? 1 : 0);
+      if (by_second)
+        EXPECT_LT((move.from - *geometry.r0_from_loading * second).norm(), 1e-12);
+      else
+        EXPECT_TRUE(move.from.array().isNaN().all());
+      of_second += by_second;
+      campaign::Tracker at_second = *day.tracker;
+      if (by_second) at_second.station = second;
+      identification::TargetMove by_declared = move;
+      by_declared.from = campaign::kStationOfTracker;
+      EXPECT_LT((identification::displacementCovariance(*day.tracker, *geometry.r0_from_loading, move) -
+                 identification::displacementCovariance(at_second, *geometry.r0_from_loading, by_declared))
+                    .norm(),
+                1e-20);
+    }
+  }
+  EXPECT_EQ(of_second, 3u * (19 - kFirstOfSecond));
 }
 
 /// Leaving out what judges the estimates does not change them.

@@ -181,6 +181,59 @@ TEST(Transmission, ReferredToTheMotorsAnglesStandStillAndTheGearsStay) {
   }
 }
 
+/// Each gear is a line of its own: three postures give each an interval, however many gears there are.
+TEST(Transmission, FewPosturesGiveEveryGearItsInterval) {
+  const ChainDay day;
+  campaign::Campaign few = day.campaign(2e-6);
+  few.pose_ids.resize(3);
+  std::erase_if(few.states->rows, [](const campaign::State& row) { return row.pose >= 3; });
+  const identification::Transmission found = measured(few);
+  for (int j = 1; j < 6; ++j) {
+    ASSERT_TRUE(found.joints[static_cast<std::size_t>(j)].measured) << j;
+    EXPECT_GT(found.estimate.covariance(j, j), 0.0) << j;
+    const identification::CoverageInterval interval = identification::complianceInterval(found.estimate, j);
+    EXPECT_TRUE(std::isfinite(interval.low) && std::isfinite(interval.high)) << j;
+  }
+}
+
+/// A motor that was held during a sweep stood, though the URDF's masses leave some of its wind-up; one that moved by
+/// more than that did not.
+TEST(Transmission, HeldMotorsStandInASweepWhateverTheMassesSay) {
+  ChainDay day;
+  day.link_held = false;
+  campaign::Campaign read = day.campaign();
+  read.circle_sweeps = campaign::CircleSweeps{"circle_sweeps.csv", campaign::PointFrame::tracker, {}};
+  for (int axis = 1; axis < 6; ++axis) {
+    for (int stop = 0; stop < 7; ++stop) {
+      JointVector motor = (Vector6d() << 0.0, 0.1, 0.2, 0.1, -0.2, 0.1).finished();
+      motor[axis] += 0.3 * (stop - 3);
+      JointVector q = motor;
+      for (int round = 0; round < 5; ++round) q = motor + day.gear.cwiseProduct(day.arm.weightTorque(q));
+      read.circle_sweeps->rows.push_back({axis, std::to_string(stop), 0, q, campaign::kNotGiven, {}});
+    }
+  }
+  const auto moved = [](const campaign::Campaign& campaign) {
+    double most = 0.0;
+    for (const campaign::CircleReading& row : campaign.circle_sweeps->rows) {
+      const campaign::CircleReading& first =
+          *std::find_if(campaign.circle_sweeps->rows.begin(), campaign.circle_sweeps->rows.end(),
+                        [&](const campaign::CircleReading& one) { return one.axis == row.axis; });
+      for (int j = 0; j < 6; ++j) {
+        if (j != row.axis) most = std::max(most, std::abs(row.q[j] - first.q[j]));
+      }
+    }
+    return most;
+  };
+  constexpr double kSeen = 1e-4;  // of which the controllers' resolution is a tenth
+  ASSERT_GT(moved(read), kSeen);
+  campaign::Campaign heavier = read;
+  for (robot::BodyMass& body : heavier.robot.bodies) body.mass_kg *= 1.1;
+  EXPECT_LT(moved(identification::referredToMotors(heavier)), frames::kStandsStill);
+  campaign::Campaign drifted = heavier;
+  drifted.circle_sweeps->rows[3].q[2] += 1e-3;  // of axis 2's sweep
+  EXPECT_GT(moved(identification::referredToMotors(drifted)), 0.9e-3);
+}
+
 TEST(Transmission, LostMotionStandsApartFromTheCompliance) {
   ChainDay day;
   day.lost_motion = 3e-4;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/interchange/column_table.h"
+#include "core/interchange/point_file.h"
 #include "core/interchange/point_reading.h"
 #include "tests/core/interchange/refusal.h"
 
@@ -35,6 +36,28 @@ TEST(DelimitedText, CellsAndQuotes) {
   EXPECT_EQ(cellsBetweenBlanks("a b\tc", 1), (Cells{"a", "b", "c"}));
   EXPECT_EQ(cellsBetweenBlanks("a b\tc", 2), (Cells{"a b", "c"}));
   EXPECT_EQ(longestBlanks("  a   b  "), 3u);
+}
+
+// RFC 4180: a quote in a quoted cell is written twice.
+TEST(DelimitedText, QuotesInQuotedCells) {
+  const PointFile file =
+      parsePointFile("p.csv",
+                     "target,x_mm,y_mm,z_mm,pose,group\n"
+                     "\"a \"\"quoted\"\", b\",1,2,3,\"\"\"4\"\"\",\"g\"\",\"\n\"\",4,5,6,x,\"\"\"\"\n");
+  ASSERT_EQ(file.points.size(), 2u);
+  EXPECT_EQ(file.points[0].name, "a \"quoted\", b");
+  EXPECT_EQ(file.points[0].column("pose"), "\"4\"");
+  EXPECT_EQ(file.points[0].group(), "g\",");
+  EXPECT_EQ(file.points[1].name, "");
+  EXPECT_EQ(file.points[1].group(), "\"");
+  EXPECT_EQ(file.points[1].occurrence, 1);
+  EXPECT_EQ(file.points[1].point.y(), 5e-3);
+  // Quotes without a partner are letters.
+  EXPECT_EQ(cellsBetween("5\";\"\"x;y", ';'), (Cells{"5\"", "\"\"x", "y"}));
+  // The same of tables with another grammar.
+  const PointFile leica =
+      parsePointFile("p.csv", "Name,X [mm],Y [mm],Z [mm],Q0,\"Q, \"\"1\"\"\"\n\"a \"\"b\"\", c\",1,2,3,1,\"0\"\n");
+  EXPECT_EQ(leica.points[0].name, "a \"b\", c");
 }
 
 TEST(DelimitedText, NumbersWithEitherDecimalSign) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "tests/core/interchange/refusal.h"
@@ -95,6 +96,45 @@ TEST(UrLog, RadiansByNameAndRate) {
       read("timestamp,actual_q_5,actual_q_4,actual_q_3,actual_q_2,actual_q_1,actual_q_0\n12.5,6,5,4,3,2,1\n");
   EXPECT_DOUBLE_EQ(named.samples[0].figures[0], 1.0);
   EXPECT_DOUBLE_EQ(*named.samples[0].time_s, 12.5);
+}
+
+TEST(KarelLog, ColumnsThatAreNotReadAreNamed) {
+  const std::string axis = "Time [ms];J1;J2;J3;J4;J5;J6;E1;\n0;1;2;3;4;5;6;100;\n8;1;2;3;4;5;6;200;\n";
+  const RobotLog log = read(axis);
+  ASSERT_EQ(log.warnings.size(), 1u);
+  expectSays(log.warnings[0], {"robot.txt:1", "not read: E1"});
+  // Of a controller that writes everything the first are named.
+  std::string header = "timestamp,q0,q1,q2,q3,q4,q5", row = "0,1,2,3,4,5,6";
+  for (int k = 0; k < 30; ++k) {
+    header += ",actual_current_" + std::to_string(k);
+    row += ",1";
+  }
+  const RobotLog ur = read(header + '\n' + row + '\n');
+  ASSERT_EQ(ur.warnings.size(), 1u);
+  expectSays(ur.warnings[0], {"actual_current_0, actual_current_1", "actual_current_7 and 22 more"});
+}
+
+TEST(LogColumns, AnglesOfTheMotorsSideAndCommandedOnes) {
+  LogOptions options;
+  options.table.columns = "q1_deg q2_deg q3_deg q4_deg q5_deg q6_deg m2_rad c1_deg c6_deg";
+  options.table.separator = ";";
+  const RobotLog log = read("1;2;3;4;5;6;0.25;1.5;6.5\n1;2;3;4;5;6;;1.5;\n", options);
+  EXPECT_TRUE(log.warnings.empty());
+  ASSERT_EQ(log.motor_side.size(), 2u);
+  ASSERT_EQ(log.commanded.size(), 2u);
+  EXPECT_DOUBLE_EQ(log.motor_side[0][1], 0.25);
+  EXPECT_TRUE(std::isnan(log.motor_side[0][0]));
+  EXPECT_TRUE(std::isnan(log.motor_side[1][1]));
+  EXPECT_NEAR(log.commanded[0][5], 6.5 * kDeg, 1e-15);
+  EXPECT_NEAR(log.commanded[1][0], 1.5 * kDeg, 1e-15);
+  EXPECT_TRUE(std::isnan(log.commanded[1][5]));
+  // No table of states could hold a motor's own turns.
+  expectSays(refusal("1;2;3;4;5;6;40;1.5;6.5\n", options), {":1", "m2", "720", "gear"});
+  options.table.columns = "q1_deg q2_deg q3_deg q4_deg q5_deg q6_deg m1_deg m7_deg -";
+  const RobotLog seven = read("1;2;3;4;5;6;1;7;8\n", options);
+  EXPECT_TRUE(seven.commanded.empty());
+  ASSERT_EQ(seven.warnings.size(), 1u);
+  expectSays(seven.warnings[0], {"m7", "six joints"});
 }
 
 TEST(LogColumns, AWrench) {

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <map>
 #include "core/mistakes/remarks.h"
 #include "tests/fixtures/simulated_lab.h"
 
@@ -36,6 +38,32 @@ class Search : public ::testing::Test {
     return std::move(search.cures.front());
   }
 
+  /// From a posture on (an index) each gets the angles of the one so many after it, the last ones those of the last.
+  void takeRowsOf(int first, int later) {
+    for (const campaign::State& state : campaign.states->rows) truth.emplace(state.pose, state.q);
+    const int last = static_cast<int>(truth.size()) - 1;
+    for (campaign::State& state : campaign.states->rows) {
+      if (state.pose >= first) state.q = truth.at(std::min(state.pose + later, last));
+    }
+    day = mistakes::readingsOf(campaign);
+  }
+
+  /// With the cure every posture has its own angles, but the one whose row is in no file, which is left out.
+  void expectTruthWithout(int lost, const ArmCure& found) {
+    std::map<int, int> readings;
+    for (const mistakes::UnloadedReading& reading : found.day.unloaded) {
+      if (reading.pose < 0) continue;
+      ++readings[reading.pose];
+      EXPECT_EQ(reading.q, truth.at(reading.pose)) << reading.pose;
+    }
+    for (const mistakes::LoadedReading& reading : found.day.loaded) {
+      EXPECT_TRUE(readings.contains(reading.pose)) << reading.pose;
+      EXPECT_EQ(reading.q, truth.at(reading.pose)) << reading.pose;
+    }
+    EXPECT_FALSE(readings.contains(lost));
+    EXPECT_EQ(readings.size(), truth.size() - 1);
+  }
+
   static double number(const ArmCure& cure, std::size_t place) {
     return std::get<double>(cure.suspected.remedy.values.at(place));
   }
@@ -46,6 +74,7 @@ class Search : public ::testing::Test {
   SimulatedLab lab;
   campaign::Campaign campaign;
   ReadingsOfDay day;
+  std::map<int, JointVector> truth;  ///< angles by posture, before they were shifted
 };
 
 TEST_F(Search, AGoodDayNeedsNoCure) {
@@ -151,6 +180,35 @@ TEST_F(Search, TwoPosturesWhoseAnglesAreExchanged) {
   const ArmCure found = cure(RemarkId::angles_exchanged);
   EXPECT_EQ(std::get<std::string>(found.suspected.remedy.values.at(0)), "4");
   EXPECT_EQ(std::get<std::string>(found.suspected.remedy.values.at(1)), "7");
+}
+
+// The angles of pose 4 are in no row: those of each later one stand in the row before its own.
+TEST_F(Search, ALostRowOfAngles) {
+  takeRowsOf(3, 1);
+  const ArmCure found = cure(RemarkId::rows_lost);
+  EXPECT_EQ(std::get<std::string>(found.suspected.remedy.values.at(0)), "4");
+  EXPECT_EQ(count(found, 1), 1);  // the next posture's
+  expectTruthWithout(3, found);
+  EXPECT_LT(found.rms, 1e-6);  // of a rigid arm, by a robust fit that the shifted postures still pull a little
+}
+
+// The angles of pose 3 are in two rows, and those of the last posture in none.
+TEST_F(Search, ADoubledRowOfAngles) {
+  takeRowsOf(3, -1);
+  const ArmCure found = cure(RemarkId::rows_lost);
+  EXPECT_EQ(std::get<std::string>(found.suspected.remedy.values.at(0)), "4");
+  EXPECT_EQ(count(found, 1), 0);  // the one's before
+  expectTruthWithout(9, found);
+  EXPECT_LT(found.rms, 1e-6);
+}
+
+// A row too many leaves the posture before it its own: one whose points are wrong besides is none of those.
+TEST_F(Search, ADoubledRowBehindABadPosture) {
+  takeRowsOf(3, -1);
+  for (mistakes::UnloadedReading& reading : day.unloaded) {
+    if (reading.pose == 2) reading.point.x() += 0.5;
+  }
+  EXPECT_EQ(std::get<std::string>(cure(RemarkId::rows_lost).suspected.remedy.values.at(0)), "4");
 }
 
 }  // namespace arm_search_test

@@ -114,6 +114,36 @@ TEST(FindMistakes, NamesTheRowOfOnePosture) {
             fmt::format("pose 8, q1_deg to q6_deg from states.csv:{} on", line));
 }
 
+/// The sample with the angles of the posture after its own, or before it, from the tenth on.
+mistakes::ModelAgreement withRowsShifted(bool lost) {
+  campaign::Campaign day = goodDay();
+  std::map<int, JointVector> q;
+  for (const auto& row : day.states->rows) q.emplace(row.pose, row.q);
+  const int last = static_cast<int>(q.size()) - 1;
+  for (auto& row : day.states->rows) {
+    if (row.pose >= 9) row.q = q.at(lost ? std::min(row.pose + 1, last) : row.pose - 1);
+  }
+  return mistakes::findMistakes(day);
+}
+
+// The figure that is said is that of the postures that the change mends: as large as on the good day.
+TEST(FindMistakes, SaysWhatShiftedRowsMissOnceTheyAreMended) {
+  const double good = *mistakes::findMistakes(goodDay()).arm_miss;
+  for (const bool lost : {true, false}) {
+    const mistakes::ModelAgreement agreement = withRowsShifted(lost);
+    ASSERT_EQ(agreement.arm.size(), 1u) << said(agreement);
+    const mistakes::Suspected& one = agreement.arm.front();
+    EXPECT_NE(said(agreement).find(lost ? "a row of the log is lost" : "a row of the log is too many"),
+              std::string::npos)
+        << said(agreement);
+    EXPECT_GT(one.before, 0.5);  // m
+    EXPECT_LT(one.after, 2.0 * good) << lost;
+    // The loads of the mended postures are explained as on the good day.
+    EXPECT_TRUE(agreement.loads.empty()) << said(agreement);
+    EXPECT_NEAR(*agreement.loads_left, 0.1, 0.03);
+  }
+}
+
 TEST(FindMistakes, NamesTwoAtOnce) {
   campaign::Campaign day = goodDay();
   const auto spoil = [](JointVector& q) {

@@ -1,6 +1,10 @@
 #include "core/preparation/prepare.h"
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
 #include "core/audit/audit.h"
 #include "core/campaign/read_campaign.h"
 #include "core/identification/identify.h"
@@ -45,6 +49,48 @@ TEST(Prepare, AGoodCampaignIsLeftAsItIs) {
   EXPECT_FALSE(prepared.preparation.drift.taken_off);
   EXPECT_TRUE(prepared.preparation.drift.reason.is(preparation::RemarkId::no_motion_beyond_noise));
   EXPECT_EQ(farthestApart(prepared.campaign, good()), 0.0);
+}
+
+/// A file of few digits has readings that are alike by chance: no copies. A copied state is one, digits or not.
+TEST(Prepare, ReadingsAlikeByChanceOfTheDigitsAreKept) {
+  const auto rounded = [](double digit) {
+    campaign::Campaign coarse = good();
+    for (campaign::LoadingReading& row : coarse.loading->rows) {
+      for (double& x : row.point) x = std::round(x / digit) * digit;
+    }
+    return coarse;
+  };
+  const auto rejected = [](const campaign::Campaign& day) {
+    return preparation::prepareCampaign(day).preparation.rejected.size();
+  };
+  std::set<std::array<double, 3>> places;
+  const campaign::Campaign coarse = rounded(1e-5);
+  for (const campaign::LoadingReading& row : coarse.loading->rows)
+    places.insert({row.point.x(), row.point.y(), row.point.z()});
+  ASSERT_LT(places.size() + 10, coarse.loading->rows.size());  // some come again
+  EXPECT_EQ(rejected(coarse), 0u);
+  EXPECT_EQ(rejected(rounded(1e-6)), 0u);
+  // Repeats that somebody filled in: more than chance makes of micrometres.
+  campaign::Campaign filled = rounded(1e-6);
+  std::size_t copies = 0;
+  for (std::size_t i = 1; i < filled.loading->rows.size(); ++i) {
+    campaign::LoadingReading& row = filled.loading->rows[i];
+    const campaign::LoadingReading& before = *std::find_if(
+        filled.loading->rows.begin(), filled.loading->rows.end(), [&](const campaign::LoadingReading& one) {
+          return one.pose == row.pose && one.step == row.step && one.target == row.target;
+        });
+    if (row.pose != 5 || before.line == row.line) continue;
+    row.point = before.point;
+    ++copies;
+  }
+  ASSERT_GT(copies, 5u);
+  EXPECT_EQ(rejected(filled), copies);
+  // Of two reflectors none is by chance.
+  campaign::Campaign wrong = rounded(1e-5);
+  wrong.loading->rows[7].target == wrong.loading->rows[6].target
+      ? static_cast<void>(wrong.loading->rows[9].point = wrong.loading->rows[6].point)
+      : static_cast<void>(wrong.loading->rows[7].point = wrong.loading->rows[6].point);
+  EXPECT_EQ(rejected(wrong), 1u);
 }
 
 TEST(Prepare, RejectedReadingsAreThoseThatIdentificationDoesNotSee) {

@@ -126,7 +126,8 @@ std::string stack(int joints) {
     const std::string number = std::to_string(j), before = std::to_string(j - 1);
     text += "<link name=\"l" + number + "\"><inertial><mass value=\"" + number +
             "\"/></inertial></link><joint name=\"j" + number + "\" type=\"continuous\"><parent link=\"l" + before +
-            "\"/><child link=\"l" + number + "\"/><origin xyz=\"0 0 0.1\"/></joint>";
+            "\"/><child link=\"l" + number + "\"/><origin xyz=\"0 0 0.1\"/><axis xyz=\"" +
+            (j % 2 == 1 ? "0 0 1" : "0 1 0") + "\"/></joint>";
   }
   return text + "</robot>";
 }
@@ -174,6 +175,19 @@ TEST(ReadUrdf, TakesFourToEightJoints) {
   EXPECT_EQ(why(9),
             "stack.urdf:1: joint: expected 4 to 8 revolute joints between 'l0' and 'l9'; there are 9: j1, j2, j3, j4, "
             "j5, j6, j7, j8, j9");
+}
+
+TEST(ReadUrdf, RefusesParallelFirstAxes) {
+  std::string text = stack(5);
+  text.replace(text.find("0 1 0"), 5, "0 0.01 1");  // half a degree off
+  try {
+    robot::parseUrdf(text, "stack.urdf", "l0", "l5");
+    ADD_FAILURE() << "read on";
+  } catch (const io::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("'j2': expected an axis that is not parallel to that of joint 'j1'"),
+              std::string::npos)
+        << error.what();
+  }
 }
 
 // A linear axis, turned in its own frame, between a fixed column and the arm.
