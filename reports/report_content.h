@@ -33,9 +33,9 @@ struct ReportCampaign {
   const diagnosis::Diagnosis* diagnosis = nullptr;
   const extended_model::ExtendedModel* improved =
       nullptr;  ///< effects were asked for: `campaign` and `identification` are of it
-  const accuracy::AccuracyDiagnosis* accuracy = nullptr;         ///< of a day without a load; the calibration is in it
+  const accuracy::AccuracyDiagnosis* accuracy = nullptr;  ///< of a day without a load; the calibration is in it
   calibration::CalibrationOptions calibrated_by = accuracy::kDiagnosisFolds;  ///< how that was held out
-  const workspace::WorkspaceStiffness* workspace = nullptr;      ///< of a loaded day
+  const workspace::WorkspaceStiffness* workspace = nullptr;                   ///< of a loaded day
   const std::vector<conformity::Decision>* decisions = nullptr;  ///< on the acceptance limits, where there are any
 };
 

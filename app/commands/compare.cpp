@@ -159,8 +159,7 @@ void addCompare(CLI::App& app, Run& run) {
       const bool first = reports::namesResults(arguments->before), second = reports::namesResults(arguments->after);
       if (first && second) {
         // What results are of is decided: nothing is identified anew.
-        for (const char* const option :
-             {"--step", "--neglect-kc", "--with", "--springs-only", "--raw", "--seed"}) {
+        for (const char* const option : {"--step", "--neglect-kc", "--with", "--springs-only", "--raw", "--seed"}) {
           if (command->count(option) == 0) continue;
           throw io::InputError({option}, "", "expected two campaigns; of result files nothing is identified anew");
         }

@@ -131,9 +131,8 @@ int planUnloadedDay(const PlanRequest& arguments, const CampaignSource& source, 
   const auto opened = openedFor(arguments, source);
   const campaign::Campaign& campaign = opened->campaign;
   const planning::UnloadedPlan plan = planning::planUnloaded(campaign, options);
-  writeOut(arguments, [&](bool xml) {
-    return xml ? reports::unloadedPlanXml(plan) : reports::unloadedPlanCsv(campaign, plan);
-  });
+  writeOut(arguments,
+           [&](bool xml) { return xml ? reports::unloadedPlanXml(plan) : reports::unloadedPlanCsv(campaign, plan); });
   outlet.deliver([&] { return reports::unloadedPlanJson(campaign, plan); },
                  [&] { return reports::unloadedPlanText(campaign, plan); });
   return plan.postures.empty() ? kNotUsable : kDone;

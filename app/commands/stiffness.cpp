@@ -77,8 +77,7 @@ int stiffnessOf(const StiffnessArguments& arguments) {
                    {"--json", arguments.json}});
   const preparation::PreparedCampaign prepared =
       openPrepared(arguments.campaign, arguments.raw, hashesFor(arguments.json));
-  if (!arguments.workpiece.empty())
-    options.workpiece = workpieceIn(arguments.workpiece, prepared.campaign);
+  if (!arguments.workpiece.empty()) options.workpiece = workpieceIn(arguments.workpiece, prepared.campaign);
   Identified found = identifiedBy(prepared, arguments.campaign, arguments.model, choice);
   const campaign::Campaign& campaign = found.campaign(prepared);
   workspace::WorkspaceStiffness stiffness;

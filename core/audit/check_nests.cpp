@@ -16,7 +16,7 @@ namespace {
 
 /// Two nests whose reflectors would stand in each other; of coordinates in metres that pass for millimetres all do.
 std::optional<Remark> nestsTooNear(const campaign::Campaign& campaign) {
-  constexpr double kSmallestReflector = 12.7e-3;  // m, across
+  constexpr double kSmallestReflector = 12.7e-3;         // m, across
   std::map<std::pair<int, int>, Eigen::Vector3d> first;  // by station and nest
   for (const campaign::NestReading& row : campaign.nests->rows) {
     const auto [place, added] = first.try_emplace({row.station, row.nest}, row.point);

@@ -391,8 +391,7 @@ void writeFigures(const Campaign& campaign, const std::filesystem::path& urdf_fi
 void writeCampaign(const Campaign& campaign, const std::filesystem::path& urdf_file,
                    const std::filesystem::path& folder, const std::vector<io::FileToWrite>& beside,
                    WrittenDigits digits, const std::string& expectation) {
-  if (campaign.joint_readings.empty())
-    return writeFigures(campaign, urdf_file, folder, beside, digits, expectation);
+  if (campaign.joint_readings.empty()) return writeFigures(campaign, urdf_file, folder, beside, digits, expectation);
   Campaign figures = campaign;
   anglesToFigures(figures);
   writeFigures(figures, urdf_file, folder, beside, digits, expectation);

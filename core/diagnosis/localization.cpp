@@ -154,7 +154,7 @@ std::vector<LeftOver> leftOvers(const LinearSystem& data, const Eigen::VectorXd&
 /// variance of a sum of x^T F x over them is 2 tr(F_k S_kl F_l S_lk) over all pairs of states.
 struct Sum {
   double squares = 0.0, noise = 0.0, variance = 0.0, count = 0.0;
-  int pose = -1;  ///< whose states were added last
+  int pose = -1;                                                   ///< whose states were added last
   std::vector<std::pair<int, Eigen::Matrix3Xd>> directions_added;  ///< of its states before, with the reflector
   std::vector<Eigen::MatrixXd> forms_added;
 
@@ -180,8 +180,8 @@ struct Sum {
 
   /// Of the part of a state's `left` that `form`, a symmetric matrix, takes of it: left^T form left. `across`: the
   /// covariance with other states of the posture; empty without.
-  void addPart(int of_pose, const Eigen::VectorXd& left, const Eigen::MatrixXd& form,
-               const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& across) {
+  void addPart(int of_pose, const Eigen::VectorXd& left, const Eigen::MatrixXd& form, const Eigen::MatrixXd& covariance,
+               const Eigen::MatrixXd& across) {
     const Eigen::MatrixXd noise_here = form * covariance;
     squares += left.dot(form * left);
     noise += noise_here.trace();

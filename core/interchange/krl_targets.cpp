@@ -135,11 +135,12 @@ class KrlTargets {
     sample.line = program_.line();
     const KrlAggregate value = readKrlAggregate(program_, true);
     if (value.in_space || !value.whole()) {
-      if (joints || value.branch) found_.skip(sample.line);
+      const bool space = !joints || value.in_space;
+      if (!space || value.branch) found_.skip(sample.line, space ? Skip::joints_not_given : Skip::joints_computed);
       return;
     }
     // In a call, in a structure or of PTP_REL: what it is used for is not known here.
-    if (given.whole.empty() || given.component) return found_.skip(sample.line);
+    if (given.whole.empty() || given.component) return found_.skip(sample.line, Skip::joints_computed);
     requireSixJoints(text_, sample.line, "A1 to A6");
     sample.name = given.whole;
     sample.figures = value.figures;
@@ -150,7 +151,7 @@ class KrlTargets {
   void readComponent(std::size_t letter) {
     const std::size_t line = program_.line();
     if (letter == 0 || code_[letter - 1] != '.' || !program_.take("=")) return;
-    if (program_.peek() != "=") found_.skip(line);
+    if (program_.peek() != "=") found_.skip(line, Skip::joints_computed);
   }
 
   /// A target that stands in the instruction, PTP {A1 ...}, called by its line. One that gives some axes alone leaves
@@ -160,8 +161,9 @@ class KrlTargets {
     sample.line = program_.line();
     if (!program_.take("{")) return;
     const KrlAggregate value = readKrlAggregate(program_, true);
-    if (value.in_space || !value.whole()) return found_.skip(sample.line);
-    if (!text_.options.in_instructions) return found_.skip(sample.line, Skip::no_readings);
+    if (value.in_space) return found_.skip(sample.line, Skip::joints_not_given);
+    if (!value.whole()) return found_.skip(sample.line, Skip::joints_computed);
+    if (!text_.options.in_instructions) return found_.skip(sample.line, Skip::in_instruction);
     requireSixJoints(text_, sample.line, "A1 to A6");
     sample.name = fmt::format("line {}", sample.line);
     sample.figures = value.figures;

@@ -126,6 +126,8 @@ enum class Skip {
   no_readings,       ///< a standstill, a target or a load for which nothing was read
   joints_not_given,  ///< a target in space, without angles
   repeated_row,      ///< says the same as an earlier row of its pose and step
+  in_instruction,    ///< a joint target in a program's instruction: it has no name
+  joints_computed,   ///< a joint target that a program computes, gives in part or hands on
 };
 
 struct SkippedRow {

@@ -144,7 +144,7 @@ class RapidTargets {
       return readTargets({given.whole, true}, line, lowered(given.whole) == given.variable ? own->second : 0);
     }
     // In a call, in a structure, or of a variable that is declared elsewhere: what it is for is not known here.
-    if (angles && jointtarget) found_.skip(line);
+    if (angles && jointtarget) found_.skip(line, Skip::joints_computed);
     if (!angles || jointtarget) program_.close(1, '[', ']');
   }
 
@@ -152,13 +152,13 @@ class RapidTargets {
   void readComponent(std::size_t word) {
     const std::size_t line = program_.line();
     if (word == 0 || code_[word - 1] != '.') return;
-    if (program_.take(":") && program_.take("=")) found_.skip(line);
+    if (program_.take(":") && program_.take("=")) found_.skip(line, Skip::joints_computed);
   }
 
   /// A target of Rokae's that is not declared: j:{...}.
   void readOfRokae() {
     const std::size_t line = program_.line();
-    if (program_.take(":") && program_.take("{")) found_.skip(line);
+    if (program_.take(":") && program_.take("{")) found_.skip(line, Skip::joints_computed);
   }
 
   /// A target that stands in the instruction, called by its line: MoveAbsJ [[q1,...],[...]], or of the others one in
@@ -172,7 +172,7 @@ class RapidTargets {
     if (program_.peek() != "[") return;
     if (word == "moveabsj" && text_.options.in_instructions)
       return readTargets({fmt::format("line {}", line), false}, line, 0);
-    found_.skip(line, word == "moveabsj" ? Skip::no_readings : Skip::joints_not_given);
+    found_.skip(line, word == "moveabsj" ? Skip::in_instruction : Skip::joints_not_given);
     program_.next();
     program_.close(1, '[', ']');
   }
@@ -188,7 +188,7 @@ class RapidTargets {
                    const std::vector<std::size_t>& place = {}) {
     if (!place.empty() && isName(program_)) {
       // An element that another variable has.
-      found_.skip(line);
+      found_.skip(line, Skip::joints_computed);
       while (program_.peek() != "," && program_.peek() != "]" && !program_.atEnd()) program_.next();
       return;
     }
@@ -204,12 +204,12 @@ class RapidTargets {
       return program_.require("]", "behind the last element of an array");
     }
     if (isName(program_)) {
-      found_.skip(line);
+      found_.skip(line, Skip::joints_computed);
       return program_.close(1, '[', ']');
     }
     program_.require("[", "before six angles");
     if (isComputed(program_)) {
-      found_.skip(line);
+      found_.skip(line, Skip::joints_computed);
       return program_.close(2, '[', ']');
     }
     requireSixJoints(text_, line, "the robot axes of a jointtarget");

@@ -14,9 +14,10 @@ LogFormat logFormatNamed(const std::string& name, const std::string& option);
 /// Reads joints from a file of any of these formats; which one follows from how it is built:
 /// - fanuc_karel: `Time [ms];...;J1;...;J6;`, a sample a line, degrees;
 /// - fanuc_tp: a program's `/POS` section, `P[1]{ ... J1= 6.2 deg, ... }`; targets in space are left out;
-/// - kuka_krl: `DECL AXIS` and `DECL E6AXIS` of a .dat file, `{A1 0.0,A2 -90.0,...}`, degrees; E6POS are left out;
-/// - rapid: `jointtarget NAME := [[q1,...,q6],[...]]`, degrees; robtargets are left out; also Rokae's `jointtarget j1 =
-/// j:{...}`;
+/// - kuka_krl: `DECL AXIS` and `DECL E6AXIS` with a value, and what a variable or an element of an array is given,
+/// `XP[1]={A1 0.0,A2 -90.0,...}`, degrees; E6POS are left out;
+/// - rapid: `jointtarget NAME := [[q1,...,q6],[...]]`, arrays of them, and what such a variable is given, degrees;
+/// robtargets are left out; also Rokae's `jointtarget j1 = j:{...}`;
 /// - ur: a header line that names six joints (actual_q_0, Joint0, shoulder_pan_joint, ...), radians, perhaps a
 /// timestamp;
 /// - columns: q1_deg and so on, as the user or the header line names them.

@@ -32,9 +32,12 @@ std::string writtenFigure(double degrees, int decimals) {
   return text;
 }
 
-[[noreturn]] void refuseWithoutJoints(const std::string& file, std::size_t line) {
+[[noreturn]] void refuseWithoutJoints(const std::string& file, const SkippedRow& first) {
+  if (first.reason == Skip::joints_computed)
+    throw io::InputError({file, first.line, ""}, "",
+                         "expected joint targets with their angles; this one is computed, given in part or handed on");
   throw io::InputError(
-      {file, line, ""}, "",
+      {file, first.line, ""}, "",
       "expected joint targets; this one is in space, and which joint angles the controller takes for it "
       "is not in the file: have the targets stored as joints, or use --path");
 }
@@ -63,7 +66,7 @@ TaughtProgram parseTaughtProgram(const std::string& file, std::string_view bytes
                            "expected a program: FANUC's .ls, KRL's .src or .dat, or a RAPID module");
   }
   if (program.log.samples.empty()) {
-    if (!program.log.skipped.empty()) refuseWithoutJoints(file, program.log.skipped.front().line);
+    if (!program.log.skipped.empty()) refuseWithoutJoints(file, program.log.skipped.front());
     throw io::InputError({file, 0, ""}, "", "expected joint targets; there are none");
   }
   return program;

@@ -13,7 +13,7 @@ namespace stiffscope::interchange {
 struct TaughtProgram {
   std::string file;   ///< for messages
   std::string bytes;  ///< as they are in the file
-  RobotLog log;       ///< its joint targets, in the order of the file; targets in space are in `skipped`
+  RobotLog log;       ///< its joint targets, in the order of the file; those in space or computed are in `skipped`
   int decimals = 3;   ///< behind the point of a figure in degrees, as this maker's programs have them at least
 };
 

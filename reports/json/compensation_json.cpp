@@ -136,15 +136,19 @@ Json pathJson(const campaign::Campaign& campaign, identification::Method method,
 
 Json withProgram(Json json, const interchange::TaughtProgram& program, const std::string& out,
                  const std::vector<compensation::CompensatedPosture>& targets, double rounding) {
-  Json in_space = Json::array();
-  for (const interchange::SkippedRow& skipped : program.log.skipped) in_space.push_back(skipped.line);
+  Json in_space = Json::array(), computed = Json::array();
+  for (const interchange::SkippedRow& skipped : program.log.skipped) {
+    if (skipped.reason == interchange::Skip::joints_not_given) in_space.push_back(skipped.line);
+    if (skipped.reason == interchange::Skip::joints_computed) computed.push_back(skipped.line);
+  }
   const std::size_t replaced = compensation::summaryOf(targets).compensated;
   json["program"] = {{"file", program.file},
                      {"out", replaced > 0 ? Json(out) : Json(nullptr)},
                      {"format", interchange::nameOf(program.log.format)},
                      {"replaced", replaced},
                      {"rounding_mm", rounding / io::kMillimetre},
-                     {"in_space", in_space}};
+                     {"in_space", in_space},
+                     {"computed", computed}};
   return json;
 }
 

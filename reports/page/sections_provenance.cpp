@@ -321,9 +321,8 @@ void writeScope(Html& html, const reports::ReportContent& content) {
   html.leaf("h2", "Uncertainty, decision rule and scope");
   std::vector<std::string> items;
   if (!content.limits_file.empty()) items.push_back(reports::decisionRuleWords());
-  const bool weighed = std::any_of(content.campaigns.begin(), content.campaigns.end(), [](const auto& one) {
-    return reports::hiddenIsHeld(one.identification);
-  });
+  const bool weighed = std::any_of(content.campaigns.begin(), content.campaigns.end(),
+                                   [](const auto& one) { return reports::hiddenIsHeld(one.identification); });
   using reports::DayKind;
   for (const DayKind kind : {DayKind::unloaded, DayKind::loaded, DayKind::sweeps}) {
     if (!reports::anyOfKind(content.campaigns, kind)) continue;

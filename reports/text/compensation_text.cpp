@@ -188,30 +188,45 @@ std::string pathText(const campaign::Campaign& campaign, identification::Method 
   return text;
 }
 
+namespace {
+
+/// What was left of a program for one reason, with its lines; empty where nothing was.
+std::string leftOf(const interchange::TaughtProgram& program, interchange::Skip reason, const char* why) {
+  constexpr std::size_t kMostNamed = 12;
+  std::vector<std::string> lines;
+  std::size_t count = 0;
+  for (const interchange::SkippedRow& row : program.log.skipped) {
+    if (row.reason != reason) continue;
+    if (++count <= kMostNamed) lines.push_back(fmt::format("{}", row.line));
+  }
+  if (count == 0) return {};
+  const std::size_t more = count - lines.size();
+  const std::string line =
+      fmt::format("Caution: {} {} refused and left as {}: {} ({}:{}{})", count,
+                  count == 1 ? "target is" : "targets are", count == 1 ? "it was" : "they were", why, program.file,
+                  fmt::join(lines, ", "), more > 0 ? fmt::format(" and {} more", more) : "");
+  return wrapped(line + ".", 2) + "\n";
+}
+
+}  // namespace
+
 std::string programText(const interchange::TaughtProgram& program, const std::string& out,
                         const std::vector<compensation::CompensatedPosture>& targets, double rounding) {
   const std::size_t replaced = compensation::summaryOf(targets).compensated;
-  std::string line = replaced == 0
-                         ? fmt::format("{}: no target is compensated; nothing is written", program.file)
-                         : fmt::format(
-                               "{}: {} of {} joint targets of {} replaced, all else as it was; rounding moves P_TCP by "
-                               "up to {:.4f} mm",
-                               out, replaced, targets.size(), program.file, rounding / io::kMillimetre);
-  std::string text = wrapped(line + ".", 2) + "\n";
-  if (program.log.skipped.empty()) return text;
-  constexpr std::size_t kMostNamed = 12;
-  std::vector<std::string> lines;
-  for (std::size_t i = 0; i < std::min(kMostNamed, program.log.skipped.size()); ++i)
-    lines.push_back(fmt::format("{}", program.log.skipped[i].line));
-  const std::size_t more = program.log.skipped.size() - lines.size();
-  line = fmt::format(
-      "Caution: {} {} refused and left as {}: in space, not in joints, and which joint angles the controller takes is "
-      "not "
-      "in the file ({}:{}{})",
-      program.log.skipped.size(), program.log.skipped.size() == 1 ? "target is" : "targets are",
-      program.log.skipped.size() == 1 ? "it was" : "they were", program.file, fmt::join(lines, ", "),
-      more > 0 ? fmt::format(" and {} more", more) : "");
-  return text + wrapped(line + ".", 2) + "\n";
+  const auto computed = std::count_if(program.log.skipped.begin(), program.log.skipped.end(),
+                                      [](const auto& row) { return row.reason == interchange::Skip::joints_computed; });
+  const std::string line =
+      replaced == 0 ? fmt::format("{}: no target is compensated; nothing is written", program.file)
+                    : fmt::format(
+                          "{}: {} of {} joint targets of {} replaced, all else as it was; rounding moves P_TCP by "
+                          "up to {:.4f} mm",
+                          out, replaced, targets.size() + static_cast<std::size_t>(computed), program.file,
+                          rounding / io::kMillimetre);
+  return wrapped(line + ".", 2) + "\n" +
+         leftOf(program, interchange::Skip::joints_not_given,
+                "in space, not in joints, and which joint angles the controller takes is not in the file") +
+         leftOf(program, interchange::Skip::joints_computed,
+                "computed, given in part or handed on, so that the program is compensated in part only");
 }
 
 }  // namespace stiffscope::reports

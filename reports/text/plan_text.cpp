@@ -118,7 +118,8 @@ std::string planCsv(const campaign::Campaign& campaign, const planning::Plan& pl
   for (int joint = 1; joint <= plan.arm.geometry.arm.joints(); ++joint) text += fmt::format(",q{}_deg", joint);
   text += ",fx_n,fy_n,fz_n,mx_nm,my_nm,mz_nm,pull_x,pull_y,pull_z\n";
   for (const planning::PlannedPosture& posture : plan.postures) {
-    text += fmt::format("{},{},{},{}\n", posture.id, joined(convention.figures(posture.candidate.q), 5, ",", 1.0 / io::kDegree),
+    text += fmt::format("{},{},{},{}\n", posture.id,
+                        joined(convention.figures(posture.candidate.q), 5, ",", 1.0 / io::kDegree),
                         joined(posture.reading, 3, ","), joined(posture.pull_in_base, 6, ","));
   }
   return text;

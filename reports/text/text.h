@@ -111,8 +111,8 @@ std::string pathText(const campaign::Campaign& campaign, identification::Method 
                      const toolpath::CompensatedPath& path, const std::vector<campaign::KnownStiffness>& known,
                      const std::vector<std::string>& cautions);
 
-/// What became of a program's targets in `compensate --program`: joint targets replaced in `out`, and those in space by
-/// their lines.
+/// What became of a program's targets in `compensate --program`: joint targets replaced in `out`, of all that it has,
+/// and those that were left, in space or computed, by their lines.
 std::string programText(const interchange::TaughtProgram& program, const std::string& out,
                         const std::vector<compensation::CompensatedPosture>& targets, double rounding);
 

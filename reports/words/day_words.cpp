@@ -162,7 +162,8 @@ std::vector<std::string> scopeWords(DayKind kind, bool limits, bool hidden) {
       break;
   }
   const std::string shared =
-      "the scatter between postures (sandwich estimate, CR2) and what they all share and the campaign tells of: frames, "
+      "the scatter between postures (sandwich estimate, CR2) and what they all share and the campaign tells of: "
+      "frames, "
       "wrist radii, geometry, and the scales of load cell, tracker and masses where it declares them";
   return {
       hidden

@@ -23,6 +23,10 @@ std::string skipWords(interchange::Skip reason) {
       return "a target in space, without joint angles";
     case Skip::repeated_row:
       return "says the same as an earlier row of its pose and step";
+    case Skip::in_instruction:
+      return "a joint target in an instruction, which has no name";
+    case Skip::joints_computed:
+      return "a joint target that is computed, given in part or handed on";
   }
   return {};
 }

@@ -113,8 +113,7 @@ TEST(CompensateProgram, ReplacesTargetsByTheControllersFigures) {
   EXPECT_EQ(json["program"]["in_space"], nlohmann::json::array({3}));
   for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(json["rows"][i]["command_deg"], other["rows"][i]["command_deg"]);
   // What a terminal shows of them are the controller's figures, too.
-  const Ran text =
-      runProgram("compensate" + quoted(day) + kQuick + "--postures" + quoted(postures), scratch.path());
+  const Ran text = runProgram("compensate" + quoted(day) + kQuick + "--postures" + quoted(postures), scratch.path());
   const double command_2 = json["rows"][0]["command_deg"][1].get<double>() - 90.0;
   EXPECT_NE(text.out.find(fmt::format("{:10.4f}", command_2)), std::string::npos) << text.out;
   EXPECT_NE(text.out.find("Angles as the controller states them (joint_reading)."), std::string::npos);
@@ -146,9 +145,9 @@ TEST(Plan, StatesAnglesAsTheControllerDoes) {
       scratch, "<joint_reading joint=\"2\" offset_deg=\"90\"/><joint_reading joint=\"3\" offset_deg=\"-90\"/>");
   restate(day);
   const fs::path out = scratch.path() / "plan.csv";
-  const Ran planned = runProgram("plan" + quoted(day) + "--springs-only --postures 3 --candidates 100 --out" +
-                                     quoted(out) + "--json -",
-                                 scratch.path());
+  const Ran planned =
+      runProgram("plan" + quoted(day) + "--springs-only --postures 3 --candidates 100 --out" + quoted(out) + "--json -",
+                 scratch.path());
   ASSERT_EQ(planned.status, 0) << planned.err;
   const auto plan = nlohmann::json::parse(planned.out);
   const auto cells = cellsOf(contentsOf(out));

@@ -97,8 +97,8 @@ TEST(Readme, ShowsWhatTheProgramPrints) {
 TEST(Compensation, ItsExampleIsWhatTheProgramPrints) {
   const ScratchFolder scratch;
   std::filesystem::create_directory_symlink(STIFFSCOPE_SOURCE_DIR "/samples", scratch.path() / "samples");
-  std::string script = "stiffscope() { env -u DISPLAY '" STIFFSCOPE_BINARY "' \"$@\"; }\ncd '" +
-                       scratch.path().string() + "'\n";
+  std::string script =
+      "stiffscope() { env -u DISPLAY '" STIFFSCOPE_BINARY "' \"$@\"; }\ncd '" + scratch.path().string() + "'\n";
   std::vector<std::string> shown;
   bool console = false, command = false;
   for (const std::string& line : linesOf(contentsOf(STIFFSCOPE_SOURCE_DIR "/docs/compensation.md"))) {

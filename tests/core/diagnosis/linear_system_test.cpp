@@ -48,9 +48,8 @@ TEST(LinearSystem, EachMeanHasTheNoiseOfItsOwnReadings) {
   };
   std::erase_if(campaign.loading->rows, [&](const campaign::LoadingReading& row) { return !left(row); });
   const auto readings = [&](int pose, int step, int target) {
-    return std::count_if(campaign.loading->rows.begin(), campaign.loading->rows.end(), [&](const auto& row) {
-      return row.pose == pose && row.step == step && row.target == target;
-    });
+    return std::count_if(campaign.loading->rows.begin(), campaign.loading->rows.end(),
+                         [&](const auto& row) { return row.pose == pose && row.step == step && row.target == target; });
   };
   diagnosis::SystemInput input{campaign, effects.input->noise, 0.0, 0.0, effects.input->models, true, false, {}};
   const diagnosis::LinearSystem data = diagnosis::linearSystem(input, effects.fit.state, {});
@@ -70,8 +69,8 @@ TEST(LinearSystem, EachMeanHasTheNoiseOfItsOwnReadings) {
   }
 }
 
-/// "sd above" of the tables that say where a gap is: of noise alone it is a standard normal number, though the states of
-/// a posture share their unloaded readings.
+/// "sd above" of the tables that say where a gap is: of noise alone it is a standard normal number, though the states
+/// of a posture share their unloaded readings.
 TEST(WhereDeflection, OfNoiseAloneIsAsOftenAboveAsANormalNumber) {
   const campaign::Campaign campaign = simulation::simulate(springsAlone(8));
   extended_model::EffectFit effects =

@@ -1,12 +1,15 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <numbers>
 #include <string>
 #include <vector>
 
+#include "core/compensation/compensate.h"
 #include "core/interchange/robot_log.h"
 #include "core/interchange/taught_program.h"
+#include "reports/text/text.h"
 #include "tests/core/interchange/refusal.h"
 
 // Where targets stand in programs. A target that is passed over without a word leaves a program that is compensated by
@@ -127,7 +130,7 @@ TEST(RapidTargets, TheImporterHasArraysAndListsInstructions) {
   const RobotLog read = log(with(kModule, {{"  jt:=[[15,5,0,0,20,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n", ""}}));
   EXPECT_EQ(namesOf(read), (Names{"j1", "ja{1}", "ja{2}", "jt"}));
   ASSERT_EQ(skippedLines(read), (Lines{10, 11}));
-  EXPECT_EQ(read.skipped[0].reason, Skip::no_readings);
+  EXPECT_EQ(read.skipped[0].reason, Skip::in_instruction);
   // Which of its two values a name stands for nobody knows.
   expectSays(interchange_test::refusalOf([] { log(kModule); }), {":12", "'jt'", "line 9 has it first"});
 }
@@ -183,7 +186,21 @@ TEST(KrlTargets, TheImporterHasElementsOfArraysAndListsInstructions) {
           "PTP {A1 14.0,A2 5.0,A3 0.0,A4 0.0,A5 20.0,A6 0.0}\nENDDAT\n");
   EXPECT_EQ(namesOf(data), (Names{"XP1", "XARR[1]", "XARR[2]", "XP3"}));
   ASSERT_EQ(skippedLines(data), (Lines{8}));
-  EXPECT_EQ(data.skipped[0].reason, Skip::no_readings);
+  EXPECT_EQ(data.skipped[0].reason, Skip::in_instruction);
+}
+
+TEST(ProgramText, CountsTheTargetsThatWereLeft) {
+  const TaughtProgram read = program(
+      "DEF PROG()\nDECL AXIS XP1\nXP1={A1 10,A2 5,A3 0,A4 0,A5 20,A6 0}\nPTP {A1 14,A2 5,A3 0,A4 0,A5 20,A6 0}\n"
+      "PTP {A1 5}\nXP1.A1=XP1.A1+45\nPTP_REL {A1 1,A2 0,A3 0,A4 0,A5 0,A6 0}\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\nEND\n");
+  ASSERT_EQ(read.log.samples.size(), 2u);
+  std::vector<compensation::CompensatedPosture> rows(2);
+  for (compensation::CompensatedPosture& row : rows) row.solved = true;
+  std::string text = reports::programText(read, "new.src", rows, 1e-6);
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  expectSays(text, {"2 of 5 joint targets", "1 target is refused", "in space", "(work.txt:8)", "3 targets are refused",
+                    "in part only", "(work.txt:5, 6, 7)"});
+  expectSays(refusal("DEF PROG()\nDECL AXIS XP1\nXP1.A1=5\nPTP XP1\nEND\n"), {"work.txt:3", "computed"});
 }
 
 const std::string kFanuc =
