@@ -5,7 +5,7 @@
 #include <string>
 #include <tuple>
 
-#include "core/interchange/state_join.h"
+#include "core/interchange/joined_state.h"
 
 // What a state takes from its samples of the log: parts that all ways of joining share.
 

@@ -2,7 +2,8 @@
 
 #include <vector>
 
-#include "core/preparation/prepare.h"
+#include "core/campaign/campaign.h"
+#include "core/preparation/finding.h"
 
 namespace stiffscope::preparation {
 
