@@ -171,6 +171,11 @@ ExtendedModel supportedModel(const preparation::PreparedCampaign& prepared, cons
   }
   EffectFit chosen = chosenEffects(spread ? *spread : prepared, study);
   describeAsDiagnosed(study, chosen);
+  // Chosen anew on the other postures, what they choose makes those left out worse: it is not this machine's.
+  if (!chosen.free.empty() && !(chosen.shrink.value > 0.0)) {
+    chosen = {};
+    chosen.notes.emplace_back(RemarkId::effects_do_not_help);
+  }
   // A long day's: the postures that the study has, without the effects, for what could still hide.
   campaign::Campaign seen;
   identification::Identification seen_by_springs;

@@ -202,6 +202,8 @@ void writeParameters(Html& html, const reports::ReportContent& content) {
   const auto write = [&](const reports::ReportCampaign& one) {
     const calibration::Calibration& calibration = one.accuracy->calibration;
     writeTable(html, axesTable(calibration));
+    if (const std::string caution = reports::geometryCaution(calibration); !caution.empty())
+      html.paragraph("Caution: " + caution + ".");
     const std::vector<std::string> unknown = reports::notIdentifiableWords(calibration);
     if (!unknown.empty()) html.paragraph("Not identifiable, or hardly:");
     html.list(unknown);

@@ -103,6 +103,8 @@ std::string calibrationText(const campaign::Campaign& campaign, const calibratio
   writeModels(calibration, options, out);
   writeEffects(calibration, out);
   writeAxes(calibration, out);
+  if (const std::string caution = geometryCaution(calibration); !caution.empty())
+    fmt::format_to(out, "\n{}\n", wrapped("Caution: " + caution + ".", 2));
   for (const Remark& note : calibration.notes) fmt::format_to(out, "\n{}\n", wrapped(words(note), 2));
   if (calibration.rejected.empty()) return text;
   fmt::format_to(out, "\nReadings left out by the fullest model: {}\n", calibration.rejected.size());

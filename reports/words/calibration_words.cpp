@@ -36,6 +36,19 @@ std::vector<std::string> effectIdsOf(const calibration::ArmFit& fit) {
   return ids;
 }
 
+std::string geometryCaution(const calibration::Calibration& calibration) {
+  std::vector<std::string> names;
+  for (const std::string& id : effectIdsOf(calibration.best().fit)) names.push_back(nameOfId(id));
+  if (names.empty()) return {};
+  return fmt::format(
+      "The geometry alone has taken in what it could of {}: by it positions are best where nothing else is corrected "
+      "for, "
+      "its axes are not the arm's, and their uncertainty is that of a machine without such effects. The arm's own axes "
+      "are "
+      "those fitted with the effects (axes_with_effects in JSON), for whoever corrects for the effects, too",
+      fmt::join(names, ", "));
+}
+
 std::string foldWords(const calibration::CalibrationOptions& options) {
   return fmt::format(
       "held out: each of {} folds predicted by what the others fit; posture i is in fold (i / {}) mod {}",

@@ -14,6 +14,9 @@ const char* nameOf(calibration::CalibratedModel model);  ///< "nominal", "geomet
 /// Ids of the effects in a fit, each once, in the order in which they were found; refused terms are not in it.
 std::vector<std::string> effectIdsOf(const calibration::ArmFit& fit);
 
+/// What the axes of the geometry alone are not, where effects beside it were found; empty where none were.
+std::string geometryCaution(const calibration::Calibration& calibration);
+
 /// "held out: each of 2 folds predicted by what the others fit; posture i is in fold (i / 1) mod 2"
 std::string foldWords(const calibration::CalibrationOptions& options);
 

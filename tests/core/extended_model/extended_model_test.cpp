@@ -8,8 +8,10 @@
 #include "core/compensation/compensate.h"
 #include "core/effects/all.h"
 #include "core/extended_model/effect_deflection.h"
+#include "core/extended_model/remarks.h"
 #include "core/identification/estimate.h"
 #include "core/io/input_error.h"
+#include "core/preparation/prepare.h"
 #include "core/simulation/equilibrium.h"
 #include "reports/words/remark_words.h"
 #include "tests/fixtures/extended_day.h"
@@ -223,6 +225,29 @@ TEST(ExtendedModel, WithoutEffectsNothingChanges) {
   EXPECT_TRUE(model.effects.added.empty());
   EXPECT_EQ(model.with.of(identification::Method::partial_pose).estimate.compliance,
             model.without.of(identification::Method::partial_pose).estimate.compliance);
+}
+
+// A joint whose stiffness goes with its angle is no effect of the list. What the list has that fits is not added where
+// it makes postures that chose nothing worse.
+TEST(SupportedModel, AddsNothingThatPredictsWorseThanSprings) {
+  int refused = 0;
+  for (const std::uint64_t seed : {11, 12, 13}) {
+    simulation::SimulationSpec spec = springsAlone(seed);
+    spec.machine.joints[2].rate_wave = simulation::JointWave{0.35, 1.0 + static_cast<double>(seed % 3), 0.4};
+    const preparation::PreparedCampaign prepared = preparation::prepareCampaign(simulation::simulate(spec));
+    const extended_model::ExtendedModel model =
+        extended_model::supportedModel(prepared, prepared.campaign, fewSubsets(2));
+    if (!model.effects.free.empty()) {
+      EXPECT_GT(model.effects.shrink.value, 0.0) << seed;
+      continue;
+    }
+    for (const Remark& note : model.effects.notes)
+      refused += note.is(extended_model::RemarkId::effects_do_not_help) ? 1 : 0;
+    EXPECT_EQ(model.with.of(identification::Method::partial_pose).estimate.compliance,
+              model.without.of(identification::Method::partial_pose).estimate.compliance);
+    EXPECT_FALSE(model.with.of(identification::Method::partial_pose).estimate.stated.empty());  // what could hide is in
+  }
+  EXPECT_GT(refused, 0);
 }
 
 TEST(EffectFit, SaysWhatIsMissing) {
