@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/io/units.h"
+#include "reports/words/calibration_words.h"
 #include "reports/words/day_words.h"
 #include "reports/words/listed.h"
 #include "reports/words/names.h"
@@ -177,9 +178,14 @@ std::vector<std::string> accuracyActions(const accuracy::AccuracyDiagnosis& accu
     const double nominal = calibration.of(CalibratedModel::nominal).held_out.rms;
     const double geometry = calibration.geometry().held_out.rms;
     if (geometry < nominal) {
-      add("Put the calibrated geometry into the controller or the off-line program: `stiffscope calibrate` writes it "
+      const bool alone = effectIdsOf(calibration.best().fit).empty();
+      add(fmt::format(
+          "Put the calibrated geometry into the controller or the off-line program: `stiffscope calibrate` writes it "
           "as "
-          "a URDF (`--urdf`) and as a table of axes (`--csv`).");
+          "a URDF (`--urdf`) and as a table of axes (`--csv`){}.",
+          alone ? ""
+                : ", for one that corrects for nothing else; one that corrects for the effects takes the axes fitted "
+                  "with them, from the JSON"));
     }
   }
   return actions;
