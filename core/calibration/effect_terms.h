@@ -57,8 +57,8 @@ struct EffectTerm {
   double most = 0.0;       ///< physical bound of its magnitude
   bool positive = false;   ///< a compliance: never negative
   int compliance_of = -1;  ///< the joint (from 0) whose compliance about its axis this is; -1: of none
-  std::function<JointVector(const Posture&)> angles;
-  std::function<Eigen::Vector3d(const Posture&, const ReflectorAt&)> offset;
+  std::function<JointVector(const Posture&)> angles = {};
+  std::function<Eigen::Vector3d(const Posture&, const ReflectorAt&)> offset = {};
 };
 
 /// Terms that come or stay away together: one joint's harmonic, one reflector's motion.

@@ -19,8 +19,8 @@ struct CauseEvidence {
   double chi2 = 0.0;    ///< of the change that it explains
   double left_p = 0.0;  ///< probability that chance leaves as much as is left
   double bic = 0.0;     ///< chi2 left + unknowns ln(postures): the lowest is the best
-  std::optional<Uncertain> size;  ///< of a cause with one unknown: rad; of growth m/m
-  double at_targets = 0.0;        ///< rms of the 3-D position by it, m; 0 of reflectors
+  std::optional<Uncertain> size = {};  ///< of a cause with one unknown: rad; of growth m/m
+  double at_targets = 0.0;             ///< rms of the 3-D position by it, m; 0 of reflectors
 };
 
 /// A change that was found: its numbers, their covariance and the degrees of freedom of that.

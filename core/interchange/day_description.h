@@ -95,23 +95,23 @@ enum class JoinBy { name, order, clock };
 struct PointsSource {
   Role role = Role::loading;
   JoinBy by = JoinBy::order;
-  std::string file;
+  std::string file = {};
   std::size_t line = 0;  ///< in DAY.xml
-  FileOptions options;
+  FileOptions options = {};
   NamePattern names;
-  std::string target, pose, step;  ///< of all rows, where given
-  int axis = -1;                   ///< from 0: the axis that turns; -1: names say it
-  std::vector<std::string> only;   ///< names that are kept; empty: those of the role
+  std::string target = {}, pose = {}, step = {};  ///< of all rows, where given
+  int axis = -1;                                  ///< from 0: the axis that turns; -1: names say it
+  std::vector<std::string> only = {};             ///< names that are kept; empty: those of the role
   campaign::PointFrame frame = campaign::PointFrame::tracker;
 };
 
 struct LogSource {
-  std::optional<Role> role;  ///< nullopt: of all points that no log has for itself
-  std::string file;
+  std::optional<Role> role = {};  ///< nullopt: of all points that no log has for itself
+  std::string file = {};
   std::size_t line = 0;
-  LogOptions options;
+  LogOptions options = {};
   NamePattern names;
-  std::optional<double> every_s;  ///< of a log alone: a posture every so many seconds, moving or not
+  std::optional<double> every_s = {};  ///< of a log alone: a posture every so many seconds, moving or not
 };
 
 /// Load-cell readings by pose and step.
