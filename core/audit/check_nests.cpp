@@ -157,10 +157,6 @@ preparation::AuditCheck stationsCheck(const AuditInput& input) {
   return check;
 }
 
-}  // namespace
-
-namespace {
-
 Findings ofMotion(const AuditInput& input) {
   if (input.stations) {
     Findings findings = driftChecks(input);
@@ -187,6 +183,9 @@ Findings checkNests(const AuditInput& input) {
     if (check.id != "nest_moved") continue;
     check.verdict = preparation::AuditVerdict::fail;
     check.message = *near;
+    // How far they scatter says nothing then.
+    check.value = check.limit = std::nullopt;
+    check.limit_source = {};
   }
   return findings;
 }

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -55,5 +56,19 @@ DayFiles readDayFiles(const DayDescription& day, std::vector<std::string>& warni
 /// A load step as a name or cell states it; 0 where it is empty. Throws InputError where it is no whole number, 0 or
 /// more; `file` and `line` are where it stands.
 int wholeStep(const std::string& file, std::size_t line, const std::string& step);
+
+/// The standard uncertainties that files of points state.
+struct StatedUncertainty {
+  double sigma = 0.0;                   ///< m, median over the readings of the rms of x, y, z
+  std::optional<double> over_declared;  ///< the same over the noise declared of the tracker, median; where it is
+  std::size_t compared = 0;             ///< readings that were compared with it
+};
+
+/// nullopt where no file states any.
+std::optional<StatedUncertainty> statedUncertainty(const std::vector<DayFiles::Points>& files,
+                                                   const std::optional<campaign::Tracker>& tracker);
+
+/// The warning of uncertainties more than a factor of 2 from the declared noise; `file` is DAY.xml.
+std::optional<std::string> warningOf(const StatedUncertainty& stated, const std::string& file);
 
 }  // namespace stiffscope::interchange

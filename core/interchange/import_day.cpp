@@ -12,7 +12,6 @@
 #include "core/interchange/day_names.h"
 #include "core/interchange/nest_times.h"
 #include "core/interchange/state_samples.h"
-#include "core/interchange/stated_uncertainty.h"
 #include "core/io/input_error.h"
 #include "core/io/read_file.h"
 #include "core/io/units.h"

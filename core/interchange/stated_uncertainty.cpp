@@ -1,4 +1,4 @@
-#include "core/interchange/stated_uncertainty.h"
+#include "core/interchange/day_files.h"
 
 #include <fmt/format.h>
 #include <algorithm>

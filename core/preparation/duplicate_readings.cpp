@@ -1,4 +1,4 @@
-#include "core/preparation/duplicate_readings.h"
+#include "core/preparation/repeatability.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,6 @@
 #include "core/campaign/row_names.h"
 #include "core/numerics/distributions.h"
 #include "core/preparation/remarks.h"
-#include "core/preparation/repeatability.h"
 
 namespace stiffscope::preparation {
 

@@ -12,7 +12,6 @@
 #include "core/io/input_error.h"
 #include "core/numerics/parallel.h"
 #include "core/preparation/drift_nests.h"
-#include "core/preparation/duplicate_readings.h"
 #include "core/preparation/nest_network.h"
 #include "core/preparation/remarks.h"
 #include "core/preparation/repeatability.h"

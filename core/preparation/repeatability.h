@@ -22,6 +22,12 @@ struct RepeatScatter {
   std::vector<RejectedReading> outliers;  ///< repeats that stand apart from the others of their state
 };
 
+/// Readings that repeat another's coordinates to the last digit: the other copied, or the beam still on the other
+/// reflector. Two readings of one reflector at one place come out alike by chance where the file has few digits:
+/// with a last digit of r and a noise of s per coordinate, each pair does with the product of r / (2 sqrt(pi) s). As
+/// many such pairs as chance gives a table (Poisson, at a thousandth) are none.
+std::vector<RejectedReading> duplicateReadings(const campaign::Campaign& campaign);
+
 /// From the loading's repeats. A repeat is an outlier where its squared distance from the mean of the others,
 /// weighted by the declared noise (or by the campaign's own median scatter where that is larger), exceeds
 /// chi-square's limit. Of two repeats both are named: nobody can tell which is wrong.

@@ -237,9 +237,8 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
       return "; leaving out any one nest does not mend it: more than one moved, or the readings are wrong";
     case audit::RemarkId::nests_too_near:
       return fmt::format(
-          "nests {} and {} stand {} apart, closer than two reflectors can: the coordinates are in another unit than "
-          "mm, "
-          "or two names are of one nest; nothing of the station's motion is to be believed",
+          "nests {} and {} stand {} apart, closer than two reflectors can: the coordinates are in another unit "
+          "than mm, or two names are of one nest; nothing of the station's motion is to be believed",
           values.name(0), values.name(1), lengthWords(values.number(2), 1));
     case audit::RemarkId::of_station:
       return values.name(0) + ": " + words(values.remark(1));

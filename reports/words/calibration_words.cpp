@@ -41,11 +41,10 @@ std::string geometryCaution(const calibration::Calibration& calibration) {
   for (const std::string& id : effectIdsOf(calibration.best().fit)) names.push_back(nameOfId(id));
   if (names.empty()) return {};
   return fmt::format(
-      "The geometry alone has taken in what it could of {}: by it positions are best where nothing else is corrected "
-      "for, "
-      "its axes are not the arm's, and their uncertainty is that of a machine without such effects. The arm's own axes "
-      "are "
-      "those fitted with the effects (axes_with_effects in JSON), for whoever corrects for the effects, too",
+      "The geometry alone has taken in what it could of {}: by it positions are best where nothing else is "
+      "corrected for, its axes are not the arm's, and their uncertainty is that of a machine without such effects. "
+      "The arm's own axes are those fitted with the effects (axes_with_effects in JSON), for whoever corrects for "
+      "the effects, too",
       fmt::join(names, ", "));
 }
 

@@ -163,15 +163,16 @@ std::vector<std::string> scopeWords(DayKind kind, bool limits, bool hidden) {
   }
   const std::string shared =
       "the scatter between postures (sandwich estimate, CR2) and what they all share and the campaign tells of: "
-      "frames, "
-      "wrist radii, geometry, and the scales of load cell, tracker and masses where it declares them";
+      "frames, wrist radii, geometry";
   return {
       hidden
           ? "Uncertainty: U of a stiffness, about 95\u00a0%, is the farther end of the interval that holds " + shared +
-                "; and what effects in the model or beside it could still do to each joint. The budget has each part."
+                ", and the scales of load cell, tracker and masses where it declares them; and what effects in the "
+                "model or beside it could still do to each joint. The budget has each part."
           : "Uncertainty: the standard uncertainty u of a compliance holds " + shared +
-                "; that of a stiffness is u(c)/c², to first order. U = k u with Student's t for about 95\u00a0%. What "
-                "effects beside joint springs do is in it as far as it scatters between postures.",
+                "; that of a stiffness is u(c)/c², to first order. U = k u with Student's t for about 95\u00a0%. The "
+                "scales of load cell and tracker, of which no reading tells, are not in it. What effects beside joint "
+                "springs do is in it as far as it scatters between postures.",
       rule +
           "A joint counts as seen where the load "
           "turns it by more than three times what wrench, frame and angle uncertainty alone would. A stiffness is "

@@ -24,9 +24,8 @@ constexpr const char* kByOwnWeight =
 /// In the order of UnloadedEffect.
 constexpr std::array kUnloadedWords{
     UnloadedWords{UnloadedEffect::kinematic_error, "lengths, directions or joint zeros differ from the URDF",
-                  "use the calibrated geometry instead of the URDF's: fitted with the other effects where these are "
-                  "corrected for, "
-                  "too, else the geometry alone"},
+                  "use the calibrated geometry instead of the URDF's: fitted with the other effects where these "
+                  "are corrected for, too, else the geometry alone"},
     UnloadedWords{UnloadedEffect::joint_compliance, "joints twist under the weight of arm and tool", kByOwnWeight},
     UnloadedWords{UnloadedEffect::link_compliance, "a link bends and twists under its own weight", kByOwnWeight},
     UnloadedWords{UnloadedEffect::bearing_tilt, "a joint also gives about the two directions across its axis",

@@ -78,6 +78,8 @@ TEST(UnloadedReport, SpeaksOfAccuracy) {
   for (const char* name : {"accuracy-curves", "accuracy-map", "accuracy-before", "over-the-day", "station"})
     expectDrawn(out / (std::string(name) + ".png"));
   const json results = json::parse(contentsOf(out / "results.json"));
+  // Fours of postures, as the diagnosis takes them: said where the figures stand.
+  EXPECT_NE(page.find("posture i is in fold (i / 4) mod 2"), std::string::npos);
   const json& campaign = results["campaigns"][0];
   for (const char* key : {"preparation", "audit", "frames", "identify", "calibration", "diagnosis"})
     EXPECT_TRUE(campaign.contains(key)) << key;

@@ -36,6 +36,16 @@ TEST(DayWords, TheAuditsSentenceSaysWhetherTheReadingsServeAndWhatSpoilsThem) {
             "The audit fails by 5 checks. As they were read, the readings are not fit to identify stiffnesses from.");
 }
 
+TEST(DayWords, WhatUIsOfIsThatOfTheModel) {
+  // Scales that the campaign declares are in the intervals of the default model, not in those of springs alone.
+  const std::string springs = scopeWords(DayKind::loaded).front(),
+                    model = scopeWords(DayKind::loaded, false, true).front();
+  EXPECT_NE(springs.find("scales of load cell and tracker, of which no reading tells, are not in it"),
+            std::string::npos);
+  EXPECT_NE(model.find("the scales of load cell, tracker and masses where it declares them"), std::string::npos);
+  EXPECT_NE(model.find("what effects in the model or beside it could still do"), std::string::npos);
+}
+
 TEST(DayWords, EveryCheckHasPlainWordsThatAreNotItsName) {
   for (const preparation::AuditCheckId& check : preparation::kAuditCheckIds) {
     const std::string id(check.id), words = amissWords(id);

@@ -145,6 +145,26 @@ TEST(MeasuredFrames, WristCentreAndTableOne) {
   EXPECT_LT((base_from_r0 * frames.wrist.reflector_barycentre_in_r0 - barycentre).norm(), kExact);
 }
 
+// The pose of the station that read the wrist's sweep moves all reflectors' spheres alike: it is in the mean of Table I
+// as in the common centre.
+TEST(MeasuredFrames, TheStationsPoseIsInTheMeanOfTableOne) {
+  SimulatedLab lab;
+  lab.withoutMasses();
+  campaign::Campaign campaign = lab.empty();
+  lab.addCircleSweeps(campaign);
+  lab.addWristSweep(campaign);
+  const frames::WristCentre alone = frames::measureFrames(campaign).wrist;
+  campaign::StationPlace second{"B"};
+  second.covariance.bottomRightCorner<3, 3>().diagonal() << 1e-9, 4e-9, 9e-9;
+  campaign.stations = {{"A"}, second};
+  for (campaign::WristReading& reading : campaign.wrist_sweep->rows) reading.station = 1;
+  const frames::WristCentre read = frames::measureFrames(campaign).wrist;
+  ASSERT_TRUE(alone.measured && read.measured);
+  const Eigen::Matrix3d of_centre = read.covariance - alone.covariance;
+  EXPECT_NEAR(of_centre.trace(), 14e-9, 1e-12);
+  EXPECT_LT((read.table_mean_covariance - alone.table_mean_covariance - of_centre).norm(), 1e-12);
+}
+
 TEST(MeasuredFrames, ArmsOfFiveAndSevenJointsComeBack) {
   for (const ChainArm& chain : {fiveAxisChain(), sevenAxisChain()}) {
     SCOPED_TRACE(chain.joints());

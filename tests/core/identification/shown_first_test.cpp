@@ -67,6 +67,16 @@ TEST(ShownFirst, WithinTheSpreadOfTheDifferenceTheDecoupledGoesFirst) {
   EXPECT_EQ(identification::methodShownFirst(result)->method, Method::partial_pose);
 }
 
+TEST(ShownFirst, FarBehindIsNotAsGoodHoweverTheSubsetsScatter) {
+  Identification result;
+  judge(of(result, Method::partial_pose), {0.55, 0.50, 0.52});
+  judge(of(result, Method::decoupled_partial_pose), {0.50, -4.00, 0.02});  // 168 % behind, sd 245 %
+  const auto found = identification::methodShownFirst(result);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->method, Method::partial_pose);
+  EXPECT_TRUE(found->reason.is(RemarkId::shown_compensates_most));
+}
+
 TEST(ShownFirst, WhereTheReflectorsDoNotJudgePWristDoes) {
   Identification result;
   judge(of(result, Method::partial_pose), {}, {0.7, 0.8});
