@@ -23,7 +23,8 @@ struct PointSeries {
   PointMark mark = PointMark::disc;
   bool joined = false;  ///< a line from each point to the next
   std::vector<PlotPoint> points;
-  std::vector<double> errors;  ///< half-length of each whisker along y; empty, or one a point (0: none)
+  std::vector<PlotPoint> line = {};  ///< of a shape: under the points, where what joins them is not straight
+  std::vector<double> errors;        ///< half-length of each whisker along y; empty, or one a point (0: none)
 };
 
 /// One diagram. `categories` name the places x = 0, 1, 2, ...; without them x is a number.
@@ -53,6 +54,7 @@ struct PointChart {
   std::string subtitle;
   std::string note;  ///< under the picture
   int columns = 1;
+  bool legend_a_panel = false;  ///< each diagram has its own: their series are of different things that look alike
   std::vector<PointPanel> diagrams;
   std::vector<ShapePanel> shapes;
 };

@@ -70,10 +70,10 @@ void drawSpikes(const std::string& file, const campaign::Campaign& campaign, con
   io::writeFileWhole(file, std::string_view(reinterpret_cast<const char*>(png.data()), png.size()));
 }
 
-/// The diagnosis with the stiffnesses that identify states.
+/// The diagnosis with the stiffnesses that identify states: its subsets decide which method's are shown.
 diagnosis::Diagnosis diagnosed(const preparation::PreparedCampaign& prepared) {
   if (!identification::whatLoadsLack(prepared.campaign).empty()) return diagnosis::diagnose(prepared);
-  return diagnosisOf(prepared, modelOf(prepared, {}, identification::valuesOnly()));
+  return diagnosisOf(prepared, modelOf(prepared, {}, {}));
 }
 
 int diagnoseWithSpikes(DiagnoseArguments& arguments) {

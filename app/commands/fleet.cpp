@@ -6,6 +6,7 @@
 #include "app/command_line.h"
 #include "app/figures/result_charts.h"
 #include "app/fleet/fleet_work.h"
+#include "app/fleet/processes.h"
 #include "app/fleet/slurm.h"
 #include "app/options.h"
 #include "app/output.h"
@@ -89,8 +90,8 @@ int writeFleet(const FleetRequest& request, const std::vector<FoundCampaign>& fo
 
 std::vector<std::string> fleetWordsOf(const FleetRequest& request) {
   std::vector<std::string> words{"fleet"};
-  words.insert(words.end(), request.folders.begin(), request.folders.end());
-  words.insert(words.end(), {"--out", request.out.string()});
+  for (const std::string& folder : request.folders) words.push_back(pathWord(folder));
+  words.insert(words.end(), {"--out", pathWord(request.out)});
   if (request.reports) words.emplace_back("--reports");
   if (request.springs_only) words.emplace_back("--springs-only");
   return words;

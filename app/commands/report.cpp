@@ -311,16 +311,10 @@ int writeReport(const ReportArguments& arguments) {
   reports::ReportContent content;
   for (const std::string& folder : arguments.campaigns) {
     const Result& one = results.emplace_back(folder, arguments, options);
-    content.campaigns.push_back({one.campaign(),
-                                 one.identification(),
-                                 &one.audited,
-                                 &one.prepared.preparation,
-                                 &one.prepared.drift.rounds,
-                                 one.diagnosis ? &*one.diagnosis : nullptr,
-                                 one.improved ? &*one.improved : nullptr,
-                                 one.accuracy ? &*one.accuracy : nullptr,
-                                 {},
-                                 one.workspace ? &*one.workspace : nullptr});
+    content.campaigns.push_back({one.campaign(), one.identification(), &one.audited, &one.prepared.preparation,
+                                 &one.prepared.drift.rounds, one.diagnosis ? &*one.diagnosis : nullptr,
+                                 one.improved ? &*one.improved : nullptr, one.accuracy ? &*one.accuracy : nullptr,
+                                 accuracy::kDiagnosisFolds, one.workspace ? &*one.workspace : nullptr});
   }
   content.avoided = reports::avoidedByEncoders(content.campaigns);
   content.compare_with_paper = arguments.paper;

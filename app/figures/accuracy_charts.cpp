@@ -57,6 +57,19 @@ render::PointSeries curveOf(const std::vector<ReadingError>& errors, CalibratedM
   return curve;
 }
 
+/// The calibrated models whose largest errors are half of the largest of all at most: what a second panel shows larger.
+std::vector<CalibratedModel> enlargedModels(const std::vector<ReadingError>& errors,
+                                            const std::vector<CalibratedModel>& models) {
+  const auto largest = [&errors](CalibratedModel model) { return calibration::errorLengths(errors, model).back(); };
+  double most = 0.0;
+  for (const CalibratedModel model : models) most = std::max(most, largest(model));
+  std::vector<CalibratedModel> enlarged;
+  for (const CalibratedModel model : models) {
+    if (model != CalibratedModel::nominal && largest(model) <= 0.5 * most) enlarged.push_back(model);
+  }
+  return enlarged;
+}
+
 }  // namespace
 
 render::PointChart accuracyCurves(const reports::ReportCampaign& one) {
@@ -65,19 +78,21 @@ render::PointChart accuracyCurves(const reports::ReportCampaign& one) {
   render::PointChart chart;
   chart.title = "Position error before and after, share of readings below";
   chart.subtitle = fmt::format("{}; {}", reports::asIs(one.campaign.name), judgedWords(calibration));
-  chart.columns = 2;
   render::PointPanel all, near;
   all.title = "All models";
   all.y_title = "Share of readings (%)";
-  near.title = "Without the nominal one, enlarged";
-  for (const CalibratedModel model : drawnModels(calibration)) {
-    all.series.push_back(curveOf(errors, model));
-    if (model != CalibratedModel::nominal) near.series.push_back(curveOf(errors, model));
-  }
-  for (render::PointPanel* panel : {&all, &near}) {
-    panel->x_title = "Position error, 3-D (mm)";
-    chart.diagrams.push_back(std::move(*panel));
-  }
+  const std::vector<CalibratedModel> models = drawnModels(calibration);
+  for (const CalibratedModel model : models) all.series.push_back(curveOf(errors, model));
+  const std::vector<CalibratedModel> enlarged = enlargedModels(errors, models);
+  for (const CalibratedModel model : enlarged) near.series.push_back(curveOf(errors, model));
+  if (enlarged.size() + 1 == models.size())
+    near.title = "Without the nominal one, enlarged";
+  else if (!enlarged.empty())
+    near.title = fmt::format("{}, enlarged", reports::capitalised(reports::shortModelWords(enlarged.back())));
+  chart.diagrams.push_back(std::move(all));
+  if (!enlarged.empty()) chart.diagrams.push_back(std::move(near));
+  for (render::PointPanel& panel : chart.diagrams) panel.x_title = "Position error, 3-D (mm)";
+  chart.columns = static_cast<int>(chart.diagrams.size());
   return chart;
 }
 
@@ -106,15 +121,16 @@ namespace {
 
 constexpr std::size_t kMostPlaces = 1200;  // more in one map hide each other
 
-/// From small to large: lightness falls, so that a grey print and colour-blind eyes see it, too.
-constexpr std::array<render::Colour, 8> kByError{{{181, 222, 43},
-                                                  {110, 206, 88},
-                                                  {53, 183, 121},
-                                                  {31, 158, 137},
-                                                  {38, 130, 142},
-                                                  {49, 104, 142},
-                                                  {66, 64, 134},
-                                                  {68, 1, 84}}};
+/// From small to large: lightness falls, so that a grey print and colour-blind eyes see it, too. Hues go all the way
+/// round, so that they stay apart where the page in the dark turns lightness over, too (a test).
+constexpr std::array<render::Colour, 8> kByError{{{255, 193, 82},
+                                                  {70, 214, 29},
+                                                  {4, 184, 123},
+                                                  {7, 163, 145},
+                                                  {14, 140, 164},
+                                                  {81, 100, 170},
+                                                  {157, 9, 148},
+                                                  {61, 18, 70}}};
 
 /// Limits between the colours, m, ascending: of the series 1-2-5, from the better half by the best model to the largest
 /// by the nominal one.
@@ -173,7 +189,7 @@ render::ShapePanel mapPanel(const std::vector<ReadingError>& errors, CalibratedM
   for (std::size_t c = 0; c <= limits.size(); ++c) {
     render::PointSeries series;
     series.name = classWords(limits, c);
-    series.colour = kByError[c * (kByError.size() - 1) / limits.size()];
+    series.colour = kByError[(2 * c * (kByError.size() - 1) + limits.size()) / (2 * limits.size())];
     panel.series.push_back(std::move(series));
   }
   for (const std::size_t i : preparation::evenlySpreadIndices(errors.size(), kMostPlaces)) {
@@ -185,7 +201,7 @@ render::ShapePanel mapPanel(const std::vector<ReadingError>& errors, CalibratedM
   }
   render::PointSeries base;
   base.name = "base_link";
-  base.colour = render::colours::kInk;
+  base.colour = render::colours::kSeries[1];  // ink and the largest errors are one white in the dark
   base.mark = render::PointMark::square;
   base.points = {{-extent.middle.x(), -extent.middle.y()}};
   panel.series.push_back(std::move(base));

@@ -9,7 +9,8 @@
 namespace stiffscope::app {
 
 /// Distribution of the 3-D position errors: share of the readings below an error, mm, a curve a model; all models, and
-/// the calibrated ones enlarged. Held out where there are folds.
+/// enlarged the calibrated ones whose largest error is half of the largest of all at most, where there are such. Held
+/// out where there are folds.
 render::PointChart accuracyCurves(const reports::ReportCampaign& one);
 reports::Figure describeAccuracyCurves(const reports::ReportCampaign& one);
 

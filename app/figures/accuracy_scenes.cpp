@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <algorithm>
+#include <set>
 
 #include "app/figures/arm_scenes.h"
 #include "core/calibration/position_errors.h"
@@ -18,9 +19,19 @@ namespace stiffscope::app {
 using calibration::CalibratedModel;
 using calibration::ReadingError;
 
+std::set<std::size_t> namedPostures(const calibration::Calibration& calibration,
+                                    const std::vector<ReadingError>& errors) {
+  std::set<std::size_t> named;
+  for (const CalibratedModel model : {CalibratedModel::geometry, CalibratedModel::effects}) {
+    if (model == CalibratedModel::effects && calibration.best().fit.parts.empty()) continue;
+    for (const ReadingError& worst : calibration::worstPostures(errors, model, 1)) named.insert(worst.posture);
+  }
+  return named;
+}
+
 namespace {
 
-/// Postures that are drawn, pale, with what a model leaves at each reflector.
+/// Postures that are drawn, pale, with what a model leaves at each reflector; those that captions name among them.
 render::ArmScene errorScene(const reports::ReportCampaign& one, const std::vector<ReadingError>& errors,
                             CalibratedModel model) {
   const frames::Frames& frames = one.identification.frames;
@@ -28,11 +39,13 @@ render::ArmScene errorScene(const reports::ReportCampaign& one, const std::vecto
   const Eigen::Isometry3d& r0_from_base = frames.arm.r0_from_base_link;
   const Eigen::Vector3d up(0.0, 0.0, heightOfR0(frames));
   const std::size_t every = (errors.size() + kMostArrows - 1) / kMostArrows;
+  const std::set<std::size_t> named = namedPostures(one.accuracy->calibration, errors);
   render::ArmScene scene;
   scene.frame_origin = up;
   std::size_t posture = day.postures.size();
   for (const ReadingError& error : errors) {
-    if (error.posture % every != 0 || !error.of(model).allFinite()) continue;
+    if (error.posture % every != 0 && !named.contains(error.posture)) continue;
+    if (!error.of(model).allFinite()) continue;
     if (error.posture != posture) {
       posture = error.posture;
       scene.poses.push_back(bareArm(frames, robot::postureAt(frames.arm.arm, day.postures[posture].q)));
@@ -80,7 +93,8 @@ reports::Figure describeAccuracyBefore(const reports::ReportCampaign& one, const
       "the "
       "posture are the machine's; noise would point anywhere.",
       render::factorText(*scenes.before.magnification), longestWords(one, CalibratedModel::geometry));
-  if (drawn < all) figure.caption += fmt::format(" Drawn: {} of {} postures.", drawn, all);
+  if (drawn < all)
+    figure.caption += fmt::format(" The picture has {} of {} postures, evenly chosen, and the worst.", drawn, all);
   figure.alt = "Postures of the arm, pale, with an arrow at each reflector for what the calibrated geometry leaves.";
   return figure;
 }
@@ -93,8 +107,8 @@ reports::Figure describeAccuracyAfter(const reports::ReportCampaign& one, const 
   figure.id = "accuracy-after";
   figure.title = "What is left with the effects in the model";
   figure.caption = fmt::format(
-      "The same as the figure before, to the same scale ({} times), with {} in the model; {}. Where long arrows stay, "
-      "something else is there.",
+      "The postures of the first page's figure, to its scale ({} times), with {} in the model; {}. Where long arrows "
+      "stay, something else is there.",
       render::factorText(*scenes.after.magnification), fmt::join(names, ", "),
       longestWords(one, CalibratedModel::effects));
   figure.alt = "The same postures of the arm with shorter arrows where the effects explain what was left.";

@@ -323,21 +323,36 @@ const diagnosis::PointGap* gapOf(const diagnosis::Diagnosis& diagnosis, int pose
   return found == diagnosis.at_points.end() ? nullptr : &*found;
 }
 
-/// Of the load cases that the diagnosis looked at (of a long day a hundred) every so many.
+}  // namespace
+
+const diagnosis::PointGap& longestGap(const diagnosis::Diagnosis& diagnosis, GapVector left) {
+  return *std::max_element(diagnosis.at_points.begin(), diagnosis.at_points.end(),
+                           [left](const diagnosis::PointGap& a, const diagnosis::PointGap& b) {
+                             return (a.*left).norm() < (b.*left).norm();
+                           });
+}
+
+namespace {
+
+/// Of the load cases that the diagnosis looked at (of a long day a hundred) every so many, and those that captions
+/// name.
 std::vector<std::size_t> drawnCases(const reports::ReportCampaign& one) {
   std::set<int> diagnosed;
   for (const diagnosis::PointGap& gap : one.diagnosis->at_points) diagnosed.insert(gap.pose);
   const std::size_t arrows = one.diagnosis->at_points.size(), every = (arrows + kMostArrows - 1) / kMostArrows;
+  const std::set<int> named{longestGap(*one.diagnosis, &diagnosis::PointGap::before).pose,
+                            longestGap(*one.diagnosis, &diagnosis::PointGap::after).pose};
   std::vector<std::size_t> drawn;
   std::size_t seen = 0;
   for (std::size_t i = 0; i < one.identification.cases.size(); ++i) {
-    if (diagnosed.contains(one.identification.cases[i].pose) && seen++ % every == 0) drawn.push_back(i);
+    const int pose = one.identification.cases[i].pose;
+    if (diagnosed.contains(pose) && (seen++ % every == 0 || named.contains(pose))) drawn.push_back(i);
   }
   return drawn;
 }
 
 /// The postures, pale, with one of the two vectors at each reflector.
-render::ArmScene sceneOf(const reports::ReportCampaign& one, Eigen::Vector3d diagnosis::PointGap::*left) {
+render::ArmScene sceneOf(const reports::ReportCampaign& one, GapVector left) {
   render::ArmScene scene;
   scene.frame_origin = {0.0, 0.0, heightOfR0(one.identification.frames)};
   for (const std::size_t i : drawnCases(one)) {
@@ -357,14 +372,11 @@ render::ArmScene sceneOf(const reports::ReportCampaign& one, Eigen::Vector3d dia
 }
 
 /// The largest vector, and the posture and reflector that have it.
-std::string largestWords(const reports::ReportCampaign& one, Eigen::Vector3d diagnosis::PointGap::*left) {
-  const auto largest = std::max_element(one.diagnosis->at_points.begin(), one.diagnosis->at_points.end(),
-                                        [left](const diagnosis::PointGap& a, const diagnosis::PointGap& b) {
-                                          return (a.*left).norm() < (b.*left).norm();
-                                        });
-  return fmt::format("the longest is {}, of {} in posture {}", reports::shownLength(((*largest).*left).norm(), 2),
-                     reports::pointName(one.campaign.targets[static_cast<std::size_t>(largest->target)].id),
-                     reports::asIs(one.campaign.pose_ids[static_cast<std::size_t>(largest->pose)]));
+std::string largestWords(const reports::ReportCampaign& one, GapVector left) {
+  const diagnosis::PointGap& largest = longestGap(*one.diagnosis, left);
+  return fmt::format("the longest is {}, of {} in posture {}", reports::shownLength((largest.*left).norm(), 2),
+                     reports::pointName(one.campaign.targets[static_cast<std::size_t>(largest.target)].id),
+                     reports::asIs(one.campaign.pose_ids[static_cast<std::size_t>(largest.pose)]));
 }
 
 }  // namespace
@@ -407,7 +419,7 @@ reports::Figure describeGapBefore(const reports::ReportCampaign& one, const GapS
   const std::size_t drawn = scenes.before.poses.size(), all = one.identification.cases.size();
   if (drawn < all) {
     figure.caption +=
-        fmt::format(" Drawn: {} of {} postures; the longest is of all the diagnosis looked at.", drawn, all);
+        fmt::format(" The picture has {} of {} postures; the longest is of all the diagnosis looked at.", drawn, all);
   }
   figure.alt = "Postures of the arm, pale, with an arrow at each reflector for what the stiffnesses leave.";
   return figure;

@@ -2,9 +2,11 @@
 
 #include <cstddef>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "core/calibration/position_errors.h"
 #include "core/identification/identify.h"
 #include "render/arm_scene.h"
 #include "reports/report_content.h"
@@ -63,6 +65,17 @@ reports::Figure describeAllPostures(const reports::ReportCampaign& one, double m
 struct GapScenes {
   render::ArmScene before, after;
 };
+
+/// What stiffnesses alone leave, or with the verdict's effects (PointGap::before, after).
+using GapVector = Eigen::Vector3d diagnosis::PointGap::*;
+
+/// The longest of all; there must be one. Pictures and scenes of a part of a day have the postures that captions name.
+const diagnosis::PointGap& longestGap(const diagnosis::Diagnosis& diagnosis, GapVector left);
+
+/// The postures (indices of the day's) that captions of a day without a load name: those that the calibrated geometry
+/// and the effects miss most.
+std::set<std::size_t> namedPostures(const calibration::Calibration& calibration,
+                                    const std::vector<calibration::ReadingError>& errors);
 
 inline constexpr std::size_t kMostArrows = 90;  ///< of a scene; more in one picture hide each other
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <set>
 
 #include "core/io/units.h"
 #include "core/preparation/subsample.h"
@@ -68,7 +69,7 @@ template <class Answer>
 render::DotRowChart classesChart(const Answer& answer) {
   render::DotRowChart chart;
   chart.title = "Which effects this data can tell apart, and from what size on";
-  chart.x_title = "Smallest size that would have been seen, rms per coordinate (µm)";
+  chart.x_title = "Smallest size seen, rms per coordinate (µm)";  // beside the groups there is no room for more
   for (const auto& size : answer.detectable) {
     render::DotRow row{reports::effectName(size.effect), NAN, {}, present(answer, size.effect)};
     if (size.size)
@@ -108,6 +109,21 @@ std::optional<render::DotRowChart> effectClasses(const reports::ReportCampaign& 
 
 namespace {
 
+/// Effects that the verdict names as one although the postures would part them: the readings, with their noise, do not.
+template <class Answer>
+std::vector<std::string> notParted(const Answer& answer) {
+  std::vector<std::string> names;
+  for (const auto& entry : entriesOf(answer)) {
+    const bool joined = std::any_of(answer.aliases.begin(), answer.aliases.end(), [&entry](const auto& alias) {
+      return std::all_of(entry.effects.begin(), entry.effects.end(), [&alias](const auto effect) {
+        return std::find(alias.begin(), alias.end(), effect) != alias.end();
+      });
+    });
+    if (entry.effects.size() > 1 && !joined) names.push_back(reports::effectNames(entry.effects));
+  }
+  return names;
+}
+
 /// "A line joins effects that can look alike here, ..."; each class of aliases of two or more.
 template <class Answer>
 std::string aliasWords(const Answer& answer, const char* how_large) {
@@ -115,13 +131,38 @@ std::string aliasWords(const Answer& answer, const char* how_large) {
   for (const auto& alias : answer.aliases) {
     if (alias.size() > 1) classes.push_back(reports::effectNames(alias));
   }
+  const std::vector<std::string> together = notParted(answer);
+  if (classes.empty() && !together.empty()) {
+    return fmt::format("By the postures alone no two effects look alike; these readings do not part {}.",
+                       fmt::join(together, "; "));
+  }
   if (classes.empty()) return "No two effects look alike here: whatever is large enough is named alone.";
-  return fmt::format("A line joins effects that can look alike here{}: {}. The others are told apart.", how_large,
-                     fmt::join(classes, "; "));
+  return fmt::format("A line joins effects that can look alike here{}: {}. {}.", how_large, fmt::join(classes, "; "),
+                     together.empty() ? "The others are told apart"
+                                      : fmt::format("These readings do not part {} either", fmt::join(together, "; ")));
+}
+
+/// The size in its words that all testable effects have; empty where they differ, or where there is one alone.
+template <class Answer>
+std::string commonSize(const Answer& answer) {
+  std::set<std::string> sizes;
+  std::size_t tested = 0;
+  for (const auto& effect : answer.detectable) {
+    if (!effect.size) continue;
+    ++tested;
+    sizes.insert(reports::fixed(*effect.size / io::kMicrometre, 1));
+  }
+  return tested > 1 && sizes.size() == 1 ? *sizes.begin() : std::string();
 }
 
 template <class Answer>
 std::string sizeWords(const Answer& answer) {
+  const std::string common = commonSize(answer);
+  if (!common.empty()) {
+    const bool limit = common == reports::fixed(answer.size_limit / io::kMicrometre, 1);
+    return fmt::format(" All would have been seen from one size on, {}\u00a0µm{}: the dots do not tell them apart.",
+                       common, limit ? ", below which one is too small to matter (dashed)" : "");
+  }
   std::string text = " An effect smaller than its dot would have passed unseen";
   if (answer.size_limit > 0.0) {
     text += fmt::format("; one below {}\u00a0µm (dashed) is too small to matter",

@@ -16,16 +16,18 @@
 namespace stiffscope::app {
 
 struct FigureOptions {
-  bool with_paper = false;  ///< the paper's means as dashed lines where the campaign's double encoders are declared
+  /// The paper's means as dashed lines where the campaign's double encoders are declared, and which of its figures ours
+  /// are the counterparts of.
+  bool with_paper = false;
 };
 
 /// All pictures of a report, drawn: per campaign the deflection scene, all postures (up to 60), Fig. 7, Fig.
 /// 8 (where PP and DPP both are available), the spread over subsets, the stiffnesses; what
 /// is left by direction, the sweeps' circles and spheres, the station by the floor nests; what the model
 /// misses, on the arm, by posture and by effect; then the double encoders where both states are there. What
-/// the data does not have is left out. With several campaigns ids end in "-1", "-2", in their order, and
-/// titles say which campaign. `avoided`: by the double encoders, of these campaigns. Throws std::runtime_error when
-/// offscreen rendering is not to be had.
+/// the data does not have is left out. No id is that of a section of the page. With several campaigns ids end
+/// in "-1", "-2", in their order, and titles say which campaign. `avoided`: by the double encoders, of these
+/// campaigns. Throws std::runtime_error when offscreen rendering is not to be had.
 std::vector<reports::Figure> makeFigures(const std::vector<reports::ReportCampaign>& campaigns,
                                          const FigureOptions& options = {},
                                          const std::optional<reports::AvoidedByEncoders>& avoided = {});
@@ -57,8 +59,8 @@ render::GroupedBarChart residualBars(const reports::ReportCampaign& one);
 /// The paper's Fig. 8: what PP and DPP leave, by themselves. No series where neither is available.
 render::GroupedBarChart residualZoom(const reports::ReportCampaign& one);
 
-reports::Figure describeResidualBars(const reports::ReportCampaign& one);
-reports::Figure describeResidualZoom(const reports::ReportCampaign& one);
+reports::Figure describeResidualBars(const reports::ReportCampaign& one, bool with_paper = false);
+reports::Figure describeResidualZoom(const reports::ReportCampaign& one, bool with_paper = false);
 
 /// What the shown method leaves of each reflector's displacement, b - A c: by posture, reflector and direction
 /// along the beam, across it level (to R0's z) and across it upright, in um; where the tracker's noise is

@@ -46,15 +46,15 @@ class FigureList {
     if (const auto drift = stationDrift(one_, station)) add(place, describeStationDrift(station), *drift);
   }
 
-  void addDeflection(const DeflectionScene& opening) {
+  void addDeflection(const DeflectionScene& opening, const FigureOptions& options) {
     add("opening", describeDeflectionScene(one_, opening), opening.scene, kOpening);
     if (one_.identification.cases.size() <= kMostGhosts) {
       const render::ArmScene all = allPosturesScene(one_);
       add("compensation", describeAllPostures(one_, render::automaticMagnification(all)), all, kScene);
     }
-    add("compensation", describeResidualBars(one_), residualBars(one_));
+    add("compensation", describeResidualBars(one_, options.with_paper), residualBars(one_));
     const render::GroupedBarChart zoom = residualZoom(one_);
-    if (zoom.series.size() == 2) add("compensation", describeResidualZoom(one_), zoom);
+    if (zoom.series.size() == 2) add("compensation", describeResidualZoom(one_, options.with_paper), zoom);
   }
 
   void addStiffness(const FigureOptions& options) {
@@ -124,7 +124,7 @@ std::vector<reports::Figure> figuresOf(const reports::ReportCampaign& one, const
                                        const std::optional<DeflectionScene>& opening) {
   FigureList list(one);
   const bool loaded = !one.identification.cases.empty();
-  if (opening) list.addDeflection(*opening);
+  if (opening) list.addDeflection(*opening, options);
   if (loaded) list.addStiffness(options);
   if (one.workspace != nullptr) list.addWorkspace();
   if (one.accuracy != nullptr) list.addAccuracy();

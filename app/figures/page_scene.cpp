@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "app/figures/arm_scenes.h"
 #include "app/view/view_material.h"
@@ -149,6 +150,33 @@ std::vector<NamedMaterial> materialsOf(const reports::ReportCampaign& one) {
 
 }  // namespace
 
+std::set<int> namedPoses(const reports::ReportCampaign& one) {
+  const identification::Identification& result = one.identification;
+  std::set<int> named;
+  const auto addLongest = [&](const std::vector<double>& lengths) {
+    const auto longest = std::max_element(lengths.begin(), lengths.end());
+    const auto at = static_cast<std::size_t>(longest - lengths.begin());
+    if (at < result.cases.size()) named.insert(result.cases[at].pose);
+  };
+  addLongest(reports::displacementAt(result, reports::judgedPoint(one).at_wrist));
+  if (const auto shown = reports::shownMethod(result)) {
+    const identification::MethodResult& method = result.of(*shown);
+    std::vector<double> left;
+    for (const identification::CaseEquations& rows : method.target_rows) {
+      const Eigen::VectorXd residual = rows.right - rows.matrix * method.estimate.compliance;
+      double longest = 0.0;
+      for (Eigen::Index row = 0; row + 3 <= residual.size(); row += 3)
+        longest = std::max(longest, residual.segment<3>(row).norm());
+      left.push_back(longest);
+    }
+    addLongest(left);
+  }
+  if (one.diagnosis == nullptr || one.diagnosis->at_points.empty()) return named;
+  for (const GapVector left : {&diagnosis::PointGap::before, &diagnosis::PointGap::after})
+    named.insert(longestGap(*one.diagnosis, left).pose);
+  return named;
+}
+
 std::string loadedSceneJson(const reports::ReportCampaign& one, const campaign::Campaign& raw) {
   if (one.identification.cases.empty()) return {};
   const std::vector<NamedMaterial> methods = materialsOf(one);
@@ -174,9 +202,12 @@ std::string loadedSceneJson(const reports::ReportCampaign& one, const campaign::
   }
   if (before) json["vectors"].push_back(vectorKind("e", "effects", "effects", 3.5));
   const int first_posture = one.identification.cases[median].pose;
+  const std::set<int> named = namedPoses(one);
+  json["postures"] = one.campaign.pose_ids.size();
   for (std::size_t i = 0; i < material.frames.size(); ++i) {
     const ViewFrame& frame = material.frames[i];
-    if (!isShown(frame.posture, one.campaign.pose_ids.size()) && frame.posture != first_posture) continue;
+    const bool shown = isShown(frame.posture, one.campaign.pose_ids.size()) || named.contains(frame.posture);
+    if (!shown && frame.posture != first_posture) continue;
     if (frame.posture == first_posture && frame.step == one.identification.step) json["first"] = json["frames"].size();
     Json made = frameJson(one.campaign.pose_ids[static_cast<std::size_t>(frame.posture)], frame.where, frame.load,
                           frame.posture, frame.step, frame.scene.poses.front());
@@ -241,8 +272,12 @@ std::string accuracySceneJson(const reports::ReportCampaign& one) {
     json["vectors"].push_back(vectorKind("e", "explained by the effects", "effects", 3.5));
   }
   std::size_t posture = calibration.day.postures.size();
-  for (const calibration::ReadingError& error : calibration::readingErrors(calibration)) {
-    if (!isShown(static_cast<int>(error.posture), calibration.day.postures.size())) continue;
+  json["postures"] = posture;
+  const std::vector<calibration::ReadingError> errors = calibration::readingErrors(calibration);
+  const std::set<std::size_t> named = namedPostures(calibration, errors);
+  for (const calibration::ReadingError& error : errors) {
+    if (!isShown(static_cast<int>(error.posture), calibration.day.postures.size()) && !named.contains(error.posture))
+      continue;
     if (!error.of(CalibratedModel::geometry).allFinite()) continue;
     if (error.posture != posture) {
       posture = error.posture;

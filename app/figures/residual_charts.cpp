@@ -147,10 +147,10 @@ render::GroupedBarChart residualZoom(const reports::ReportCampaign& one) {
   return chart;
 }
 
-reports::Figure describeResidualBars(const reports::ReportCampaign& one) {
+reports::Figure describeResidualBars(const reports::ReportCampaign& one, bool with_paper) {
   const reports::JudgedPoint point = reports::judgedPoint(one);
   reports::Figure figure;
-  figure.id = "compensation";
+  figure.id = "compensation-bars";
   figure.title = fmt::format("Displacement of {} before and after compensation", point.name);
   figure.caption = fmt::format(
       "Mean over the postures: {}\u00a0mm without compensation (grey).",
@@ -159,14 +159,15 @@ reports::Figure describeResidualBars(const reports::ReportCampaign& one) {
                                            identification::Method::decoupled_partial_pose});
   if (!left.empty()) figure.caption += fmt::format(" Left after compensation, in mm: {}.", left);
   figure.caption += drawnOf(one, reports::displacementAt(one.identification, point.at_wrist));
-  figure.caption += " The counterpart of the paper's Fig. 7.";
+  figure.caption += with_paper ? " The counterpart of the paper's Fig. 7."
+                               : " Bars: how far it moves in each posture, and what each method leaves of that.";
   figure.alt =
       fmt::format("Bars by posture: length of the displacement of {}, without compensation and after each method.",
                   reports::plain(point.name));
   return figure;
 }
 
-reports::Figure describeResidualZoom(const reports::ReportCampaign& one) {
+reports::Figure describeResidualZoom(const reports::ReportCampaign& one, bool with_paper) {
   const reports::JudgedPoint point = reports::judgedPoint(one);
   reports::Figure figure;
   figure.id = "compensation-zoom";
@@ -174,7 +175,7 @@ reports::Figure describeResidualZoom(const reports::ReportCampaign& one) {
   figure.caption = fmt::format(
       "The same as the figure before, enlarged. Mean over the postures, in mm: {}.",
       leftWords(one, {identification::Method::partial_pose, identification::Method::decoupled_partial_pose}));
-  figure.caption += " The counterpart of the paper's Fig. 8.";
+  if (with_paper) figure.caption += " The counterpart of the paper's Fig. 8.";
   figure.alt = fmt::format("Bars by posture: what is left of the displacement of {} after PP and DPP.",
                            reports::plain(point.name));
   return figure;
@@ -321,7 +322,7 @@ reports::Figure describeResidualDirections(const reports::ReportCampaign& one, c
   reports::Figure figure;
   figure.id = "residuals";
   figure.title = fmt::format("What {} leaves, by posture, reflector and direction", reports::shortName(shown));
-  figure.caption = fmt::format("rms in µm: {}.", fmt::join(parts, ", "));
+  figure.caption = fmt::format("rms in µm: {}.", fmt::join(parts, "; "));  // names have commas in them
   if (chart.diagrams.size() > 3) {
     std::size_t outside = 0, all = 0;
     for (const ResidualVector& residual : residuals) {

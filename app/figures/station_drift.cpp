@@ -77,6 +77,7 @@ std::optional<render::PointChart> stationDrift(const reports::ReportCampaign& on
   chart.subtitle =
       fmt::format("{}; whiskers: 2 standard uncertainties by the declared noise", reports::asIs(one.campaign.name));
   chart.columns = 3;
+  chart.legend_a_panel = true;  // x, y, z and the nests have the same colours and marks
   const bool far = inMillimetres(station);
   const double unit = far ? io::kMillimetre : io::kMicrometre;
   render::PointPanel displacement = motionPanel(station, 3, unit), rotation = motionPanel(station, 0, kMicroradian);
@@ -92,7 +93,7 @@ reports::Figure describeStationDrift(const preparation::StationMotion& station) 
   const double largest = largestMotion(station);
   const std::string words = reports::shownLength(largest, 2);
   reports::Figure figure;
-  figure.id = "station";
+  figure.id = "station-drift";
   figure.title = "Motion of the tracker's station";
   figure.caption =
       fmt::format("At the arm the station moved by at most {} against the first of {} rounds: {}.", words,

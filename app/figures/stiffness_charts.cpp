@@ -82,7 +82,7 @@ reports::Figure describeStiffnessIntervals(const reports::ReportCampaign& one) {
     if (!seen) unseen.push_back(reports::jointName(joint));
   }
   reports::Figure figure;
-  figure.id = "stiffness";
+  figure.id = "stiffness-intervals";
   figure.title = "Joint stiffness by method";
   figure.caption = fmt::format("From all {} postures, with the expanded uncertainty U (about 95\u00a0%) either way.{}",
                                one.identification.cases.size(), disagreement(one.identification));
@@ -164,7 +164,7 @@ render::SpreadChart subsetSpreads(const reports::ReportCampaign& one, bool with_
 
 reports::Figure describeSubsetSpreads(const reports::ReportCampaign& one) {
   reports::Figure figure;
-  figure.id = "subsets";
+  figure.id = "subset-spreads";
   figure.title = "Spread of the joint stiffnesses over subsets of postures";
   figure.caption =
       fmt::format("Over {}. Half of the range from 5 to 95\u00a0% as a share of the median:", subsetsOf(one));

@@ -27,6 +27,9 @@ namespace {
 
 constexpr std::size_t kMostOnRing = 60;  // a mark is eight pixels wide, a ring some six hundred long
 
+constexpr double kTurn = 2.0 * std::numbers::pi;
+constexpr double kSameAngle = 1e-6;  // rad; far below what a controller tells apart
+
 /// Radial residual of one reading, at the joint's angle.
 struct RadialResidual {
   double angle = 0.0;  // rad
@@ -44,8 +47,16 @@ std::vector<RadialResidual> residualsOn(const reports::ReportCampaign& one, cons
     const double radius = (points.circle_sweeps[i] - line.point).cross(line.direction).norm();
     residuals.push_back({rows[i].q[axis], radius - measured.fit.circles[ring].radius});
   }
-  std::sort(residuals.begin(), residuals.end(),
-            [](const RadialResidual& a, const RadialResidual& b) { return a.angle < b.angle; });
+  const auto byAngle = [](const RadialResidual& a, const RadialResidual& b) { return a.angle < b.angle; };
+  std::sort(residuals.begin(), residuals.end(), byAngle);
+  // A sweep that goes round more than once comes back to where it was: neighbours on the ring are not neighbours in q.
+  if (!residuals.empty() && residuals.back().angle - residuals.front().angle > kTurn + kSameAngle) {
+    for (RadialResidual& at : residuals) {
+      at.angle -= kTurn * std::floor(at.angle / kTurn);
+      if (at.angle > kTurn - kSameAngle) at.angle -= kTurn;  // 360 degrees less a rounding is zero
+    }
+    std::stable_sort(residuals.begin(), residuals.end(), byAngle);
+  }
   return residuals;
 }
 
@@ -57,8 +68,27 @@ render::PointSeries fullRing(double radius) {
   ring.mark = render::PointMark::none;
   ring.joined = true;
   constexpr int kCorners = 120;
-  for (int i = 0; i <= kCorners; ++i) ring.points.push_back(polar(radius, 2.0 * std::numbers::pi * i / kCorners));
+  for (int i = 0; i <= kCorners; ++i) ring.points.push_back(polar(radius, kTurn * i / kCorners));
   return ring;
+}
+
+/// The line through readings at `radius_of` their residual, along the ring: straight between few readings it would cut
+/// across the other rings.
+template <class RadiusOf>
+std::vector<render::PlotPoint> alongRing(const std::vector<RadialResidual>& readings, const RadiusOf& radius_of) {
+  constexpr double kStep = kTurn / 120.0;
+  std::vector<render::PlotPoint> line;
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    const double radius = radius_of(readings[i]);
+    if (i > 0) {
+      const double from = readings[i - 1].angle, by = readings[i].angle - from, start = radius_of(readings[i - 1]);
+      const int parts = static_cast<int>(std::ceil(by / kStep));
+      for (int k = 1; k < parts; ++k)
+        line.push_back(polar(start + (radius - start) * k / parts, from + by * k / parts));
+    }
+    line.push_back(polar(radius, readings[i].angle));
+  }
+  return line;
 }
 
 /// `most`: the most readings of any ring so far.
@@ -82,11 +112,12 @@ render::ShapePanel circlePanel(const reports::ReportCampaign& one, const frames:
     panel.series.push_back(fullRing(radius));
     render::PointSeries series = seriesLook(static_cast<std::size_t>(measured.targets[ring]));
     series.name = reports::pointName(one.campaign.targets[static_cast<std::size_t>(measured.targets[ring])].id);
-    series.joined = true;
-    for (const std::size_t i : preparation::evenlySpreadIndices(residuals[ring].size(), kMostOnRing)) {
-      const RadialResidual& at = residuals[ring][i];
-      series.points.push_back(polar(radius + magnified * at.residual, at.angle));
-    }
+    std::vector<RadialResidual> shown;
+    for (const std::size_t i : preparation::evenlySpreadIndices(residuals[ring].size(), kMostOnRing))
+      shown.push_back(residuals[ring][i]);
+    const auto radiusOf = [&](const RadialResidual& at) { return radius + magnified * at.residual; };
+    for (const RadialResidual& at : shown) series.points.push_back(polar(radiusOf(at), at.angle));
+    series.line = alongRing(shown, radiusOf);
     panel.series.push_back(std::move(series));
   }
   const double bar = io::kMicrometre * render::roundUp125(std::max(1e-3, largest / io::kMicrometre));

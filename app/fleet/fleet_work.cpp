@@ -150,8 +150,8 @@ void runTasks(const FleetRequest& request, const std::vector<Task>& tasks, const
 
 Task resultTask(const FleetRequest& request, const std::vector<std::string>& folders, const fs::path& file) {
   Task task{{"fleet"}, file};
-  task.words.insert(task.words.end(), folders.begin(), folders.end());
-  task.words.insert(task.words.end(), {"--out", request.out.string(), "--result", file.string()});
+  for (const std::string& folder : folders) task.words.push_back(pathWord(folder));
+  task.words.insert(task.words.end(), {"--out", pathWord(request.out), "--result", pathWord(file)});
   if (request.springs_only) task.words.emplace_back("--springs-only");
   return task;
 }
@@ -230,7 +230,7 @@ void doFleetWork(const FleetRequest& request, const std::vector<FoundCampaign>& 
       results.push_back(resultTask(request, {found[i].campaign.folder}, file));
     const fs::path report = reportFolder(request, found[i].key);
     if (!request.reports || fs::exists(report / "report.html", none) || !taken.insert(report).second) continue;
-    Task task{{"report", found[i].campaign.folder, "--out", report.string()}, report / "report.html"};
+    Task task{{"report", pathWord(found[i].campaign.folder), "--out", pathWord(report)}, report / "report.html"};
     if (request.springs_only) task.words.emplace_back("--springs-only");
     reports.push_back(std::move(task));
   }

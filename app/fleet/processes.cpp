@@ -93,6 +93,11 @@ Ended runProcess(const std::string& program, const std::vector<std::string>& arg
   return ended;
 }
 
+std::string pathWord(const std::filesystem::path& path) {
+  const std::string word = path.string();
+  return word.starts_with('-') ? "./" + word : word;
+}
+
 std::filesystem::path ownProgram() { return std::filesystem::read_symlink("/proc/self/exe"); }
 
 }  // namespace stiffscope::app

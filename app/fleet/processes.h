@@ -22,6 +22,9 @@ enum class Listen { standard_output, standard_error };
 Ended runProcess(const std::string& program, const std::vector<std::string>& arguments, Listen listen,
                  const std::vector<std::string>& variables = {});
 
+/// A path as a word of a command line that is not taken for an option: one that begins with a dash is named from here.
+std::string pathWord(const std::filesystem::path& path);
+
 /// This program's file, for processes of itself.
 std::filesystem::path ownProgram();
 

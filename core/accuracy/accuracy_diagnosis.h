@@ -71,7 +71,12 @@ struct AccuracyDiagnosis {
   double left_over_limit = 0.0;       ///< what chance makes of it
   bool geometry_off_nominal = false;  ///< kinematic_error is named: the URDF misses by more than its limit
   double geometry_limit = 0.0;        ///< that limit, m rms per coordinate
+  /// Of the readings as they are used: what accuracy, axes and places are stated by.
   calibration::Calibration calibration;
+  /// Of the readings as they were read, where the station's motion was taken off: by which the cause is looked for, and
+  /// what the gap, the classes and the tables are of. Empty: they are the same readings.
+  std::optional<calibration::Calibration> as_read;
+  const calibration::Calibration& ofCause() const { return as_read ? *as_read : calibration; }
   int postures = 0, readings = 0;
 };
 

@@ -28,9 +28,8 @@ constexpr double kEnoughForHalf = 60.0;
 /// Beside `unknown` an effect is named where no more than this share of the gap's squares beyond noise stays.
 constexpr double kMostLeft = 0.25;
 
-campaign::Campaign asRead(const preparation::PreparedCampaign& prepared) {
-  campaign::Campaign campaign =
-      prepared.preparation.drift.taken_off ? preparation::asMeasured(prepared).campaign : prepared.campaign;
+/// With the noise that the day was found to have.
+campaign::Campaign asNoisyAsFound(campaign::Campaign campaign, const preparation::PreparedCampaign& prepared) {
   if (prepared.preparation.declared && prepared.noise.known && prepared.noise.degrees > 0.0) {
     campaign.tracker = preparation::asNoisyAs(*prepared.preparation.declared,
                                               {prepared.noise.along_factor, prepared.noise.across_factor});
@@ -97,7 +96,7 @@ double explainedOf(double before, double after, double noise) {
 class Decider {
  public:
   Decider(const preparation::PreparedCampaign& prepared, AccuracyDiagnosis& result)
-      : prepared_(prepared), calibration_(result.calibration), result_(result) {}
+      : prepared_(prepared), calibration_(result.ofCause()), result_(result) {}
 
   void run() {
     measureGap();
@@ -207,9 +206,9 @@ class Decider {
     one.effects = {UnloadedEffect::kinematic_error};
     one.score = off * off / (kNominalLimit * kNominalLimit) * 3.0 * static_cast<double>(calibration_.day.readings());
     one.size = off;
-    const double remains = std::min(1.0, result_.gap.before / result_.gap.nominal);
-    one.shrink.value = one.shrink.low = one.shrink.high = 1.0 - remains;
-    one.explained = explainedOf(off, result_.gap.before, result_.gap.noise);
+    one.shrink = shrinkOf(heldOutSquares(calibration_, calibration_.of(calibration::CalibratedModel::nominal)),
+                          heldOutSquares(calibration_, calibration_.geometry()), {}, {});
+    one.explained = explainedOf(result_.gap.nominal, result_.gap.before, result_.gap.noise);
     one.in_verdict = true;
     result_.classes.push_back(std::move(one));
     result_.reasons.emplace_back(RemarkId::geometry_off_nominal, off, kNominalLimit);
@@ -302,10 +301,14 @@ void addUntestable(const calibration::UnloadedDay& day, AccuracyDiagnosis& resul
 AccuracyDiagnosis diagnoseAccuracy(const preparation::PreparedCampaign& prepared,
                                    const calibration::CalibrationOptions& options) {
   AccuracyDiagnosis result;
-  result.calibration = calibration::calibrate(asRead(prepared), options);
-  const Calibration& calibration = result.calibration;
-  result.unusable_reason = calibration.reason;
-  result.usable = calibration.reason.empty();
+  result.calibration = calibration::calibrate(asNoisyAsFound(prepared.campaign, prepared), options);
+  // A station that moved is a cause, which is not there any more where it was taken off.
+  if (prepared.preparation.drift.taken_off)
+    result.as_read =
+        calibration::calibrate(asNoisyAsFound(preparation::asMeasured(prepared).campaign, prepared), options);
+  const Calibration& calibration = result.ofCause();
+  result.unusable_reason = result.calibration.reason.empty() ? calibration.reason : result.calibration.reason;
+  result.usable = result.unusable_reason.empty();
   if (!result.usable) return result;
   result.postures = static_cast<int>(calibration.day.postures.size());
   result.readings = static_cast<int>(calibration.day.readings());

@@ -141,6 +141,7 @@ diagnosis::WhereTable byJoint(const UnloadedDay& day, const ArmFit& fit, const s
 
 std::vector<diagnosis::WhereTable> whereLeft(const UnloadedDay& day, const ArmFit& fit) {
   const std::vector<Left> left = leftOver(day, fit);
+  if (left.empty()) return {};
   double all = 0.0;
   for (const Left& one : left) all += one.residual.squaredNorm();
   std::vector<Part> reflectors, axes{{"x"}, {"y"}, {"z"}}, beam{{"along"}, {"across"}}, times, postures;

@@ -163,8 +163,8 @@ AuditReport audit(const preparation::PreparedCampaign& prepared) {
   } else {
     report.unanswered = unansweredBy(made, kToIdentify);
   }
-  report.suspected = suspectedNoise(input);
-  for (const auto* found : {&input.model.arm, &input.model.loads})
+  const std::vector<mistakes::Suspected> zero = suspectedZero(input), noise = suspectedNoise(input);
+  for (const auto* found : {&input.model.arm, &input.model.loads, &zero})
     report.suspected.insert(report.suspected.end(), found->begin(), found->end());
   // What the readings name already is named once.
   for (const mistakes::Suspected& one : input.controller.cures) {
@@ -172,6 +172,8 @@ AuditReport audit(const preparation::PreparedCampaign& prepared) {
                      [&](const mistakes::Suspected& other) { return other.remedy == one.remedy; }))
       report.suspected.push_back(one);
   }
+  // Another noise makes a day pass whatever is wrong with it: last.
+  report.suspected.insert(report.suspected.end(), noise.begin(), noise.end());
   report.verdict = verdictOf(report);
   return report;
 }

@@ -15,6 +15,7 @@
 #include "core/identification/identifiability.h"
 #include "core/identification/load_point.h"
 #include "core/identification/warnings.h"
+#include "core/mistakes/cell_zero.h"
 #include "core/mistakes/load_search.h"
 #include "core/numerics/distributions.h"
 #include "core/preparation/finding.h"
@@ -57,7 +58,9 @@ preparation::AuditCheck tareCheck(const AuditInput& input) {
   if (*check.value <= *check.limit && !one_off) return check;
   check.verdict = preparation::AuditVerdict::warn;
   check.where = preparation::atRow(input.campaign.states->file, worst_state->line);
-  check.message = says({*check.value > *check.limit
+  const mistakes::CellZero zero = mistakes::cellZero(input.campaign);
+  check.message = says({zero.drifts ? Remark(RemarkId::zero_drifts, zero.drift_force, zero.drift_moment, zero.hours)
+                        : *check.value > *check.limit
                             ? Remark(RemarkId::not_tared)
                             : Remark(RemarkId::one_pose_off, campaign::poseName(input.campaign, worst_state->pose),
                                      std::sqrt(worst / 6.0))});
@@ -137,7 +140,7 @@ preparation::AuditCheck leverCheck(const AuditInput& input) {
 
 Findings checkLoadCell(const AuditInput& input) {
   const campaign::Campaign& campaign = input.campaign;
-  if (!campaign.load_cell || !campaign.states) {
+  if (!campaign.load_cell || !campaign.states || campaign::isUnloadedDay(campaign)) {
     Findings missing;
     for (const char* id : {"tare", "gravity_direction", "moment_lever"}) {
       missing.push_back(preparation::notTestable(id, Remark(MissingId::no_load_cell_readings)));

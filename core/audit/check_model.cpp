@@ -1,4 +1,8 @@
+#include <string>
+#include <vector>
+
 #include "core/audit/checks.h"
+#include "core/audit/redundancies.h"
 #include "core/audit/remarks.h"
 #include "core/identification/warnings.h"
 #include "core/mistakes/load_search.h"
@@ -8,7 +12,15 @@ namespace stiffscope::audit {
 
 namespace {
 
-preparation::AuditCheck armCheck(const mistakes::ModelAgreement& model) {
+/// The check that names what no cure does: rows or reflectors that stand under other names.
+std::string elsewhere(const AuditInput& input, const std::vector<mistakes::Suspected>& cures) {
+  if (!cures.empty()) return {};
+  if (statesOfOtherPostures(input)) return "time_order";
+  return reflectorsExchanged(input) ? "rigid_tool" : "";
+}
+
+preparation::AuditCheck armCheck(const AuditInput& input) {
+  const mistakes::ModelAgreement& model = input.model;
   if (!model.arm_miss) return preparation::notTestable("arm_model", Remark(MissingId::no_readings_of_arm));
   preparation::AuditCheck check;
   check.id = "arm_model";
@@ -20,11 +32,12 @@ preparation::AuditCheck armCheck(const mistakes::ModelAgreement& model) {
   check.verdict = preparation::AuditVerdict::fail;
   check.impossible = true;
   if (model.arm.size() == 1) check.where = model.arm.front().where;
-  check.message = Remark(RemarkId::readings_contradict, *model.arm_miss, model.arm.size());
+  check.message = Remark(RemarkId::readings_contradict, *model.arm_miss, model.arm.size(), elsewhere(input, model.arm));
   return check;
 }
 
-preparation::AuditCheck loadCheck(const mistakes::ModelAgreement& model) {
+preparation::AuditCheck loadCheck(const AuditInput& input) {
+  const mistakes::ModelAgreement& model = input.model;
   if (!model.loads_left) return preparation::notTestable("load_model", Remark(MissingId::few_loads_of_model));
   constexpr double kSimulated = 0.15;  // largest share of 116 simulated machines with every effect
   preparation::AuditCheck check;
@@ -37,12 +50,13 @@ preparation::AuditCheck loadCheck(const mistakes::ModelAgreement& model) {
   check.verdict = preparation::AuditVerdict::fail;
   check.impossible = true;
   if (model.loads.size() == 1) check.where = model.loads.front().where;
-  check.message = Remark(RemarkId::springs_contradict, *model.loads_left, model.loads.size());
+  check.message =
+      Remark(RemarkId::springs_contradict, *model.loads_left, model.loads.size(), elsewhere(input, model.loads));
   return check;
 }
 
 }  // namespace
 
-Findings checkModel(const AuditInput& input) { return {armCheck(input.model), loadCheck(input.model)}; }
+Findings checkModel(const AuditInput& input) { return {armCheck(input), loadCheck(input)}; }
 
 }  // namespace stiffscope::audit

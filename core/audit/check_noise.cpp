@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <utility>
 
 #include "core/audit/checks.h"
 #include "core/audit/limits.h"
 #include "core/audit/remarks.h"
+#include "core/mistakes/cell_zero.h"
 #include "core/mistakes/remarks.h"
 #include "core/numerics/distributions.h"
 #include "core/preparation/remarks.h"
@@ -122,6 +124,13 @@ NoiseSum againstDeclared(double chi2, int dof, const preparation::RepeatScatter&
   return {chi2 * least * least, dof};
 }
 
+/// Whether a mistake of one of these kinds is suspected, which makes the readings scatter otherwise than declared.
+bool suspects(const std::vector<mistakes::Suspected>& cures, std::initializer_list<const char*> ids) {
+  return std::any_of(cures.begin(), cures.end(), [&](const mistakes::Suspected& one) {
+    return std::any_of(ids.begin(), ids.end(), [&](const char* id) { return one.mistake == id; });
+  });
+}
+
 enum NoiseKind { kNests, kSweeps, kReturns };
 
 DeclaredNoise judgeTracker(const AuditInput& input) {
@@ -163,25 +172,8 @@ DeclaredNoise judgeTracker(const AuditInput& input) {
     judged.reason = Remark(MissingId::too_few_to_judge_tracker, kEnoughToJudge);
   }
   if (judged.reason.empty()) compareWithFound(day.any() ? day.smallest() : across, judged);
+  judged.explained = suspects(input.model.arm, {"point_unit"});
   return judged;
-}
-
-/// The load cell's unloaded readings about their mean. Figures that never change were not read: none.
-NoiseSum scatterUnloaded(const campaign::Campaign& campaign) {
-  const campaign::LoadCell& cell = *campaign.load_cell;
-  Vector6d sigma, sum = Vector6d::Zero();
-  sigma << Eigen::Vector3d::Constant(cell.force_sigma), Eigen::Vector3d::Constant(cell.moment_sigma);
-  std::vector<Vector6d> readings;
-  for (const campaign::State& state : campaign.states->rows) {
-    if (state.step != 0) continue;
-    readings.push_back(state.wrench_in_cell);
-    sum += state.wrench_in_cell;
-  }
-  if (readings.size() < 2) return {};
-  const Vector6d mean = sum / static_cast<double>(readings.size());
-  NoiseSum scatter{0.0, 6 * (static_cast<int>(readings.size()) - 1)};
-  for (const Vector6d& one : readings) scatter.chi2 += (one - mean).cwiseQuotient(sigma).squaredNorm();
-  return scatter.chi2 > 0.0 ? scatter : NoiseSum{};
 }
 
 DeclaredNoise judgeLoadCell(const AuditInput& input) {
@@ -197,7 +189,8 @@ DeclaredNoise judgeLoadCell(const AuditInput& input) {
     return judged;
   }
   const LoadPointFit lever = fitLoadPoint(campaign);
-  const NoiseSum unloaded = scatterUnloaded(campaign);
+  const mistakes::CellZero zero = mistakes::cellZero(campaign);
+  const NoiseSum unloaded{zero.chi2, zero.dof};
   NoiseSources at_once, day;
   at_once.add(unloaded, 0, Remark(RemarkId::unloaded_cell_shows), judged.evidence);
   if (lever.done) day.add({lever.chi2, lever.dof}, 0, Remark(RemarkId::lever_shows), judged.evidence);
@@ -208,6 +201,7 @@ DeclaredNoise judgeLoadCell(const AuditInput& input) {
   }
   judgeBySize(unloaded, day, judged);
   compareWithFound(day.smallest(), judged);
+  judged.explained = suspects(input.model.loads, {"not_tared", "wrench_unit"});
   return judged;
 }
 
@@ -225,9 +219,11 @@ preparation::AuditCheck noiseCheck(const DeclaredNoise& judged) {
   check.limit_source = Remark(LimitId::factor_of_two, kEnoughToJudge);
   if (judged.too_large) check.verdict = preparation::AuditVerdict::warn;
   if (judged.too_small) check.verdict = preparation::AuditVerdict::fail;
-  const RemarkId found = judged.too_small   ? RemarkId::noise_too_small
-                         : judged.too_large ? RemarkId::noise_too_large
-                                            : RemarkId::noise_borne_out;
+  const bool wrong = judged.too_small || judged.too_large;
+  const RemarkId found = wrong && judged.explained ? RemarkId::noise_explained
+                         : judged.too_small        ? RemarkId::noise_too_small
+                         : judged.too_large        ? RemarkId::noise_too_large
+                                                   : RemarkId::noise_borne_out;
   check.message = Remark(found, judged.deviation, judged.evidence);
   return check;
 }
@@ -247,13 +243,31 @@ Findings checkDeclaredNoise(const AuditInput& input) {
 std::vector<mistakes::Suspected> suspectedNoise(const AuditInput& input) {
   std::vector<mistakes::Suspected> found;
   for (const DeclaredNoise& judged : judgeDeclaredNoise(input)) {
-    if (!judged.too_large && !judged.too_small) continue;
+    if (judged.explained || (!judged.too_large && !judged.too_small)) continue;
     const RemarkId remedy =
         judged.factors.size() == 2 ? RemarkId::declare_tracker_noise : RemarkId::declare_load_cell_noise;
     found.push_back({"noise_declared", judged.where, Remark(remedy, judged.factors),
                      Remark(mistakes::RemarkId::day_scatters, judged.before, judged.after), judged.before,
                      judged.after});
   }
+  return found;
+}
+
+std::vector<mistakes::Suspected> suspectedZero(const AuditInput& input) {
+  std::vector<mistakes::Suspected> found;
+  const campaign::Campaign& campaign = input.campaign;
+  if (!campaign.load_cell || !campaign.states) return found;
+  const mistakes::CellZero zero = mistakes::cellZero(campaign);
+  const auto add = [&](Remark remedy) {
+    found.push_back({"not_tared",
+                     Remark(mistakes::RemarkId::in_columns, std::string("fx_n to mz_nm"),
+                            std::vector<std::string>{campaign.states->file}),
+                     std::move(remedy), Remark(RemarkId::unloaded_scatter, zero.before, zero.after), zero.before,
+                     zero.after});
+  };
+  if (zero.drifts) add(Remark(RemarkId::take_step_0_off, zero.drift_force, zero.drift_moment, zero.hours));
+  if (zero.weighs && !suspects(input.model.loads, {"not_tared"}))
+    add(Remark(mistakes::RemarkId::weight_not_tared, zero.mass, zero.force, zero.force_left));
   return found;
 }
 

@@ -13,7 +13,6 @@
 #include "core/numerics/distributions.h"
 #include "core/preparation/finding.h"
 #include "core/preparation/remarks.h"
-#include "metrology/linear_algebra.h"
 
 namespace stiffscope::audit {
 
@@ -35,29 +34,87 @@ struct PoseStates {
   std::map<int, std::vector<const campaign::Displacement*>> displacements;  ///< where there are no points
 };
 
-/// The load left in `state`, in parts of that in `loaded`.
-double loadLeft(const campaign::State& state, const campaign::State& loaded) {
-  const Eigen::Vector3d force = loaded.wrench_in_cell.head<3>();
-  return state.wrench_in_cell.head<3>().dot(force) / force.squaredNorm();
-}
+/// Of a state that was unloaded again: its load in parts of the heaviest of its posture, one sigma of that by the
+/// cell's declared noise.
+struct LoadLeft {
+  double share = 0.0, sd = 0.0;
+};
 
-Return compare(const campaign::StatePoints& before, const campaign::StatePoints& after,
-               const campaign::StatePoints* loaded, double left, const metrology::TrackerNoise& noise) {
-  Return result{after.pose, after.step};
+/// Forces of one posture against what the cell shows in its step 0. That is noise of a tared cell and not taken off;
+/// beyond noise it is a weight that was not tared, or a zero that drifts, which the other steps have, too.
+class ForcesOfPosture {
+ public:
+  ForcesOfPosture(const campaign::Campaign& campaign, const campaign::State* unloaded) {
+    sigma_ = campaign.load_cell ? campaign.load_cell->force_sigma : 0.0;
+    if (unloaded == nullptr || sigma_ <= 0.0) return;
+    const Eigen::Vector3d shown = unloaded->wrench_in_cell.head<3>();
+    const double level = preparation::kLevel / static_cast<double>(campaign.pose_ids.size());
+    not_zero_ = shown.squaredNorm() > sigma_ * sigma_ * numerics::chiSquareLimit(level, 3.0);
+    if (not_zero_) zero_ = shown;
+  }
+
+  Eigen::Vector3d of(const campaign::State& state) const { return state.wrench_in_cell.head<3>() - zero_; }
+
+  LoadLeft left(const campaign::State& state, const campaign::State& loaded) const {
+    const Eigen::Vector3d force = of(loaded);
+    const double noise = not_zero_ ? std::sqrt(2.0) * sigma_ : sigma_;
+    return {of(state).dot(force) / force.squaredNorm(), noise / force.norm()};
+  }
+
+ private:
+  double sigma_ = 0.0;  ///< N; 0 where it is not stated
+  bool not_zero_ = false;
+  Eigen::Vector3d zero_ = Eigen::Vector3d::Zero();
+};
+
+/// The reflectors of one posture unloaded again. A load that is left displaces them in proportion, and what the cell's
+/// noise puts into it moves all of them at once: the covariance of all is that of the tracker's readings and
+/// sd^2 u u^T, u their displacements under the whole load.
+class ComeBack {
+ public:
+  ComeBack(const campaign::State& state, const LoadLeft& left) : back_{state.pose, state.step}, left_(left) {}
+
+  /// `off`: from step 0; `under_load`: the same in the loaded step, zero where it was not read there.
+  void add(const Eigen::Vector3d& off, const Eigen::Vector3d& under_load, const Eigen::Matrix3d& covariance,
+           std::size_t line) {
+    const Eigen::Vector3d rest = off - left_.share * under_load;
+    const Eigen::LDLT<Eigen::Matrix3d> inverse(covariance);
+    const Eigen::Vector3d weighted = inverse.solve(rest);
+    squares_ += rest.dot(weighted);
+    along_load_ += under_load.dot(weighted);
+    load_squared_ += under_load.dot(inverse.solve(under_load));
+    back_.dof += 3;
+    if (rest.norm() <= back_.largest) return;
+    back_.largest = rest.norm();
+    back_.line = line;
+  }
+
+  /// Mahalanobis distance over all reflectors (Sherman and Morrison).
+  Return result() const {
+    Return back = back_;
+    const double variance = left_.sd * left_.sd;
+    back.chi2 = squares_ - variance * along_load_ * along_load_ / (1.0 + variance * load_squared_);
+    return back;
+  }
+
+ private:
+  Return back_;
+  LoadLeft left_;
+  double squares_ = 0.0, along_load_ = 0.0, load_squared_ = 0.0;
+};
+
+Return compare(const campaign::State& state, const campaign::StatePoints& before, const campaign::StatePoints& after,
+               const campaign::StatePoints* loaded, const LoadLeft& left, const metrology::TrackerNoise& noise) {
+  ComeBack back(state, left);
   for (const campaign::ReflectorMean& mean : after.reflectors) {
     const campaign::ReflectorMean* first = before.of(mean.target);
     if (first == nullptr) continue;
-    Eigen::Vector3d off = mean.point - first->point;
-    // A small load that is left displaces in proportion.
     const campaign::ReflectorMean* under_load = loaded != nullptr ? loaded->of(mean.target) : nullptr;
-    if (under_load != nullptr) off -= left * (under_load->point - first->point);
-    result.chi2 += mahalanobisSquared(off, mean.covariance(noise) + first->covariance(noise));
-    result.dof += 3;
-    if (off.norm() <= result.largest) continue;
-    result.largest = off.norm();
-    result.line = mean.line;
+    Eigen::Vector3d moved = Eigen::Vector3d::Zero();
+    if (under_load != nullptr) moved = under_load->point - first->point;
+    back.add(mean.point - first->point, moved, mean.covariance(noise) + first->covariance(noise), mean.line);
   }
-  return result;
+  return back.result();
 }
 
 /// Of a displacement in its table's axes: two readings where the reflector stands by the model, which is where the load
@@ -77,27 +134,23 @@ std::map<std::pair<int, int>, Eigen::Matrix3d> displacementNoise(const AuditInpu
 }
 
 /// The same of displacements, which are from step 0 already.
-Return compare(const campaign::State& after, const PoseStates& pose, const campaign::State& loaded, double left,
-               const std::map<std::pair<int, int>, Eigen::Matrix3d>& noise) {
-  Return result{after.pose, after.step};
-  const auto rows = pose.displacements.find(after.step), under_load = pose.displacements.find(loaded.step);
-  if (rows == pose.displacements.end()) return result;
+Return compare(const campaign::State& state, const PoseStates& pose, const campaign::State& loaded,
+               const LoadLeft& left, const std::map<std::pair<int, int>, Eigen::Matrix3d>& noise) {
+  ComeBack back(state, left);
+  const auto rows = pose.displacements.find(state.step), under_load = pose.displacements.find(loaded.step);
+  if (rows == pose.displacements.end()) return back.result();
   for (const campaign::Displacement* row : rows->second) {
     const auto covariance = noise.find({row->pose, row->target});
     if (covariance == noise.end()) continue;
-    Eigen::Vector3d off = row->displacement;
+    Eigen::Vector3d moved = Eigen::Vector3d::Zero();
     if (under_load != pose.displacements.end()) {
       for (const campaign::Displacement* other : under_load->second) {
-        if (other->target == row->target) off -= left * other->displacement;
+        if (other->target == row->target) moved = other->displacement;
       }
     }
-    result.chi2 += mahalanobisSquared(off, covariance->second);
-    result.dof += 3;
-    if (off.norm() <= result.largest) continue;
-    result.largest = off.norm();
-    result.line = row->line;
+    back.add(row->displacement, moved, covariance->second, row->line);
   }
-  return result;
+  return back.result();
 }
 
 std::vector<Return> returnsOf(const AuditInput& input) {
@@ -115,26 +168,27 @@ std::vector<Return> returnsOf(const AuditInput& input) {
   }
   std::vector<Return> found;
   for (const auto& [pose, one] : poses) {
+    const auto first = one.states.find(0);
+    const ForcesOfPosture forces(input.campaign, first == one.states.end() ? nullptr : first->second);
     const campaign::State* most = nullptr;
     for (const auto& [step, state] : one.states) {
       if (step == 0) continue;
-      if (most == nullptr || state->wrench_in_cell.head<3>().norm() > most->wrench_in_cell.head<3>().norm())
-        most = state;
+      if (most == nullptr || forces.of(*state).norm() > forces.of(*most).norm()) most = state;
     }
     if (most == nullptr || (!displaced && !one.points.contains(0))) continue;
-    const double force = most->wrench_in_cell.head<3>().norm();
+    const double force = forces.of(*most).norm();
     for (const auto& [step, state] : one.states) {
       if (step <= most->step || (!displaced && !one.points.contains(step))) continue;
-      if (state->wrench_in_cell.head<3>().norm() >= campaign::kReturnShare * force) continue;
+      if (forces.of(*state).norm() >= campaign::kReturnShare * force) continue;
+      const LoadLeft left = forces.left(*state, *most);
       if (displaced) {
-        const Return back = compare(*state, one, *most, loadLeft(*state, *most), noise);
+        const Return back = compare(*state, one, *most, left, noise);
         if (back.dof > 0) found.push_back(back);
         continue;
       }
       const auto loaded = one.points.find(most->step);
-      const Return back =
-          compare(*one.points.at(0), *one.points.at(step), loaded == one.points.end() ? nullptr : loaded->second,
-                  loadLeft(*state, *most), *input.noise);
+      const Return back = compare(*state, *one.points.at(0), *one.points.at(step),
+                                  loaded == one.points.end() ? nullptr : loaded->second, left, *input.noise);
       if (back.dof > 0) found.push_back(back);
     }
   }
@@ -291,7 +345,9 @@ preparation::AuditCheck frameCheck(const AbsoluteFit& fit) {
 preparation::AuditCheck positionsCheck(const AbsoluteFit& fit) {
   preparation::AuditCheck check;
   check.id = "unloaded_positions";
-  const double by_chance = fit.rms_after * std::sqrt(numerics::chiSquareLimit(preparation::kLevel, fit.dof) / fit.chi2);
+  const double by_chance =
+      fit.chi2 > 0.0 ? fit.rms_after * std::sqrt(numerics::chiSquareLimit(preparation::kLevel, fit.dof) / fit.chi2)
+                     : 0.0;
   check.value = fit.rms_after;
   check.limit = std::max(kShareOfTolerance * identification::TrustLimits().position, by_chance);
   check.limit_source =

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <iterator>
 #include <map>
 #include <numeric>
 
@@ -151,13 +153,21 @@ class Inquiry {
     }
   }
 
+  /// States that follow each other and have the same exchange are named once: names change from some state on.
   void nameExchanges() {
-    for (const auto& [state, names] : exchanged_) {
-      const campaign::StatePoints& points = input_.states[state];
+    const std::size_t last_read = input_.states.size() - 1;
+    for (auto one = exchanged_.begin(); one != exchanged_.end();) {
+      auto last = one, next = std::next(one);
+      std::int64_t count = 1;
+      for (; next != exchanged_.end() && next->first == last->first + 1 && next->second == one->second; ++next, ++count)
+        last = next;
+      const campaign::StatePoints& points = input_.states[one->first];
       const std::string row = campaign::rowName(campaign::fileOf(campaign_, points), points.reflectors.front().line);
       const std::string name = campaign::nameOf(campaign_, points);
-      if (state == exchanged_.begin()->first) check_.where = Remark(preparation::RemarkId::at_name, row);
-      more_.push_back(Remark(RemarkId::reflectors_exchanged, row, name, names));
+      if (one == exchanged_.begin()) check_.where = Remark(preparation::RemarkId::at_name, row);
+      more_.push_back(Remark(RemarkId::reflectors_exchanged, row, name, one->second, count,
+                             campaign::nameOf(campaign_, input_.states[last->first]), last->first == last_read));
+      one = next;
     }
   }
 
@@ -229,6 +239,16 @@ Findings checkRigidTool(const AuditInput& input) {
     return {preparation::notTestable("rigid_tool", Remark(MissingId::no_two_reflectors_in_states))};
   }
   return {Inquiry(input, std::move(tool)).run()};
+}
+
+bool reflectorsExchanged(const AuditInput& input) {
+  for (const preparation::AuditCheck& check : checkRigidTool(input)) {
+    if (!check.message.is(RemarkId::distance_changes)) continue;
+    const auto& more = std::get<std::vector<Remark>>(check.message.values.back());
+    if (std::any_of(more.begin(), more.end(), [](const Remark& one) { return one.is(RemarkId::reflectors_exchanged); }))
+      return true;
+  }
+  return false;
 }
 
 namespace {

@@ -33,13 +33,15 @@ struct DeclaredNoise {
   double deviation = 1.0;            ///< larger of factor and its inverse that the readings bear out
   bool too_large = false;            ///< declared is more than twice of what is found
   bool too_small = false;            ///< declared is less than half of what is found
+  bool explained = false;            ///< by a mistake that the readings show otherwise, as another unit
   std::vector<Remark> evidence;      ///< each kind of readings with its ratio
   double before = 0.0, after = 0.0;  ///< ratio of the readings over the day, with the figures as declared and as found
 };
 
 /// The tracker, then the load cell, by readings that agree on it.
 ///
-/// At once: repeats of one state, along and across the beam; the load cell's unloaded readings about their mean. They
+/// At once: repeats of one state, along and across the beam; the load cell's unloaded readings about their mean, and
+/// about a drift of its zero or a weight that was not tared where they follow one (core/mistakes/cell_zero.h). They
 /// give the size. Over the day: what rounds of floor nests, circles of each swept axis and returns to zero leave; the
 /// load cell's moments against one lever. Whatever else is wrong adds to these, so the smallest of them is taken, and
 /// it has to be beyond chance on the same side. Repeats within seconds that are quiet while the day is as noisy as
@@ -49,8 +51,12 @@ struct DeclaredNoise {
 /// thirty degrees of freedom on: chance makes two of one in less than one day in 50 000.
 std::vector<DeclaredNoise> judgeDeclaredNoise(const AuditInput& input);
 
-/// Those of the instruments whose figures are wrong, with the figures that the readings show.
+/// Those of the instruments whose figures are wrong, with the figures that the readings show. None of one whose
+/// readings are explained by a mistake that is suspected.
 std::vector<mistakes::Suspected> suspectedNoise(const AuditInput& input);
+
+/// A zero of the load cell that drifts over the day, and a weight that was not tared where the loads do not name it.
+std::vector<mistakes::Suspected> suspectedZero(const AuditInput& input);
 
 /// How far reflectors of postures unloaded again stand from step 0, of all postures together; core/audit/checks.h:
 /// return_to_zero. None where nothing was unloaded again.
@@ -103,6 +109,12 @@ struct ToolDistances {
 
   const Pair* pair(int first, int second) const;
 };
+
+/// Whether time_order finds the rows of states in postures that were not read at their times.
+bool statesOfOtherPostures(const AuditInput& input);
+
+/// Whether rigid_tool finds reflectors that carry each other's names.
+bool reflectorsExchanged(const AuditInput& input);
 
 /// A pair that fewer than three states show is left out.
 ToolDistances toolDistances(const std::vector<campaign::StatePoints>& states, int targets,

@@ -36,15 +36,18 @@ enum class RemarkId {
 
   // time_order, completeness.
   steps_follow,
-  steps_out_of_order,  ///< remarks step_too_early, state_during
-  step_too_early,      ///< row, posture, step, step before whose end it begins
-  state_during,        ///< row, posture, step, step during which it was taken
-  all_there,           ///< postures
-  missing,             ///< remarks: the four below
-  step_not_read,       ///< posture, step
-  no_row_in_states,    ///< posture, step
-  too_few_readings,    ///< posture, step, readings, of how many, reflector
-  posture_not_read,    ///< posture
+  steps_out_of_order,      ///< remarks step_too_early, state_during; or one of the next two alone
+  rows_of_other_postures,  ///< file, postures moved, of how many; the first, the one read at its time; whether as
+                           ///< sorted as text
+  step_too_early,          ///< row, posture, step, step before whose end it begins
+  state_during,            ///< row, posture, step, step during which it was taken
+  clocks_apart,            ///< file, other file, by how much its times are ahead of that one's in s, rows out of order
+  all_there,               ///< postures
+  missing,                 ///< remarks: the four below
+  step_not_read,           ///< posture, step
+  no_row_in_states,        ///< posture, step
+  too_few_readings,        ///< posture, step, readings, of how many, reflector
+  posture_not_read,        ///< posture
 
   // repeatability_along, repeatability_across, noise_declared, rigid_tool.
   repeats_scatter,  ///< whether along the beam, one sigma in m, in parts of what is declared, whether beyond the limit
@@ -52,6 +55,7 @@ enum class RemarkId {
   noise_borne_out,     ///< times, remarks: the eight below
   noise_too_large,     ///< the same
   noise_too_small,     ///< the same
+  noise_explained,     ///< the same: a mistake that is suspected makes it
   repeats_along_show,  ///< of what is declared, as the next
   repeats_across_show,
   nests_show,
@@ -62,9 +66,12 @@ enum class RemarkId {
   lever_shows,
   declare_tracker_noise,    ///< along, across: by what to multiply what is declared
   declare_load_cell_noise,  ///< the same, of all figures
+  take_step_0_off,          ///< drift over the day, N and Nm; hours between its first reading and its last
+  unloaded_scatter,         ///< before, after: in parts of the declared noise
   distance_changes,         ///< both reflectors, m, state, more
   distances_scatter,        ///< in parts of the noise
-  reflectors_exchanged,     ///< row, state, reflectors in pairs: what it is called, what it is
+  reflectors_exchanged,     ///< row, state, reflectors in pairs: what it is called, what it is; states in a row, last
+                            ///< of them, whether from there on to the last of all
   no_one_reflector,
   reflector_moves,  ///< reflector, rms change of its distances in m: under load, without
 
@@ -137,6 +144,7 @@ enum class RemarkId {
   // tare, gravity_direction, moment_lever, load_size.
   unloaded_reading,  ///< mean force N and moment Nm, more
   not_tared,
+  zero_drifts,        ///< over the day, N and Nm; hours
   one_pose_off,       ///< posture, in sigma
   force_off_gravity,  ///< rms, on average, farthest, rad; posture of the farthest, more
   cell_rope_or_base,
@@ -158,9 +166,9 @@ enum class RemarkId {
 
   // arm_model, load_model.
   readings_agree,       ///< median distance m
-  readings_contradict,  ///< median distance m, how many mistakes would mend it
+  readings_contradict,  ///< median distance m, how many mistakes would mend it, the check that explains it or nothing
   springs_agree,        ///< share left
-  springs_contradict,   ///< share left, how many mistakes would mend it
+  springs_contradict,   ///< share left, how many mistakes would mend it, the check that explains it or nothing
 
   // controller_poses.
   controller_states,        ///< postures, rms m, farthest m, more

@@ -86,18 +86,19 @@ struct Calibration {
 /// reading that is rejected by the fit to all is left out of every figure.
 Calibration calibrate(const campaign::Campaign& campaign, const CalibrationOptions& options);
 
-/// Three numbers with their standard uncertainties, m or rad; 0: held.
+/// Three numbers with their standard uncertainties by all that was fitted, m or rad; 0: held.
 struct UncertainPoint {
   Eigen::Vector3d value = Eigen::Vector3d::Zero(), sd = Eigen::Vector3d::Zero();
 };
 
-/// Where the tracker stands in base_link: its place p follows the base's parameters by dp = r x (p - centre) + s.
+/// Where the tracker stands in base_link.
 UncertainPoint stationInBase(const UnloadedDay& day, const ArmFit& fit);
 
-/// Rotation vector from the readings' axes to base_link's; sd: of a small turn about base_link's axes.
+/// Rotation vector from the readings' axes to base_link's.
 UncertainPoint turnOfStation(const ArmFit& fit);
 
-/// Each reflector in the flange's frame, as the fitted arm has it at zero, the arm's own uncertainty not in it.
+/// Each reflector in the flange's frame, as the fitted arm has it at zero: the flange follows the last axes, which are
+/// uncertain too.
 std::vector<UncertainPoint> targetsInFlange(const UnloadedDay& day, const ArmFit& fit);
 
 }  // namespace stiffscope::calibration

@@ -1,56 +1,65 @@
 #include "core/calibration/calibrate.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
+#include <functional>
+#include <numbers>
 
 #include "core/frames/arm_parameters.h"
-#include "metrology/linear_algebra.h"
+#include "core/robot/inverse_kinematics.h"
 
 namespace stiffscope::calibration {
 
 namespace {
 
-/// Covariance of `count` parameters from `first` on; zero where they are held.
-Eigen::MatrixXd covarianceFrom(const ArmFit& fit, Eigen::Index first, Eigen::Index count) {
-  Eigen::MatrixXd block = Eigen::MatrixXd::Zero(count, count);
-  for (std::size_t a = 0; a < fit.free.size(); ++a) {
-    const Eigen::Index i = fit.free[a] - first;
-    for (std::size_t b = 0; b < fit.free.size(); ++b) {
-      const Eigen::Index k = fit.free[b] - first;
-      if (i >= 0 && i < count && k >= 0 && k < count)
-        block(i, k) = fit.covariance(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b));
-    }
+/// What `value` says of the fit, with the standard uncertainty that all its free parameters together give that.
+UncertainPoint propagatedThrough(const ArmFit& fit, const std::function<Eigen::Vector3d(const ArmFit&)>& value) {
+  constexpr double kStep = frames::ArmParameters::kSmall;
+  UncertainPoint point;
+  point.value = value(fit);
+  Eigen::Matrix<double, 3, Eigen::Dynamic> by_free =
+      Eigen::Matrix<double, 3, Eigen::Dynamic>::Zero(3, static_cast<Eigen::Index>(fit.free.size()));
+  ArmFit moved = fit;
+  for (std::size_t k = 0; k < fit.free.size(); ++k) {
+    const Eigen::Index at = fit.free[k];
+    if (at >= fit.steps.size()) continue;  // sizes of effects move no frame
+    moved.steps[at] = fit.steps[at] + kStep;
+    const Eigen::Vector3d up = value(moved);
+    moved.steps[at] = fit.steps[at] - kStep;
+    by_free.col(static_cast<Eigen::Index>(k)) = (up - value(moved)) / (2.0 * kStep);
+    moved.steps[at] = fit.steps[at];
   }
-  return block;
+  const Eigen::Matrix3d covariance = by_free * fit.covariance * by_free.transpose();
+  point.sd = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+  return point;
 }
 
-Eigen::Vector3d sdOf(const Eigen::Matrix3d& covariance) { return covariance.diagonal().cwiseMax(0.0).cwiseSqrt(); }
+/// Of the vectors that stand for one rotation the one nearer to `near`: at half a turn the axis changes sides.
+Eigen::Vector3d sameSide(const Eigen::Vector3d& turn, const Eigen::Vector3d& near) {
+  const double angle = turn.norm();
+  if (angle == 0.0) return turn;
+  const Eigen::Vector3d other = turn * (1.0 - 2.0 * std::numbers::pi / angle);
+  return (turn - near).squaredNorm() <= (other - near).squaredNorm() ? turn : other;
+}
 
 }  // namespace
 
 UncertainPoint stationInBase(const UnloadedDay& day, const ArmFit& fit) {
-  UncertainPoint point;
-  point.value = fit.basePointsMotion() * day.station;
-  Eigen::Matrix<double, 3, 6> by_base;
-  const Eigen::Vector3d lever = point.value - fit.centre;
-  for (int k = 0; k < 3; ++k) by_base.col(k) = Eigen::Vector3d::Unit(k).cross(lever);
-  by_base.rightCols<3>().setIdentity();
-  point.sd = sdOf(propagated(by_base, covarianceFrom(fit, fit.places().baseAt(), 6)));
-  return point;
+  return propagatedThrough(fit, [&](const ArmFit& moved) { return moved.basePointsMotion() * day.station; });
 }
 
 UncertainPoint turnOfStation(const ArmFit& fit) {
-  const Eigen::AngleAxisd turn(fit.basePointsMotion().linear());
-  return {turn.angle() * turn.axis(), sdOf(covarianceFrom(fit, fit.places().baseAt(), 3))};
+  const Eigen::Vector3d turn = robot::rotationVector(fit.basePointsMotion().linear());
+  return propagatedThrough(fit, [&](const ArmFit& moved) {
+    return sameSide(robot::rotationVector(moved.basePointsMotion().linear()), turn);
+  });
 }
 
 std::vector<UncertainPoint> targetsInFlange(const UnloadedDay& day, const ArmFit& fit) {
-  const Eigen::Isometry3d flange_from_base = fit.arm(day.arm).base_from_flange_at_zero.inverse();
-  const Eigen::Matrix3d turn = flange_from_base.linear();
   std::vector<UncertainPoint> points;
-  for (const Eigen::Vector3d& at_zero : fit.targetsAtZero()) {
-    const Eigen::MatrixXd covariance = covarianceFrom(fit, fit.places().targetAt(points.size()), 3);
-    points.push_back({flange_from_base * at_zero, sdOf(turn * covariance * turn.transpose())});
+  for (std::size_t target = 0; target < fit.targetsAtZero().size(); ++target) {
+    points.push_back(propagatedThrough(fit, [&](const ArmFit& moved) {
+      return moved.arm(day.arm).base_from_flange_at_zero.inverse() * moved.targetsAtZero()[target];
+    }));
   }
   return points;
 }

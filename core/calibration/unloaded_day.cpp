@@ -140,10 +140,14 @@ std::vector<LoggedPosture> loggedPostures(const campaign::Campaign& campaign, Jo
         log.back().q[j] = state.extras().commanded[j];
     }
   }
+  // Rows of a table may be sorted by anything; without all times their order stands for time.
+  if (std::all_of(log.begin(), log.end(), [](const LoggedPosture& at) { return std::isfinite(at.state->time_s); }))
+    std::stable_sort(log.begin(), log.end(),
+                     [](const LoggedPosture& a, const LoggedPosture& b) { return a.state->time_s < b.state->time_s; });
   return log;
 }
 
-/// Moves from posture to posture in the order of `states`, those that were not read among them: the arm went there.
+/// Moves from posture to posture in the order of the log, those that were not read among them: the arm went there.
 void setMoves(const std::vector<LoggedPosture>& log, UnloadedDay& day) {
   constexpr double kStill = 1e-5;  // rad: below the last digit of most logs
   struct Move {
@@ -212,11 +216,22 @@ UnloadedDay unloadedDay(const campaign::Campaign& campaign, JointAngles angles) 
     // Of a coupled arm each body's weight pulls on several drives: masses have to be known.
     day.free_moments = freeMoments(day.arm.joints());
   }
+  std::vector<const campaign::StatePoints*> in_order;
+  const std::vector<campaign::StatePoints> all_points = campaign::statePoints(campaign);
+  for (const campaign::StatePoints& points : all_points) {
+    const bool unloaded = points.source == campaign::StatePoints::Source::loading && points.step == 0;
+    if (unloaded && at_pose[static_cast<std::size_t>(points.pose)] != nullptr) in_order.push_back(&points);
+  }
+  const auto timeOf = [&](const campaign::StatePoints* points) {
+    return at_pose[static_cast<std::size_t>(points->pose)]->state->time_s;
+  };
+  if (std::all_of(in_order.begin(), in_order.end(), [&](const auto* one) { return std::isfinite(timeOf(one)); }))
+    std::stable_sort(in_order.begin(), in_order.end(),
+                     [&](const auto* a, const auto* b) { return timeOf(a) < timeOf(b); });
   std::vector<double> times, temperatures;
-  for (const campaign::StatePoints& points : campaign::statePoints(campaign)) {
-    if (points.source != campaign::StatePoints::Source::loading || points.step != 0) continue;
+  for (const campaign::StatePoints* one : in_order) {
+    const campaign::StatePoints& points = *one;
     const LoggedPosture* at = at_pose[static_cast<std::size_t>(points.pose)];
-    if (at == nullptr) continue;
     Posture posture(day.arm.joints());
     posture.pose = points.pose;
     posture.q = at->q;

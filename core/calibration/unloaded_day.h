@@ -59,8 +59,8 @@ struct FreeMoment {
   Eigen::Vector3d along = Eigen::Vector3d::Zero();
 };
 
-/// A day's unloaded postures (step 0) in the order of the campaign, with what effects of them are made of. Lengths m,
-/// angles rad. `arm` is the URDF's in base_link.
+/// A day's unloaded postures (step 0) in the order of time_s (where one has none, of the campaign's rows), with what
+/// effects of them are made of. Lengths m, angles rad. `arm` is the URDF's in base_link.
 struct UnloadedDay {
   robot::Robot arm;
   JointAngles angles = JointAngles::reported;

@@ -111,7 +111,8 @@ std::vector<StatePoints> statePoints(const Campaign& campaign) {
 }
 
 bool isUnloadedDay(const Campaign& campaign) {
-  if (!campaign.states || !campaign.loading || campaign.load_cell) return false;
+  // A load cell that stayed in campaign.xml shows nothing: no cell reads zero in every row.
+  if (!campaign.states || !campaign.loading) return false;
   const std::vector<State>& states = campaign.states->rows;
   return std::all_of(states.begin(), states.end(), [](const State& state) { return state.wrench_in_cell.isZero(); });
 }

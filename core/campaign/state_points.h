@@ -48,7 +48,8 @@ std::string nameOf(const Campaign& campaign, const StatePoints& state);
 /// rows.
 std::vector<StatePoints> statePoints(const Campaign& campaign);
 
-/// A day of unloaded postures: readings of them, no load cell, and no wrench that is not zero.
+/// A day of unloaded postures: readings of them, and no wrench that is not zero, whether a load cell is declared or
+/// not.
 bool isUnloadedDay(const Campaign& campaign);
 
 }  // namespace stiffscope::campaign

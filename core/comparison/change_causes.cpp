@@ -62,14 +62,21 @@ std::vector<CauseEvidence> causesOfMachine(const GeometryNumbers& numbers, const
                                            const Eigen::MatrixXd& moves) {
   const Fitting fitting(found);
   std::vector<CauseEvidence> causes;
-  for (std::size_t k = 0; k < seen.size(); ++k) {
-    const GeometryNumber& number = numbers.machine()[static_cast<std::size_t>(seen[k])];
+  const robot::ArmAxes& axes = arm.axes_in_base_at_zero;
+  for (const Eigen::Index at : seen) {
+    const GeometryNumber& number = numbers.machine()[static_cast<std::size_t>(at)];
     if (number.kind != NumberKind::joint_zero) continue;
-    const Eigen::VectorXd by =
-        Eigen::VectorXd::Unit(static_cast<Eigen::Index>(seen.size()), static_cast<Eigen::Index>(k));
-    causes.push_back(fitting.fit(ChangeCause::joint_zero, number.axis, by, &moves));
+    // Of axes that are one line, whose zeros are one number, the one that has a joint of its own.
+    const int before = numbers.oneLineWith(number.axis);
+    const int own = axes.jointOf(number.axis - 1) < 0 && before > 0 ? before : number.axis;
+    const int joint = axes.jointOf(own - 1);
+    if (joint < 0) continue;  // rods by themselves: that link
+    CauseEvidence evidence = fitting.fit(ChangeCause::joint_zero, own, numbers.byJoint(arm, joint)(seen), &moves);
+    evidence.joint = joint + 1;
+    evidence.same_line = own == number.axis ? before : number.axis;
+    causes.push_back(evidence);
   }
-  const int last = arm.joints() - 1;
+  const int last = arm.axes() - 1;
   for (int axis = 1; axis <= last; ++axis)
     causes.push_back(fitting.fit(ChangeCause::link, axis, numbers.byLink(arm, axis)(seen, Eigen::all), &moves));
   // Axis 1 alone is a bent link 1 with another base, the last axis alone a bent link before it with other reflectors.
@@ -80,12 +87,15 @@ std::vector<CauseEvidence> causesOfMachine(const GeometryNumbers& numbers, const
   return causes;
 }
 
-std::vector<CauseEvidence> causesOfReflectors(const Eigen::VectorXd& by_turn, int last_axis, const FoundChange& found) {
+std::vector<CauseEvidence> causesOfReflectors(const Eigen::VectorXd& by_turn, const robot::ArmAxes& axes,
+                                              const FoundChange& found) {
   const Fitting fitting(found);
   const Eigen::Index size = found.change.size();
+  const auto last_axis = static_cast<int>(axes.size());
   std::vector<CauseEvidence> causes{
       fitting.fit(ChangeCause::turn_about_last, last_axis, by_turn, nullptr),
       fitting.fit(ChangeCause::reflectors, 0, Eigen::MatrixXd::Identity(size, size), nullptr)};
+  causes.front().joint = axes.jointOf(last_axis - 1) + 1;
   sortByBic(causes);
   return causes;
 }

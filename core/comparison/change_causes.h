@@ -14,7 +14,9 @@ enum class ChangeCause { joint_zero, link, axis, growth, reflectors, turn_about_
 /// One cause that could have made all of the change, fitted alone by its own unknowns.
 struct CauseEvidence {
   ChangeCause cause = {};
-  int axis = 0;         ///< joint of joint_zero, axis, turn_about_last; link `axis` is between axes `axis` and axis + 1
+  int axis = 0;         ///< of axis, joint_zero and turn_about_last; link `axis` is between axes `axis` and axis + 1
+  int joint = 0;        ///< of joint_zero and turn_about_last, from 1; 0: no joint has this axis for its own
+  int same_line = 0;    ///< of joint_zero: the axis on the same line, which another joint turns; 0: none
   int unknowns = 0;     ///< directions of it that the days see
   double chi2 = 0.0;    ///< of the change that it explains
   double left_p = 0.0;  ///< probability that chance leaves as much as is left
@@ -38,8 +40,9 @@ std::vector<CauseEvidence> causesOfMachine(const GeometryNumbers& numbers, const
                                            const std::vector<Eigen::Index>& seen, const FoundChange& found,
                                            const Eigen::MatrixXd& moves);
 
-/// Causes by reflectors that moved: all turned about the last axis, of that number, together (`by_turn`, m/rad), which
-/// its joint's zero does too, or each by itself. Best first.
-std::vector<CauseEvidence> causesOfReflectors(const Eigen::VectorXd& by_turn, int last_axis, const FoundChange& found);
+/// Causes by reflectors that moved: all turned about the last axis of `axes` together (`by_turn`, m/rad), which its
+/// joint's zero does too, or each by itself. Best first.
+std::vector<CauseEvidence> causesOfReflectors(const Eigen::VectorXd& by_turn, const robot::ArmAxes& axes,
+                                              const FoundChange& found);
 
 }  // namespace stiffscope::comparison

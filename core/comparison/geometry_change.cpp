@@ -244,7 +244,7 @@ class Comparing {
       result_.causes = causesOfMachine(*numbers_, arm, seen_,
                                        {difference_(seen_), covariance_(seen_, seen_), dof_, postures}, moves_);
     } else if (result_.reflectors_moved) {
-      result_.causes = causesOfReflectors(reflectorsOnLastAxis(), before_.robot.joints(),
+      result_.causes = causesOfReflectors(reflectorsOnLastAxis(), before_.robot.axes_in_base_at_zero,
                                           {reflectors_shift_, reflectors_covariance_, dof_, postures});
     }
   }
@@ -269,7 +269,7 @@ class Comparing {
     if (result_.effects_changed) result_.cautions.emplace_back(RemarkId::effects_changed, result_.effects_p);
     if (pair_->targets[0].empty()) result_.cautions.emplace_back(RemarkId::no_common_reflector);
     result_.cautions.emplace_back(RemarkId::zero_1_with_base);
-    result_.cautions.emplace_back(RemarkId::zero_of_last_with_reflectors, before_.robot.joints());
+    result_.cautions.emplace_back(RemarkId::zero_of_last_with_reflectors, before_.robot.joints(), before_.robot.axes());
   }
 
   const campaign::Campaign &before_, &after_;

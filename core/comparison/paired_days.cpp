@@ -31,6 +31,15 @@ bool same(const EffectPart& a, const EffectPart& b) {
          a.terms.front().name == b.terms.front().name;
 }
 
+/// Variance of a coordinate by the tracker's declared noise, mean of a day's readings, m^2.
+double declaredNoise(const calibration::UnloadedDay& day) {
+  double sum = 0.0, count = 0.0;
+  for (const calibration::Posture& posture : day.postures) {
+    for (const calibration::Reading& reading : posture.readings) sum += reading.covariance.trace() / 3.0, ++count;
+  }
+  return sum / std::max(1.0, count);
+}
+
 }  // namespace
 
 CommonReadings commonReadings(const calibration::UnloadedDay& before, const calibration::UnloadedDay& after) {
@@ -176,24 +185,18 @@ void PairedDays::setCovariances() {
     std::vector<Eigen::VectorXd> residuals;
     for (const calibration::PostureEquations& of : equations[k].equations) residuals.push_back(of.residual);
     if (same_postures) residuals = differences(k, equations[k]);
-    ErrorComponents errors = errorComponents(equations[k], residuals);
-    if (same_postures) {
-      errors.coordinate *= 0.5, errors.angle *= 0.5;
-      constexpr double kLeast = 1e-6;  // readings to the same digits are no evidence of no noise
-      errors.coordinate = std::max(errors.coordinate, std::max(kLeast, noiseShare(k)));
-    }
+    ErrorComponents errors = errorComponents(equations[k], residuals, leastCoordinate(k));
+    if (same_postures) errors.coordinate *= 0.5, errors.angle *= 0.5;  // a day's half of the difference's
     covariances[k] = covarianceBy(equations[k], errors);
   }
 }
 
-double PairedDays::noiseShare(std::size_t k) const {
-  double declared = 0.0, count = 0.0;
-  for (const calibration::Posture& posture : day(k).postures) {
-    for (const calibration::Reading& reading : posture.readings) declared += reading.covariance.trace() / 3.0, ++count;
-  }
-  declared /= std::max(1.0, count);
-  const double all = declared + fits[k].model_sd * fits[k].model_sd;
-  return all > 0.0 ? declared / all : 0.0;
+double PairedDays::leastCoordinate(std::size_t k) const {
+  const std::array<double, 2> noise{declaredNoise(day(0)), declaredNoise(day(1))};
+  const double whitened_by = noise[k] + fits[k].model_sd * fits[k].model_sd;
+  const double declared = same_postures ? noise[0] + noise[1] : noise[k];
+  constexpr double kLeast = 1e-6;  // readings to the same digits are no evidence of no noise
+  return whitened_by > 0.0 ? std::max(kLeast, declared / whitened_by) : kLeast;
 }
 
 std::vector<Eigen::VectorXd> PairedDays::differences(std::size_t k, const FitEquations& equations) const {

@@ -32,12 +32,16 @@ struct ErrorComponents {
   JointVector angle;
 };
 
-/// By the moments r^T M r of the residuals: M the identity, and for each joint the sum over postures of a a^T, a what a
-/// turn of it does to the readings. With P what the fit leaves of any error,
-///   E(r^T M_k r) = s tr(P M_k P) + sum_l t_l tr(P M_k P M_l),
-/// solved for s and t_l; variances that come out negative are none (C. R. Rao's estimators, J. Multivariate Anal. 1
-/// (1971) 257, with weights 1). `residuals`: of each posture of `fit`, as long as its equations.
-ErrorComponents errorComponents(const FitEquations& fit, const std::vector<Eigen::VectorXd>& residuals);
+/// By moments of the residuals (C. R. Rao, J. Multivariate Anal. 1 (1971) 257): with V their covariance by such errors,
+/// P = V^-1 - V^-1 J (J^T V^-1 J)^-1 J^T V^-1, M_0 the identity, and for each joint M_k the sum over postures of a a^T,
+/// a what a turn of it does to the readings,
+///   E(r^T P M_k P r) = sum_l theta_l tr(P M_k P M_l),
+/// solved for theta = (s, t_1..); variances that come out negative are none, s is no less than `least_coordinate`. V is
+/// first the identity, then by what was found, in turns until it stays: joints may err by much more than coordinates,
+/// and with weights of 1 their scatter would hide what that of a coordinate is. `residuals`: of each posture of `fit`,
+/// as long as its equations.
+ErrorComponents errorComponents(const FitEquations& fit, const std::vector<Eigen::VectorXd>& residuals,
+                                double least_coordinate = 0.0);
 
 /// Covariance of the unknowns by such errors: N^-1 J^T S J N^-1, and the prior's share.
 Eigen::MatrixXd covarianceBy(const FitEquations& fit, const ErrorComponents& errors);
@@ -94,8 +98,9 @@ class PairedDays {
   void fit();
   void fitDay(std::size_t k, const std::vector<calibration::EffectPart>& parts);
   void setCovariances();
-  /// Share of the covariance that whitens a day's residuals which the tracker declares.
-  double noiseShare(std::size_t k) const;
+  /// What the tracker declares, as the least variance of a coordinate of the residuals of day k, or of their difference
+  /// from the other day's: in parts of the covariance that whitens them.
+  double leastCoordinate(std::size_t k) const;
   /// What the residuals of the two days differ by in each posture of day k, in parts of that day's covariance.
   std::vector<Eigen::VectorXd> differences(std::size_t k, const FitEquations& equations) const;
 

@@ -25,7 +25,7 @@ enum class RemarkId {
   effects_changed,             ///< probability of unchanged ones
   no_common_reflector,
   zero_1_with_base,
-  zero_of_last_with_reflectors,  ///< the last joint's number
+  zero_of_last_with_reflectors,  ///< the last joint's number, its axis'
   // Why something cannot be compared.
   nothing_comparable,  ///< why no deflection, why no stiffness
   of_one_campaign,     ///< When, what its identification says

@@ -13,6 +13,7 @@ using identification::CoverageInterval;
 struct Sought {
   std::optional<Measured> measured;
   Missing missing = Missing::nothing;
+  bool upper_bound = false;  ///< the quantity may be anything below the interval's upper end
 };
 
 Sought found(double value, const CoverageInterval& interval) {
@@ -49,12 +50,15 @@ Sought compensated(const DayResult& day, bool at_wrist) {
   return foundNormal(at->subsets.held_out, at->held_out_sd);
 }
 
-/// Where the softest direction is least stiff; its interval's lower end is the least over all postures.
+/// Where the softest direction is least stiff; its interval's lower end is the least over all postures. A joint of
+/// unknown stiffness can only make some direction softer than those that it does not move: then this is an upper bound.
 Sought softest(const DayResult& day) {
   if (day.identification == nullptr) return {std::nullopt, Missing::not_of_such_a_day};
   if (day.workspace == nullptr) return {std::nullopt, Missing::not_identified};
   std::optional<Measured> least;
+  bool upper_bound = false;
   for (const workspace::PointStiffness& posture : day.workspace->postures) {
+    upper_bound = upper_bound || !posture.unknown.empty();
     if (posture.of_model.empty()) continue;
     const workspace::DirectionalCompliance& soft = posture.of_model.front();
     const CoverageInterval interval = soft.stiffnessInterval();
@@ -64,7 +68,10 @@ Sought softest(const DayResult& day) {
     least->interval.high = std::min(least->interval.high, interval.high);
   }
   if (!least) return {std::nullopt, Missing::not_identified};
-  return found(least->value, least->interval);
+  if (upper_bound) least->interval.low = 0.0;
+  Sought sought = found(least->value, least->interval);
+  sought.upper_bound = upper_bound;
+  return sought;
 }
 
 Sought avoided(const DayResult& day) {
@@ -86,17 +93,22 @@ Sought positionError(const DayResult& day, bool calibrated, bool largest) {
   return foundNormal(model.held_out.rms, calibration.noise / std::sqrt(static_cast<double>(model.held_out.readings)));
 }
 
-/// The largest |distance - nominal| of axes that were measured, by the upper end of its interval.
+/// The largest |distance - nominal| of axes that were measured. What is largest of all is no less than any of them:
+/// both ends of its interval are the largest of theirs.
 Sought linkDifference(const DayResult& day) {
   if (day.swept == nullptr) return {std::nullopt, Missing::not_of_such_a_day};
-  std::optional<Sought> largest;
+  if (!day.swept->sag_removed && !day.swept->sag_in_uncertainty) return {std::nullopt, Missing::sag_left_in};
+  std::optional<Measured> largest;
   for (const frames::LinkGeometry& link : day.swept->links) {
     if (!link.distance_sd) continue;
     const Sought one = foundNormal(std::abs(link.distance - link.nominal_distance), *link.distance_sd);
     if (!one.measured) continue;
-    if (!largest || one.measured->interval.high > largest->measured->interval.high) largest = one;
+    if (!largest) largest = one.measured;
+    largest->value = std::max(largest->value, one.measured->value);
+    largest->interval.low = std::max(largest->interval.low, one.measured->interval.low);
+    largest->interval.high = std::max(largest->interval.high, one.measured->interval.high);
   }
-  return largest ? *largest : Sought{std::nullopt, Missing::not_identified};
+  return largest ? Sought{largest, Missing::nothing} : Sought{std::nullopt, Missing::not_identified};
 }
 
 Sought sought(Quantity quantity, const DayResult& day) {
@@ -124,6 +136,18 @@ Sought sought(Quantity quantity, const DayResult& day) {
   }
 }
 
+Decision notEvaluated(const Limit& limit, Missing missing) {
+  return {limit, std::nullopt, Verdict::not_evaluated, false, missing};
+}
+
+/// Of an upper bound: what lies below it somewhere. It keeps `most` with its upper end, and misses `least` for sure
+/// where even that end is below it; nothing else follows.
+Decision decideBelow(const Limit& limit, const Measured& bound) {
+  const Decision decision = decide(limit, bound);
+  const bool fails = limit.least && bound.interval.high < *limit.least;
+  return decision.verdict == Verdict::pass || fails ? decision : notEvaluated(limit, Missing::not_identified);
+}
+
 }  // namespace
 
 Decision decide(const Limit& limit, const Measured& measured) {
@@ -140,8 +164,9 @@ std::vector<Decision> decide(const Limits& limits, const DayResult& day) {
   std::vector<Decision> decisions;
   for (const Limit& limit : limits.limits) {
     const Sought one = sought(limit.quantity, day);
-    decisions.push_back(one.measured ? decide(limit, *one.measured)
-                                     : Decision{limit, std::nullopt, Verdict::not_evaluated, false, one.missing});
+    decisions.push_back(!one.measured     ? notEvaluated(limit, one.missing)
+                        : one.upper_bound ? decideBelow(limit, *one.measured)
+                                          : decide(limit, *one.measured));
   }
   return decisions;
 }

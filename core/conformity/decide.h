@@ -78,6 +78,7 @@ enum class Missing {
   not_of_such_a_day,  ///< the day measures something else
   no_such_joint,      ///< the machine has fewer
   not_identified,     ///< of such a day, but not found on this one
+  sag_left_in,        ///< of sweeps whose uncertainties know nothing of the arm's own sag
   no_uncertainty      ///< too little was measured to say how far it is to be trusted
 };
 
@@ -113,7 +114,9 @@ Decision decide(const Limit& limit, const Measured& measured);
 
 /// Each limit by what the day measured. U of a share compensated is from its spread over the subsets of postures, of an
 /// error of position from the tracker's declared noise, of a distance between axes from their fit; the others state an
-/// interval of their own.
+/// interval of their own. Where a joint of unknown stiffness moves P_TCP in some posture, the softest direction that is
+/// known is an upper bound of the softest one, with an interval from zero: it fails a lower limit where all of it lies
+/// below, passes an upper one as any quantity does, and is else not evaluated.
 std::vector<Decision> decide(const Limits& limits, const DayResult& day);
 
 /// Over the days of a report, whose decisions are of the same limits in one order: fail where one fails; pass where

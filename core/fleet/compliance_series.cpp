@@ -15,14 +15,33 @@ namespace {
 constexpr double kManyDegrees = 1e6;
 constexpr double kChangedMisfit = 0.01;
 
-/// Mean of [from, to) less mean of [begin, from).
-Eigen::VectorXd stepWeights(std::size_t days, std::size_t begin, std::size_t first, std::size_t end) {
+/// Mean of [begin, end).
+Eigen::VectorXd meanWeights(std::size_t days, std::size_t begin, std::size_t end) {
   Eigen::VectorXd weights = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(days));
-  for (std::size_t t = begin; t < end; ++t) {
-    weights[static_cast<Eigen::Index>(t)] =
-        t < first ? -1.0 / static_cast<double>(first - begin) : 1.0 / static_cast<double>(end - first);
-  }
+  weights.segment(static_cast<Eigen::Index>(begin), static_cast<Eigen::Index>(end - begin))
+      .setConstant(1.0 / static_cast<double>(end - begin));
   return weights;
+}
+
+/// Mean of [first, end) less mean of [begin, first).
+Eigen::VectorXd stepWeights(std::size_t days, std::size_t begin, std::size_t first, std::size_t end) {
+  return meanWeights(days, first, end) - meanWeights(days, begin, first);
+}
+
+/// Whether shares of it are known: of what may be zero or less they are not.
+bool isAboveItsU(const comparison::Uncertain& compliance) {
+  return compliance.value > 0.0 && !(compliance.value <= compliance.expanded());
+}
+
+/// Of the level, what two steps have that are found together; one has the rest. Two are rarer, and one is then found as
+/// often as if two were not asked of.
+constexpr double kShareOfTwo = 0.1;
+
+/// For how much the search for `steps` steps, one or two, among so many days has to be corrected.
+double tried(std::size_t days, std::size_t steps) {
+  const double dates = static_cast<double>(days) - 1.0;
+  if (steps == 2) return 0.5 * dates * (dates - 1.0) / kShareOfTwo;
+  return days > 2 ? dates / (1.0 - kShareOfTwo) : dates;
 }
 
 }  // namespace
@@ -33,7 +52,8 @@ bool CampaignResult::hasUnknown() const {
 }
 
 Stated Step::share() const {
-  const double u = difference.expanded() / before, value = difference.value / before;
+  if (!isAboveItsU(before)) return {};
+  const double u = difference.expanded() / before.value, value = difference.value / before.value;
   return {value, value - u, value + u};
 }
 
@@ -105,11 +125,6 @@ double ComplianceSeries::pooledScatter(int joint, const std::vector<std::size_t>
 
 comparison::Uncertain ComplianceSeries::contrast(int joint, const Eigen::VectorXd& weights,
                                                  const std::vector<std::size_t>& first_days) const {
-  return contrastBy(Scatter::of_the_sum_where_larger, joint, weights, first_days);
-}
-
-comparison::Uncertain ComplianceSeries::contrastBy(Scatter choice, int joint, const Eigen::VectorXd& weights,
-                                                   const std::vector<std::size_t>& first_days) const {
   comparison::Uncertain result;
   std::vector<double> by_place(place_count_, 0.0);
   double shared = 0.0, dof = kManyDegrees;
@@ -127,10 +142,8 @@ comparison::Uncertain ComplianceSeries::contrastBy(Scatter choice, int joint, co
     const double pooled = weights.squaredNorm() * pooledScatter(joint, first_days);
     const double pooled_dof = dof * static_cast<double>(days() - first_days.size());
     const int own = std::max(1, static_cast<int>(std::lround(dof)));
-    if (pooled > 0.0 &&
-        (choice == Scatter::pooled || metrology::fTail(scatter / pooled, own, pooled_dof) > kChangedMisfit)) {
+    if (pooled > 0.0 && metrology::fTail(scatter / pooled, own, pooled_dof) > kChangedMisfit)
       scatter = pooled, dof = pooled_dof;
-    }
   }
   const double total = scatter + shared;
   result.sd = std::sqrt(total);
@@ -139,45 +152,242 @@ comparison::Uncertain ComplianceSeries::contrastBy(Scatter choice, int joint, co
   return result;
 }
 
-Step ComplianceSeries::likeliestStep(int joint, std::size_t begin, std::size_t end) const {
-  Step best;
-  best.joint = joint, best.begin = begin, best.end = end, best.first = end;
-  if (end < begin + 2) return best;
-  const auto firstDays = [&](std::size_t first) {
-    std::vector<std::size_t> segments{0};
-    for (const std::size_t one : {begin, first, end}) {
-      if (one > segments.back() && one < days()) segments.push_back(one);
+Step ComplianceSeries::stepBetween(int joint, std::size_t segment, const std::vector<std::size_t>& first_days) const {
+  Step step;
+  step.joint = joint;
+  step.begin = first_days[segment], step.first = first_days[segment + 1];
+  step.end = segment + 2 < first_days.size() ? first_days[segment + 2] : days();
+  step.difference = contrast(joint, stepWeights(days(), step.begin, step.first, step.end), first_days);
+  step.before = contrast(joint, meanWeights(days(), step.begin, step.first), first_days);
+  step.p_value = pOfNothing(step.difference);
+  return step;
+}
+
+/// The steps of one joint (ComplianceSeries). Sums over days are kept so that a pair of dates costs the same however
+/// many days and postures there are.
+class StepSearch {
+ public:
+  StepSearch(const ComplianceSeries& series, int joint) : series_(series), joint_(joint), days_(series.days()) {
+    const auto n = static_cast<Eigen::Index>(days_);
+    compliance_ = shared_ = squares_ = Eigen::VectorXd::Zero(n + 1);
+    products_ = Eigen::MatrixXd::Zero(n + 1, n + 1);
+    std::vector<double> mean(series.place_count_, 0.0), own(series.place_count_);
+    const auto influence = [&](std::size_t t, std::size_t p) { return series.springs(t).influences[p][joint]; };
+    // The mean of all days cancels in all that is pooled, and would cost digits.
+    for (std::size_t t = 0; series.same_postures_ && t < days_; ++t) {
+      for (std::size_t p = 0; p < series.places_[t].size(); ++p)
+        mean[series.places_[t][p]] += influence(t, p) / static_cast<double>(days_);
     }
-    return segments;
-  };
-  double largest = -1.0;
-  for (std::size_t first = begin + 1; first < end; ++first) {
-    const comparison::Uncertain step =
-        contrastBy(Scatter::pooled, joint, stepWeights(days(), begin, first, end), firstDays(first));
-    const double size = step.sd > 0.0 ? std::abs(step.value) / step.sd : 0.0;
-    if (size > largest) largest = size, best.first = first;
+    for (std::size_t t = 0; t < days_; ++t) {
+      const auto i = static_cast<Eigen::Index>(t);
+      compliance_[i + 1] = compliance_[i] + series.springs(t).compliance[joint];
+      shared_[i + 1] = shared_[i] + series.springs(t).shared[joint];
+      std::fill(own.begin(), own.end(), 0.0);
+      for (std::size_t p = 0; p < series.places_[t].size(); ++p)
+        own[series.places_[t][p]] += influence(t, p) - mean[series.places_[t][p]];
+      for (std::size_t u = 0; u <= t; ++u) {
+        const auto j = static_cast<Eigen::Index>(u);
+        double product = 0.0;
+        for (std::size_t p = 0; p < series.places_[u].size(); ++p)
+          product += own[series.places_[u][p]] * (influence(u, p) - mean[series.places_[u][p]]);
+        products_(i + 1, j + 1) = products_(j + 1, i + 1) = product;
+      }
+      squares_[i + 1] = squares_[i] + products_(i + 1, i + 1);
+    }
+    for (Eigen::Index t = 1; t <= n; ++t) products_.row(t) += products_.row(t - 1);
+    for (Eigen::Index t = 1; t <= n; ++t) products_.col(t) += products_.col(t - 1);
   }
-  best.difference = contrast(joint, stepWeights(days(), begin, best.first, end), firstDays(best.first));
-  best.p_value = std::min(1.0, pOfNothing(best.difference) * static_cast<double>(end - begin - 1));
-  for (std::size_t t = begin; t < best.first; ++t)
-    best.before += springs(t).compliance[joint] / static_cast<double>(best.first - begin);
-  return best;
+
+  double pOfNoStep() const {
+    double smallest = 1.0;
+    for (const std::size_t count : {1, 2}) {
+      if (days_ > count) smallest = std::min(smallest, largestP(likeliest(0, days_, count)));
+    }
+    return smallest;
+  }
+
+  std::vector<Step> steps(double level, double further) {
+    find(0, days_, level, further);
+    if (found_.size() > found_first_.size()) settle();
+    return estimated(found_);
+  }
+
+ private:
+  struct Found {
+    std::size_t first;
+    double tried = 1.0, level = 0.0;
+  };
+
+  std::vector<std::size_t> firstDays(const std::vector<Found>& found) const {
+    std::vector<std::size_t> first_days{0};
+    for (const Found& one : found) first_days.push_back(one.first);
+    return first_days;
+  }
+
+  /// Squares of the influences about their means in [begin, end).
+  double within(std::size_t begin, std::size_t end) const {
+    const auto b = static_cast<Eigen::Index>(begin), e = static_cast<Eigen::Index>(end);
+    return squares_[e] - squares_[b] - product(begin, end, begin, end) / static_cast<double>(end - begin);
+  }
+
+  /// Sum over all days t of one segment and u of the other of sum_p g_t,p g_u,p.
+  double product(std::size_t begin, std::size_t end, std::size_t other_begin, std::size_t other_end) const {
+    const auto b = static_cast<Eigen::Index>(begin), e = static_cast<Eigen::Index>(end);
+    const auto ob = static_cast<Eigen::Index>(other_begin), oe = static_cast<Eigen::Index>(other_end);
+    return products_(e, oe) - products_(b, oe) - products_(e, ob) + products_(b, ob);
+  }
+
+  /// d^T C^-1 d of the differences between the two or three segments between `bounds`; `scatter` is of a day, where
+  /// postures are the same.
+  double size(const std::vector<std::size_t>& bounds, double scatter) const {
+    const std::size_t segments = bounds.size() - 1;
+    const bool pooled = series_.same_postures_;
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+    for (std::size_t s = 0; s < segments; ++s) {
+      const auto i = static_cast<Eigen::Index>(s);
+      const auto b = static_cast<Eigen::Index>(bounds[s]), e = static_cast<Eigen::Index>(bounds[s + 1]);
+      const auto length = static_cast<double>(e - b);
+      mean[i] = (compliance_[e] - compliance_[b]) / length;
+      covariance(i, i) = (shared_[e] - shared_[b]) / (length * length) + (pooled ? scatter / length : 0.0);
+      for (std::size_t o = 0; !pooled && o < segments; ++o) {
+        covariance(i, static_cast<Eigen::Index>(o)) += product(bounds[s], bounds[s + 1], bounds[o], bounds[o + 1]) /
+                                                       (length * static_cast<double>(bounds[o + 1] - bounds[o]));
+      }
+    }
+    const auto count = static_cast<Eigen::Index>(segments - 1);
+    const Eigen::Matrix<double, 2, 3> differences =
+        (Eigen::Matrix<double, 2, 3>() << -1.0, 1.0, 0.0, 0.0, -1.0, 1.0).finished();
+    const Eigen::Vector2d d = differences * mean;
+    Eigen::Matrix2d c = differences * covariance * differences.transpose();
+    if (count == 1) return c(0, 0) > 0.0 ? d[0] * d[0] / c(0, 0) : 0.0;
+    const double determinant = c.determinant();
+    return c(0, 0) > 0.0 && determinant > 0.0
+               ? (c(1, 1) * d[0] * d[0] - 2.0 * c(0, 1) * d[0] * d[1] + c(0, 0) * d[1] * d[1]) / determinant
+               : 0.0;
+  }
+
+  /// One step or two in a segment of those found. Dates are held against each other by one scatter, that between the
+  /// steps that are known: each pair's own would prefer dates at which it is small by chance.
+  std::vector<Found> likeliest(std::size_t begin, std::size_t end, std::size_t count) const {
+    const std::vector<std::size_t> first_days = firstDays(found_);
+    double scatter = 0.0;
+    for (std::size_t s = 0; s < first_days.size(); ++s)
+      scatter += within(first_days[s], s + 1 < first_days.size() ? first_days[s + 1] : days_);
+    scatter /= static_cast<double>(days_ - first_days.size());
+    std::vector<Found> best;
+    double largest = -1.0;
+    for (std::size_t a = begin + 1; a < end; ++a) {
+      for (std::size_t b = count == 2 ? a + 1 : end; b < end || (count == 1 && b == end); ++b) {
+        std::vector<std::size_t> bounds{begin, a, end};
+        if (count == 2) bounds.insert(bounds.begin() + 2, b);
+        const double found = size(bounds, scatter);
+        if (!(found > largest)) continue;
+        largest = found;
+        best = {{a, tried(end - begin, count)}};
+        if (count == 2) best.push_back({b, tried(end - begin, count)});
+      }
+    }
+    return best;
+  }
+
+  std::vector<Found> with(const std::vector<Found>& more) const {
+    std::vector<Found> all = found_;
+    all.insert(all.end(), more.begin(), more.end());
+    std::sort(all.begin(), all.end(), [](const Found& a, const Found& b) { return a.first < b.first; });
+    return all;
+  }
+
+  std::vector<Step> estimated(const std::vector<Found>& found) const {
+    const std::vector<std::size_t> first_days = firstDays(found);
+    std::vector<Step> steps;
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      steps.push_back(series_.stepBetween(joint_, k, first_days));
+      steps.back().p_value = std::min(1.0, steps.back().p_value * found[k].tried);
+    }
+    return steps;
+  }
+
+  /// Of those `more`, beside what is found.
+  double largestP(const std::vector<Found>& more) const {
+    double largest = 0.0;
+    for (const Step& step : estimated(with(more))) {
+      const bool own = std::any_of(more.begin(), more.end(), [&](const Found& one) { return one.first == step.first; });
+      if (own) largest = std::max(largest, step.p_value);
+    }
+    return largest;
+  }
+
+  /// What is beyond chance in a segment of those found: two steps, one, or none.
+  std::vector<Found> beyondChance(std::size_t begin, std::size_t end, double level, double further) const {
+    if (end < begin + 2) return {};
+    std::vector<Found> one = likeliest(begin, end, 1), two;
+    for (Found& step : one) step.level = level;
+    const bool changed = largestP(one) <= level;
+    if (end > begin + 2) two = likeliest(begin, end, 2);
+    for (Found& step : two) {
+      step.level = level;
+      // That there is one is known then: each of the two has to be beyond chance beside the other.
+      if (changed) step.tried = tried(end - begin, 1), step.level = further;
+    }
+    if (!two.empty() && largestP(two) <= two.front().level) return two;
+    return changed ? one : std::vector<Found>{};
+  }
+
+  void find(std::size_t begin, std::size_t end, double level, double further) {
+    const std::vector<Found> more = beyondChance(begin, end, level, further);
+    if (more.empty()) return;
+    found_ = with(more);
+    if (found_first_.empty()) found_first_ = found_;
+    std::size_t from = begin;
+    for (const Found& one : more) {
+      find(from, one.first, further, further);
+      from = one.first;
+    }
+    find(from, end, further, further);
+  }
+
+  /// Dates that were found before others were known, once more between their neighbours; and steps that are none any
+  /// more beside those.
+  void settle() {
+    while (!found_.empty()) {
+      bool moved = true;
+      for (std::size_t pass = 0; moved && pass < days_; ++pass) {
+        moved = false;
+        for (std::size_t k = 0; k < found_.size(); ++k) {
+          const Found own = found_[k];
+          const std::size_t begin = k > 0 ? found_[k - 1].first : 0;
+          const std::size_t end = k + 1 < found_.size() ? found_[k + 1].first : days_;
+          found_.erase(found_.begin() + static_cast<std::ptrdiff_t>(k));
+          const std::size_t first = likeliest(begin, end, 1).front().first;
+          found_.insert(found_.begin() + static_cast<std::ptrdiff_t>(k), {first, own.tried, own.level});
+          moved |= first != own.first;
+        }
+      }
+      const std::vector<Step> steps = estimated(found_);
+      std::size_t worst = 0;
+      const auto excess = [&](std::size_t k) { return steps[k].p_value / found_[k].level; };
+      for (std::size_t k = 1; k < found_.size(); ++k) worst = excess(k) > excess(worst) ? k : worst;
+      if (excess(worst) <= 1.0) return;
+      found_.erase(found_.begin() + static_cast<std::ptrdiff_t>(worst));
+    }
+    found_ = found_first_;
+  }
+
+  const ComplianceSeries& series_;
+  int joint_;
+  std::size_t days_;
+  Eigen::VectorXd compliance_, shared_, squares_;  ///< of all days before
+  Eigen::MatrixXd products_;                       ///< the same of all pairs of days, sum_p g_t,p g_u,p
+  std::vector<Found> found_, found_first_;         ///< in order of time
+};
+
+double ComplianceSeries::pOfNoStep(int joint) const {
+  return has(joint) && days() > 1 ? StepSearch(*this, joint).pOfNoStep() : 1.0;
 }
 
-void ComplianceSeries::findSteps(int joint, std::size_t begin, std::size_t end, double level,
-                                 std::vector<Step>& found) const {
-  if (end < begin + 2) return;
-  const Step step = likeliestStep(joint, begin, end);
-  if (!(step.p_value <= level)) return;
-  findSteps(joint, begin, step.first, level, found);
-  found.push_back(step);
-  findSteps(joint, step.first, end, level, found);
-}
-
-std::vector<Step> ComplianceSeries::steps(int joint, double level) const {
-  std::vector<Step> found;
-  if (has(joint)) findSteps(joint, 0, days(), level, found);
-  return found;
+std::vector<Step> ComplianceSeries::steps(int joint, double level, double further) const {
+  return has(joint) ? StepSearch(*this, joint).steps(level, further) : std::vector<Step>{};
 }
 
 double ComplianceSeries::detectableStep(int joint, std::size_t first, double level) const {
@@ -185,7 +395,7 @@ double ComplianceSeries::detectableStep(int joint, std::size_t first, double lev
   const comparison::Uncertain step = contrast(joint, stepWeights(days(), 0, first, days()), {0, first});
   if (!(step.sd > 0.0) || !(step.dof > 0.0)) return kUnknown;
   const double nine_in_ten = numerics::normalLimit(2.0 * 0.1);
-  const double limit = numerics::studentLimit(level / static_cast<double>(days() - 1), step.dof) + nine_in_ten;
+  const double limit = numerics::studentLimit(level / tried(days(), 1), step.dof) + nine_in_ten;
   double mean = 0.0;
   for (std::size_t t = 0; t < days(); ++t) mean += springs(t).compliance[joint] / static_cast<double>(days());
   return mean > 0.0 ? limit * step.sd / mean : kUnknown;
@@ -198,9 +408,10 @@ ControlChart ComplianceSeries::chart(int joint, const std::vector<Step>& steps) 
   for (const Step& step : steps) first_days.push_back(step.first);
   const std::size_t base = steps.empty() ? days() : steps.front().first;
   const Eigen::Index count = static_cast<Eigen::Index>(days());
-  Eigen::VectorXd centre = Eigen::VectorXd::Zero(count);
-  centre.head(static_cast<Eigen::Index>(base)).setConstant(1.0 / static_cast<double>(base));
-  chart.centre = contrast(joint, centre, first_days).value;
+  const Eigen::VectorXd centre = meanWeights(days(), 0, base);
+  const comparison::Uncertain mean = contrast(joint, centre, first_days);
+  chart.centre = mean.value;
+  const bool known = isAboveItsU(mean);
   double squares = 0.0, expected = 0.0;
   for (std::size_t t = 0; t < days(); ++t) {
     const Eigen::VectorXd own = Eigen::VectorXd::Unit(count, static_cast<Eigen::Index>(t));
@@ -211,15 +422,12 @@ ControlChart ComplianceSeries::chart(int joint, const std::vector<Step>& steps) 
     point.limit = numerics::studentLimit(kOutside, away.dof) * away.sd / chart.centre;
     if (days() < 2) point.expanded = point.limit = kUnknown;  // nothing but itself to differ from
     point.outside = std::abs(point.value) > point.limit;
-    chart.points.push_back(point);
+    if (known) chart.points.push_back(point);
     // The same against its own segment.
     const auto next = std::upper_bound(first_days.begin(), first_days.end(), t);
     const std::size_t begin = *(next - 1), end = next == first_days.end() ? days() : *next;
     if (end < begin + 2) continue;
-    Eigen::VectorXd segment = Eigen::VectorXd::Zero(count);
-    segment.segment(static_cast<Eigen::Index>(begin), static_cast<Eigen::Index>(end - begin))
-        .setConstant(1.0 / static_cast<double>(end - begin));
-    const comparison::Uncertain within = contrast(joint, own - segment, first_days);
+    const comparison::Uncertain within = contrast(joint, own - meanWeights(days(), begin, end), first_days);
     squares += within.value * within.value, expected += within.sd * within.sd;
   }
   const int free = static_cast<int>(days()) - static_cast<int>(first_days.size());

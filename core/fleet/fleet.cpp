@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <set>
 #include <tuple>
@@ -153,7 +154,7 @@ std::vector<Charted> chartedSeries(const Fleet& fleet) {
   return charted;
 }
 
-/// The likeliest step of each joint of each series, or the change of a pair's geometry, and its p-value.
+/// Whether a joint of a series has no step, or a pair's geometry no change, and the p-value of that.
 struct Question {
   const Charted* charted = nullptr;
   int joint = 0;
@@ -166,8 +167,7 @@ std::vector<Question> questionsOf(const std::vector<Charted>& charted, const std
   for (const Charted& one : charted) {
     for (int joint = 0; joint < one.joints; ++joint) {
       if (one.compliances.days() < 2 || !one.compliances.has(joint)) continue;
-      questions.push_back(
-          {&one, joint, nullptr, one.compliances.likeliestStep(joint, 0, one.compliances.days()).p_value});
+      questions.push_back({&one, joint, nullptr, one.compliances.pOfNoStep(joint)});
     }
   }
   for (const FleetPair& pair : pairs) {
@@ -218,18 +218,14 @@ void studySeries(Fleet& fleet) {
       fleet.steps.push_back(geometryStep(fleet, *one.pair, corrected[q]));
       continue;
     }
-    // Further steps of this joint are held to what Bonferroni allows; the first passes whatever Holm allowed it.
+    // What is found first passes whatever Holm allowed it; further steps are held to what Bonferroni allows.
     const double level = kFleetLevel / static_cast<double>(questions.size());
-    auto found = one.charted->compliances.steps(one.joint, std::max(level, one.p_value));
+    auto found = one.charted->compliances.steps(one.joint, std::max(level, one.p_value), level);
     for (const Step& step : found) {
-      const double p = step.begin == 0 && step.end == one.charted->compliances.days()
-                           ? corrected[q]
-                           : std::min(1.0, step.p_value * static_cast<double>(questions.size()));
-      if (p <= kFleetLevel) fleet.steps.push_back(complianceStep(fleet, *one.charted, step, p));
+      const double bonferroni = std::min(1.0, step.p_value * static_cast<double>(questions.size()));
+      const double p = step.p_value <= one.p_value ? std::min(bonferroni, corrected[q]) : bonferroni;
+      fleet.steps.push_back(complianceStep(fleet, *one.charted, step, p));
     }
-    std::erase_if(found, [&](const Step& step) {
-      return (step.begin != 0 || step.end != one.charted->compliances.days()) && step.p_value > level;
-    });
     PerJoint<std::vector<Step>>& own = steps[one.charted];
     own.resize(static_cast<std::size_t>(one.charted->joints));
     own[static_cast<std::size_t>(one.joint)] = std::move(found);
@@ -324,8 +320,12 @@ Need needOf(const Fleet& fleet, const FleetStep& step) {
       break;
   }
   const Stated share = step.compliance.share();
+  // Without a share it is still known which way.
+  const double change = std::isfinite(share.value)
+                            ? share.value
+                            : std::copysign(std::numeric_limits<double>::infinity(), step.compliance.difference.value);
   return {NeedId::changed,
-          Remark(RemarkId::compliance_changed, step.compliance.joint + 1, share.value, share.high - share.value, date,
+          Remark(RemarkId::compliance_changed, step.compliance.joint + 1, change, share.high - share.value, date,
                  step.p_holm, step.days_after),
           Remark(RemarkId::inspect_joint, step.compliance.joint + 1), step.campaign};
 }

@@ -17,12 +17,12 @@ namespace stiffscope::fleet {
 struct Step {
   int joint = 0;                     ///< from 0
   std::size_t first = 0;             ///< day from which the change holds
-  std::size_t begin = 0, end = 0;    ///< days that were looked at: [begin, first) against [first, end)
-  comparison::Uncertain difference;  ///< after - before, rad/Nm
-  double before = 0.0;               ///< mean compliance before, rad/Nm
-  double p_value = 1.0;              ///< of no difference, times the dates at which it could have been
+  std::size_t begin = 0, end = 0;    ///< from the step before to the next: [begin, first) against [first, end)
+  comparison::Uncertain difference;  ///< mean of the days after - mean of those before, rad/Nm
+  comparison::Uncertain before;      ///< mean compliance of the days before, rad/Nm
+  double p_value = 1.0;              ///< of no difference, times the number of what was tried (ComplianceSeries)
 
-  Stated share() const;  ///< difference over `before`
+  Stated share() const;  ///< difference over `before`; not numbers where `before` is not above its own U
 };
 
 /// A joint's compliance on the dates of one machine, as a control chart.
@@ -33,8 +33,8 @@ struct ControlChart {
     double limit = kUnknown;     ///< +-: chance is outside in kOutside of all days
     bool outside = false;
   };
-  double centre = kUnknown;  ///< mean compliance of the days before the first step, rad/Nm
-  std::vector<Point> points;
+  double centre = kUnknown;   ///< mean compliance of the days before the first step, rad/Nm
+  std::vector<Point> points;  ///< none where `centre` is not above its own U: shares of it are not known
   double scatter = kUnknown;  ///< of the dates between steps, over what is stated; not a number of few dates
   double scatter_p = 1.0;     ///< chance of as much
 };
@@ -56,6 +56,15 @@ inline constexpr double kOutside = 0.0027;
 /// with so many more degrees of freedom, unless the sum itself is larger than chance makes it (F, 1 %): then something
 /// changed that the springs do not hold, and the sum is taken. Days are assumed to err independently beyond this; an
 /// error of several days in a row (a load cell recalibrated) is a change like any other.
+///
+/// Steps: no step, one and two are held against each other, at all dates and all pairs of dates, since of two that
+/// partly undo each other neither may show alone, and of two the same way one is found between them. Those dates are
+/// the likeliest at which the differences d of the means of segments that adjoin have the largest d^T C^-1 d, C by a
+/// scatter that is the same for all dates; their own would prefer dates at which it is small by chance. Two steps are
+/// taken where both are beyond chance, else one; then the same within each segment. The p-value of one step among n
+/// days counts (n - 1) / 0.9 times, for the dates tried, those of two (n - 1) (n - 2) / 2 / 0.1 times, for the pairs:
+/// together an unchanged series has a step in at most `level` of all cases. Where one is beyond chance, two are held
+/// to (n - 1) / 0.9 as well, the question being whether a second stands beside it.
 class ComplianceSeries {
  public:
   /// Days in the order of time; `method`, or without one the own weight, is available in all of them.
@@ -74,17 +83,17 @@ class ComplianceSeries {
   comparison::Uncertain contrast(int joint, const Eigen::VectorXd& weights,
                                  const std::vector<std::size_t>& first_days) const;
 
-  /// The day in (begin, end) at which a step is the largest against the scatter pooled over the dates, which is the
-  /// same for all of them; the sum's own would prefer the dates at which it is small by chance. Its p-value is by
-  /// contrast().
-  Step likeliestStep(int joint, std::size_t begin, std::size_t end) const;
+  /// That nothing changed: the smaller p-value of the likeliest step and of the likeliest two (the larger of theirs),
+  /// times the number of what was tried.
+  double pOfNoStep(int joint) const;
 
-  /// All steps, in order of time: the likeliest of all days where its p-value is at most `level`, then the same before
-  /// and after it.
-  std::vector<Step> steps(int joint, double level) const;
+  /// All steps, in order of time: what is found first at `level`, further ones within the segments at `further`. Each
+  /// is the difference between the segments that adjoin, estimated once all steps are known.
+  std::vector<Step> steps(int joint, double level, double further) const;
+  std::vector<Step> steps(int joint, double level) const { return steps(joint, level, level); }
 
   /// Share of the mean compliance that a step from day `first` on has to have so that nine times in ten its p-value,
-  /// times the dates at which it could be, is at most `level`: (t + 1.28) u of the contrast. Not a number where the
+  /// times the number of what is tried, is at most `level`: (t + 1.28) u of the contrast. Not a number where the
   /// joint is not seen on every day, or no uncertainty can be stated.
   double detectableStep(int joint, std::size_t first, double level) const;
 
@@ -95,11 +104,9 @@ class ComplianceSeries {
 
  private:
   const SpringsOfDay& springs(std::size_t day) const;
-  enum class Scatter { of_the_sum_where_larger, pooled };
-  comparison::Uncertain contrastBy(Scatter scatter, int joint, const Eigen::VectorXd& weights,
-                                   const std::vector<std::size_t>& first_days) const;
   double pooledScatter(int joint, const std::vector<std::size_t>& first_days) const;
-  void findSteps(int joint, std::size_t begin, std::size_t end, double level, std::vector<Step>& found) const;
+  Step stepBetween(int joint, std::size_t segment, const std::vector<std::size_t>& first_days) const;
+  friend class StepSearch;
 
   std::vector<const CampaignResult*> days_;
   std::optional<identification::Method> method_;
@@ -164,7 +171,8 @@ struct Detectable {
   double middle = kUnknown, last = kUnknown;
 };
 
-/// The control charts of a series, by joint; those without points are of joints that its days do not see.
+/// The control charts of a series, by joint; those without points are of joints that its days do not see, or whose
+/// compliance is not above its own U.
 struct SeriesCharts {
   std::size_t series = 0;
   std::optional<identification::Method> method;  ///< none: by own weight
@@ -230,12 +238,12 @@ void compareUnloaded(const std::vector<FleetCampaign>& campaigns, std::vector<Fl
 
 /// What follows from the results of all campaigns (sorted) and pairs.
 ///
-/// A compliance, of days without a load that by own weight, has changed where the likeliest step of its series
-/// (ComplianceSeries) has a p-value, corrected for the dates at which it could have been and by Holm for the joints of
-/// all series of the fleet and its pairs of days without a load, of kFleetLevel at most. A geometry has changed where
-/// the pair's has. An effect has appeared where the diagnosis of no day before, two or more, and of every day from then
-/// on, two or more, names it, gone the other way round; a diagnosis names an effect that is not there on one day in a
-/// hundred or fewer.
+/// A compliance, of days without a load that by own weight, has changed where the likeliest step or two of its series
+/// (ComplianceSeries) have a p-value, corrected for the dates at which they could have been and by Holm for the joints
+/// of all series of the fleet and its pairs of days without a load, of kFleetLevel at most. A geometry has changed
+/// where the pair's has. An effect has appeared where the diagnosis of no day before, two or more, and of every day
+/// from then on, two or more, names it, gone the other way round; a diagnosis names an effect that is not there on one
+/// day in a hundred or fewer.
 Fleet studyFleet(std::vector<FleetCampaign> campaigns, std::vector<FleetPair> pairs);
 
 }  // namespace stiffscope::fleet

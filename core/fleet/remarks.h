@@ -10,12 +10,14 @@ enum class RemarkId {
   effect_appeared,     ///< effects that may be it, date of the first day with it
   effect_gone,         ///< effects, date of the first day without it
   effect_once,         ///< effects, date: on the last day alone
-  compliance_changed,  ///< joint, change over before, U of it, date, p after Holm, dates from then on
-  geometry_changed,    ///< date, rms at the reflectors m, p after Holm
-  unknown_gap,         ///< date
-  joint_imprecise,     ///< joints whose interval is open or wider than their stiffness, date
-  dates_scatter,       ///< joint, scatter of the dates over what is stated
-  audit_warned,        ///< date, ids of the checks
+  /// Joint, change over before (infinite, of its sign, where that is not known), U of it, date, p after Holm, dates
+  /// from then on to the next change.
+  compliance_changed,
+  geometry_changed,  ///< date, rms at the reflectors m, p after Holm
+  unknown_gap,       ///< date
+  joint_imprecise,   ///< joints whose interval is open or wider than their stiffness, date
+  dates_scatter,     ///< joint, scatter of the dates over what is stated
+  audit_warned,      ///< date, ids of the checks
   // What to do next.
   mend_campaign,
   measure_again,   ///< after what failed

@@ -302,10 +302,40 @@ Frames refineFrames(const campaign::Campaign& campaign, const Frames& so_far, co
                                                          so_far.arm.arm, so_far.arm.r0_from_base_link);
     by_masses = framesDifference(frames, measuredUnder(weight, compliance));
   }
-  propagate(
-      campaign, frames,
-      covariance && covariance->allFinite() ? sagPart(frames, compliance, *covariance, measuredWith) : std::nullopt,
-      by_masses);
+  frames.sag_in_uncertainty = covariance && covariance->allFinite();
+  propagate(campaign, frames,
+            frames.sag_in_uncertainty ? sagPart(frames, compliance, *covariance, measuredWith) : std::nullopt,
+            by_masses);
+  return frames;
+}
+
+Frames refineByKnownStiffness(const campaign::Campaign& campaign, const Frames& so_far) {
+  if (!so_far.weight.links_known || !so_far.arm.points_placed || !campaign.circle_sweeps) return so_far;
+  const robot::Robot& arm = so_far.arm.arm;
+  const int joints = arm.joints();
+  JointVector torque = JointVector::Zero(joints);  // the largest of each
+  for (const campaign::CircleReading& reading : campaign.circle_sweeps->rows)
+    torque = torque.cwiseMax(robot::weightTorque(arm, robot::postureAt(arm, reading.q), so_far.weight).cwiseAbs());
+  JointVector compliance = JointVector::Zero(joints);
+  JointMatrix covariance = JointMatrix::Zero(joints, joints);
+  bool all_known = true;
+  for (int joint = 0; joint < joints; ++joint) {
+    const auto known = std::find_if(campaign.known_stiffness.begin(), campaign.known_stiffness.end(),
+                                    [&](const campaign::KnownStiffness& one) { return one.joint == joint; });
+    constexpr double kFelt = 1.0;  // Nm: a vertical axis carries none
+    if (known != campaign.known_stiffness.end()) {
+      compliance[joint] = 1.0 / known->stiffness;
+      covariance(joint, joint) = std::pow(known->sd / (known->stiffness * known->stiffness), 2);
+    } else if (torque[joint] > kFelt) {
+      all_known = false;
+      covariance(joint, joint) = std::pow(kTurnByOwnWeight / torque[joint], 2);
+    }
+  }
+  Frames frames = refineFrames(campaign, so_far, compliance, covariance);
+  frames.sag_in_uncertainty = true;
+  frames.sag_removed = !compliance.isZero(0.0);
+  frames.sag_note =
+      all_known ? Remark(RemarkId::sag_by_known_stiffness) : Remark(RemarkId::sag_allowed_for, kTurnByOwnWeight);
   return frames;
 }
 

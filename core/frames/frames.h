@@ -157,6 +157,7 @@ struct Frames {
   bool sag_removed = false;                                 ///< readings were referred to the rigid arm
   double largest_sag = 0.0;                                 ///< largest correction of a reading of the sweeps, m
   Remark sag_note;                                          ///< why not, or with which stiffnesses
+  bool sag_in_uncertainty = false;                          ///< what is not taken off, or how well, is in `covariance`
   FramesCovariance covariance;  ///< of R0, links and wrist; the arm's own sag is in it as far as stiffnesses tell
 };
 
@@ -171,6 +172,15 @@ Frames measureFrames(const campaign::Campaign& campaign);
 /// LinkGeometry::distance_by_sag shows the stake, and FramesCovariance::hidden weighs it.
 Frames refineFrames(const campaign::Campaign& campaign, const Frames& so_far, const JointVector& compliance,
                     const std::optional<JointMatrix>& covariance = std::nullopt);
+
+/// A joint of unknown stiffness turns by as much under the largest torque of the own weight in the sweeps, one standard
+/// uncertainty, rad: stiffnesses of industrial arms let their own weight turn a joint by 0.1 to 2 mrad.
+inline constexpr double kTurnByOwnWeight = 1e-3;
+
+/// Frames of sweeps to which no load gives stiffnesses: the sag is taken off by those that the campaign knows, with
+/// their uncertainty; of a joint that it does not know what kTurnByOwnWeight does is in the covariance (GUM 4.3, type
+/// B). `so_far` as it is where masses are not known or R0 is not placed.
+Frames refineByKnownStiffness(const campaign::Campaign& campaign, const Frames& so_far);
 
 /// How the numbers of FramesLayout differ between two measurements of the same sweeps, in their order.
 Eigen::VectorXd framesDifference(const Frames& from, const Frames& to);

@@ -23,6 +23,8 @@ enum class RemarkId {
   sag_without_stiffness,
   sag_without_masses,
   sag_taken_off,
+  sag_by_known_stiffness,
+  sag_allowed_for,  ///< standard uncertainty of a joint's turn by the own weight, rad
   // calibration of the geometry
   no_unloaded_positions,
   base_not_placed,

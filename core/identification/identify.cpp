@@ -61,7 +61,7 @@ IdentifyOptions estimatesOnly(IdentifyOptions options) {
 
 frames::Frames solvedFrames(const campaign::Campaign& campaign) {
   if (!campaign.loading || !whatLoadsLack(campaign).empty() || !heaviestStep(campaign)) {
-    return frames::measureFrames(campaign);
+    return frames::refineByKnownStiffness(campaign, frames::measureFrames(campaign));
   }
   return solveFrames(campaign, {chosenStep(campaign, {})}, {}).frames;
 }

@@ -26,8 +26,8 @@ IdentifyOptions valuesOnly(IdentifyOptions options = {});
 /// The options for estimates alone (IdentifyOptions::estimates_only).
 IdentifyOptions estimatesOnly(IdentifyOptions options = {});
 
-/// The frames alone: with the own weight taken off where the campaign has what identifies the stiffnesses,
-/// else without.
+/// The frames alone: with the own weight taken off where the campaign has what identifies the stiffnesses, else by
+/// those that it knows, and what others may do in the uncertainties (frames::refineByKnownStiffness).
 frames::Frames solvedFrames(const campaign::Campaign& campaign);
 
 /// The result for a campaign without loads (core/identification/load_case.h, whatLoadsLack): its frames, step

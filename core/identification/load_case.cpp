@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/campaign/state_points.h"
 #include "core/identification/remarks.h"
 #include "core/io/input_error.h"
 #include "core/numerics/parallel.h"
@@ -120,7 +121,8 @@ const char* expectationOf(const Remark& lacking) {
 Remark whatLoadsLack(const campaign::Campaign& campaign) {
   if (!campaign.states) return Remark(RemarkId::no_states);
   if (!campaign.load_cell) return Remark(RemarkId::no_load_cell);
-  if (!campaign.loading && !campaign.displacements) return Remark(RemarkId::no_readings_under_load);
+  if ((!campaign.loading && !campaign.displacements) || campaign::isUnloadedDay(campaign))
+    return Remark(RemarkId::no_readings_under_load);
   return {};
 }
 

@@ -59,6 +59,7 @@ enum class RemarkId {
   too_few_encoder_postures,  ///< postures with two states, fewest
   loop_not_as_declared,      ///< joint number, whether the motor's side is held (1)
   sag_in_sweeps,             ///< largest sag taken off m
+  sag_left_in,               ///< of sweeps: nothing of it is in their uncertainties
   sag_in_sweeps_weighed,     ///< the same, what could hide in it weighed
   sweep_above_noise,         ///< axis number, residual rms m, times the noise
   /// joint number, k from elsewhere and its standard uncertainty Nm/rad, its source, k of the day, ends of its interval

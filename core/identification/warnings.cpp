@@ -90,6 +90,9 @@ std::vector<Remark> warningsOf(const campaign::Campaign& campaign, const Identif
   constexpr double kFelt = 1e-6;  // m; of less nothing can be wrong that a tracker reads
   if (result.frames.sag_removed && result.frames.largest_sag >= kFelt)
     add(Remark(RemarkId::sag_in_sweeps, result.frames.largest_sag));
+  if (result.cases.empty() && result.frames.arm.points_placed && !result.frames.sag_removed &&
+      !result.frames.sag_in_uncertainty)
+    add(Remark(RemarkId::sag_left_in));
   addSweepWarnings(result.frames, cautions);
   return cautions;
 }

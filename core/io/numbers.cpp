@@ -1,5 +1,6 @@
 #include "core/io/numbers.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -16,10 +17,33 @@ std::string_view withoutPlus(std::string_view text) {
 
 bool hasDigit(std::string_view text) { return text.find_first_of("0123456789") != std::string_view::npos; }
 
+// 27.11.2026, 2026-11-27T08:00:00, 11/27/2026, 08:00:00.
+bool isDateOrClock(std::string_view text) {
+  if (!hasDigit(text)) return false;
+  if (text.find(':') != std::string_view::npos) return true;
+  const auto parts = [&](char mark) {
+    return std::count(text.begin() + 1, text.end(), mark) == 2;  // a sign is no mark
+  };
+  const bool number = text.find_first_of(",eE") != std::string_view::npos;
+  // A point that was typed twice is no date: those have a year of two digits or four behind it.
+  const std::size_t year = text.substr(0, text.find_first_of(" T")).size() - text.rfind('.') - 1;
+  return !number && (parts('-') || parts('/') || (parts('.') && (year == 2 || year == 4)));
+}
+
+// 1,234.5 or 1.234,5 or 1,234,567: one mark is of thousands.
+bool hasThousandsMark(std::string_view text) {
+  const auto commas = std::count(text.begin(), text.end(), ','), points = std::count(text.begin(), text.end(), '.');
+  return commas > 1 || (commas == 1 && points > 0);
+}
+
 // What people and programs write that is a number to them.
 std::string whyNoNumber(std::string_view text) {
   if (text.empty()) return "expected a number; there is nothing";
   if (text.find("${") != std::string_view::npos) return "expected a number; expand xacro first";
+  if (isDateOrClock(text)) return "expected a number; a date or a clock time is none, times are in seconds";
+  if (hasThousandsMark(text)) {
+    return "expected a number with a decimal point, and without a mark between thousands";
+  }
   if (text.find(',') != std::string_view::npos) {
     return "expected a number with a decimal point, not a decimal comma";
   }

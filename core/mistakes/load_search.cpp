@@ -379,7 +379,9 @@ class LoadSearcher {
     const std::map<int, double>& moves = found_.fit.step_moves;
     constexpr std::size_t kSteps = 3;
     constexpr double kAlike = 1.1, kApart = 1.5, kLeast = 0.1, kMends = 0.5;
-    if (moves.size() < kSteps || found_.fit.left < kLeast) return;
+    // Less is seen where the others agree better: joints that stiffen or have play put a step four times as far off.
+    constexpr double kLittleApart = 1.1, kLeastOfLittle = 0.03, kOfOthers = 5.0;
+    if (moves.size() < kSteps || found_.fit.left < kLeastOfLittle) return;
     for (const auto& [step, share] : moves) {
       double least = INFINITY, most = 0.0;
       for (const auto& [other, its] : moves) {
@@ -387,7 +389,9 @@ class LoadSearcher {
       }
       if (!(least > 0.0) || !(share > 0.0) || most > kAlike * kAlike * least) continue;
       const double factor = std::sqrt(least * most) / share;  // by which its load is too large
-      if (std::max(factor, 1.0 / factor) < kApart) continue;
+      const double apart = std::max(factor, 1.0 / factor);
+      const bool far = apart > kApart && found_.fit.left > kLeast;
+      if (!far && (apart < kLittleApart || std::log(apart) < kOfOthers * std::log(most / least))) continue;
       const SpringFit fit = loads_.fitScaled(declared_, step, 1.0 / factor);
       if (fit.left > std::min(kMends * found_.fit.left, point_leaves_)) continue;
       found_.cures.push_back(

@@ -4,28 +4,11 @@
 #include <utility>
 #include <vector>
 
+#include "core/mistakes/cell_zero.h"
 #include "core/mistakes/load_search.h"
 #include "core/mistakes/remarks.h"
-#include "core/robot/kinematics.h"
 
 namespace stiffscope::mistakes {
-
-namespace {
-
-Eigen::Vector3d gravityInCell(const campaign::Campaign& campaign, const ReadingsOfDay& day, const JointVector& q) {
-  const CellReading declared = asDeclared(*campaign.load_cell);
-  const robot::ArmPosture posture = robot::postureAt(day.robot, q);
-  const std::string& link = declared.axes_link ? *declared.axes_link : declared.parent;
-  Eigen::Matrix3d axes = robot::flangeAt(day.robot, posture).linear();
-  for (const robot::LinkFrame& frame : day.robot.links) {
-    if (frame.name == link)
-      axes = posture.motion[static_cast<std::size_t>(frame.body)].linear() * frame.base_from_link_at_zero.linear();
-  }
-  if (!declared.axes_link) axes = axes * declared.parent_from_cell.linear();
-  return axes.transpose() * day.weight.gravity_in_base;
-}
-
-}  // namespace
 
 std::optional<Suspected> weightNotTared(const campaign::Campaign& campaign, const ReadingsOfDay& day) {
   const double sigma = campaign.load_cell->force_sigma;
@@ -33,7 +16,8 @@ std::optional<Suspected> weightNotTared(const campaign::Campaign& campaign, cons
   double squares = 0.0;
   for (const campaign::State& row : campaign.states->rows) {
     if (row.step != 0) continue;
-    rows.emplace_back(gravityInCell(campaign, day, row.q), row.wrench_in_cell.head<3>());
+    rows.emplace_back(gravityInCell(campaign, day.robot, day.weight.gravity_in_base, row.q),
+                      row.wrench_in_cell.head<3>());
     squares += rows.back().second.squaredNorm();
   }
   constexpr std::size_t kEnough = 6;

@@ -174,7 +174,9 @@ PlanningArm planningArm(const campaign::Campaign& campaign, const identification
   placeTracker(campaign, identified, inputs, arm);
   if (identified != nullptr) {
     const identification::MethodResult& method = identified->of(identification::Method::partial_pose);
-    if (method.available) arm.misfit = method.estimate.sigma;
+    // What the noise puts into the means of that day is in sigma, too; the day to come has noise of its own.
+    const double noise = identified->noise ? identified->noise->per_coordinate : 0.0, left = method.estimate.sigma;
+    if (method.available) arm.misfit = std::sqrt(std::max(0.0, left * left - noise * noise));
   }
   return arm;
 }

@@ -51,7 +51,7 @@ struct PlanningArm {
   std::optional<Eigen::Vector3d> station;        ///< in R0, m
   std::optional<metrology::TrackerNoise> noise;  ///< about `station`; empty: isotropic `sigma`
   double sigma = 0.0;                            ///< m per coordinate of one reading, where `noise` is empty
-  double misfit = 0.0;                           ///< m per coordinate: what the identified model leaves, 0 if unknown
+  double misfit = 0.0;  ///< m per coordinate: what the identified model leaves beyond the tracker's noise; 0 if unknown
   int repeats = 1;
   EffectDoubt effects;          ///< as in PlanningInputs
   std::vector<Remark> assumed;  ///< what was taken for granted
@@ -111,8 +111,8 @@ struct Candidate {
   Eigen::Vector3d direction;           ///< of the load, unit, R0
   identification::LoadCase load_case;  ///< posture and wrench, R0; no readings
   /// Information on the compliances c: A^T S^-1 A over the posture's reflectors, A = J_m diag(J_w^T W) as in paper
-  /// (12), S the covariance of their displacements: noise and misfit, and E E^T with E the moves by the effects'
-  /// uncertainty (EffectDoubt), as if a new draw of them in every posture. (Nm/rad)^2.
+  /// (12), S the covariance of their displacements: noise and, beyond it, misfit, and E E^T with E the moves by the
+  /// effects' uncertainty (EffectDoubt), as if a new draw of them in every posture. (Nm/rad)^2.
   JointMatrix information;
 
   /// Of which nothing is known yet.

@@ -184,15 +184,23 @@ namespace {
 
 using Chain = std::vector<const UrdfJoint*>;
 
-void requireLink(const UrdfModel& model, const io::XmlNode& where, const std::string& role, const std::string& name) {
+void requireLink(const UrdfModel& model, const io::XmlNode& where, const std::string& role, const std::string& name,
+                 const std::string& stated_where = "") {
   if (model.hasLink(name)) return;
-  where.refuse(role, name, "expected a link of the robot" + io::nearestNameHint(name, model.linkNames()));
+  where.refuse(role, name,
+               "expected a link of the robot" + io::nearestNameHint(name, model.linkNames()) + stated_where);
+}
+
+/// The name does not stand in the URDF, whose line an error shows.
+std::string statedAs(const char* attribute) {
+  return fmt::format(
+      "; the name is that of attribute {} of `robot` in campaign.xml or the specification, or of an option", attribute);
 }
 
 // Joints from base to flange, found upwards because each link has one parent but may carry many others.
 Chain chainBetween(const UrdfModel& model, const std::string& base, const std::string& flange) {
-  requireLink(model, model.robot(), "base_link", base);
-  requireLink(model, model.robot(), "flange_link", flange);
+  requireLink(model, model.robot(), "base_link", base, statedAs("base_link"));
+  requireLink(model, model.robot(), "flange_link", flange, statedAs("flange_link"));
   Chain chain;
   for (std::string link = flange; link != base;) {
     const UrdfJoint* joint = model.jointAbove(link);

@@ -144,6 +144,10 @@ StiffnessSlice stiffnessSlice(const DeflectingArm& arm, const std::vector<NamedP
     wanted.pretranslate(at - tcp);
     return continuedAngles(machine, wanted, arm.tcp_in_flange, start, options.least_conditioning, kTurned);
   };
+  const auto tooFine = [&] {
+    return io::InputError({"--spacing"}, fmt::format("{:g}", slice.spacing / io::kMillimetre),
+                          fmt::format("expected a spacing with at most {} places", options.most));
+  };
   std::map<Cell, JointVector> reached;
   std::deque<Cell> open;
   const auto visit = [&](const Cell& cell, const JointVector& start) {
@@ -152,11 +156,11 @@ StiffnessSlice stiffnessSlice(const DeflectingArm& arm, const std::vector<NamedP
     if (!q) return;
     reached.emplace(cell, *q);
     open.push_back(cell);
-    if (reached.size() > options.most)
-      throw io::InputError({"--spacing"}, fmt::format("{:g}", slice.spacing / io::kMillimetre),
-                           fmt::format("expected a spacing with at most {} places", options.most));
+    if (reached.size() > options.most) throw tooFine();
   };
   const double across = std::hypot(tcp.x(), tcp.y()) / slice.spacing, up = tcp.z() / slice.spacing;
+  constexpr double kCells = 1e6;  // from the base to the posture: far more than places are taken, and an int
+  if (std::max(across, std::abs(up)) > kCells) throw tooFine();
   for (const double h : {std::floor(up), std::ceil(up)})
     for (const double r : {std::floor(across), std::ceil(across)})
       visit({static_cast<int>(h), static_cast<int>(r)}, middle.q);

@@ -258,27 +258,45 @@ void takeHeader(Canvas& canvas, Box& free, const std::string& title, const std::
   free.top += 8 * canvas.unit();
 }
 
-void takeLegend(Canvas& canvas, Box& free, const std::vector<LegendEntry>& entries) {
-  const double u = canvas.unit();
+namespace {
+
+/// Goes through a legend in a room of this width: `visit` has the entry, its name as far as it fits, and where it
+/// stands from the upper left. Returns the height.
+template <class Visit>
+double layLegend(const Canvas& canvas, double width, const std::vector<LegendEntry>& entries, const Visit& visit) {
+  const double u = canvas.unit(), key = 18 * u, gap = 7 * u, apart = 24 * u, row = 22 * u;
   const TextStyle style = labelStyle(canvas);
-  const double key = 18 * u, gap = 7 * u, apart = 24 * u, row = 22 * u;
-  double x = free.left;
+  double x = 0, top = 0;
   bool any = false;
   for (const LegendEntry& entry : entries) {
     if (entry.name.empty()) continue;
-    const std::string name = canvas.shortened(entry.name, free.width() - key - gap, style);
-    const double width = key + gap + canvas.measure(name, style).x;
-    if (x > free.left && x + width > free.right) {
-      x = free.left;
-      free.top += row;
+    const std::string name = canvas.shortened(entry.name, width - key - gap, style);
+    const double wide = key + gap + canvas.measure(name, style).x;
+    if (x > 0 && x + wide > width) {
+      x = 0;
+      top += row;
     }
-    const double y = free.top + row / 2;
-    drawKey(canvas, entry.key, {x, y - key / 2, x + key, y + key / 2}, entry.colour);
-    canvas.text(name, {x + key + gap, y}, AlignX::left, AlignY::centre, style);
-    x += width + apart;
+    visit(entry, name, Spot{x, top + row / 2}, key, gap);
+    x += wide + apart;
     any = true;
   }
-  if (any) free.top += row + 12 * u;
+  return any ? top + row + 12 * u : 0;
+}
+
+}  // namespace
+
+double legendHeight(const Canvas& canvas, double width, const std::vector<LegendEntry>& entries) {
+  return layLegend(canvas, width, entries, [](const auto&...) {});
+}
+
+void takeLegend(Canvas& canvas, Box& free, const std::vector<LegendEntry>& entries) {
+  const TextStyle style = labelStyle(canvas);
+  const auto draw = [&](const LegendEntry& entry, const std::string& name, Spot at, double key, double gap) {
+    const double x = free.left + at.x, y = free.top + at.y;
+    drawKey(canvas, entry.key, {x, y - key / 2, x + key, y + key / 2}, entry.colour);
+    canvas.text(name, {x + key + gap, y}, AlignX::left, AlignY::centre, style);
+  };
+  free.top += layLegend(canvas, free.width(), entries, draw);
 }
 
 void takeNote(Canvas& canvas, Box& free, const std::string& note) {

@@ -23,6 +23,8 @@ struct LegendEntry {
 void takeMargin(const Canvas& canvas, Box& free);
 void takeHeader(Canvas& canvas, Box& free, const std::string& title, const std::string& subtitle);
 void takeLegend(Canvas& canvas, Box& free, const std::vector<LegendEntry>& entries);
+/// What that takes of a room of this width.
+double legendHeight(const Canvas& canvas, double width, const std::vector<LegendEntry>& entries);
 void takeNote(Canvas& canvas, Box& free, const std::string& note);
 /// The title of the y axis at the left, upright: first its room, then itself, centred on `plot`.
 std::vector<std::string> takeYTitle(const Canvas& canvas, Box& free, const std::string& title);

@@ -16,8 +16,8 @@
 
 namespace stiffscope::render {
 
-/// A diagram with its axes, title and titles of axes in `cell`.
-void drawDiagram(Canvas& canvas, const Box& cell, const PointPanel& panel);
+/// A diagram with its axes, title and titles of axes in `cell`; under its title its own legend, in so much room.
+void drawDiagram(Canvas& canvas, const Box& cell, const PointPanel& panel, double legend_height);
 /// A shape true to scale, as large as `cell` allows.
 void drawShape(Canvas& canvas, const Box& cell, const ShapePanel& panel);
 
@@ -26,6 +26,9 @@ void drawMarks(Canvas& canvas, const PointSeries& series, const std::vector<Spot
 void drawPointMark(Canvas& canvas, Spot centre, double radius, Colour colour, PointMark mark);
 
 namespace {
+
+template <class Panel>
+std::vector<LegendEntry> legendOf(const std::vector<Panel>& panels);
 
 struct Range {
   double lower = std::numeric_limits<double>::infinity();
@@ -112,7 +115,7 @@ void drawSeries(Canvas& canvas, const Box& plot, const Range& x_range, const YAx
 
 }  // namespace
 
-void drawDiagram(Canvas& canvas, const Box& cell, const PointPanel& panel) {
+void drawDiagram(Canvas& canvas, const Box& cell, const PointPanel& panel, double legend_height) {
   const double u = canvas.unit();
   Box free = cell;
   if (!panel.title.empty()) {
@@ -121,6 +124,11 @@ void drawDiagram(Canvas& canvas, const Box& cell, const PointPanel& panel) {
     canvas.text(canvas.shortened(panel.title, cell.width(), title), {cell.left, cell.top}, AlignX::left, AlignY::top,
                 title);
     free.top += canvas.measure("0", title).y + 8 * u;
+  }
+  if (legend_height > 0) {
+    Box above = free;
+    takeLegend(canvas, above, legendOf(std::vector<PointPanel>{panel}));
+    free.top += legend_height;
   }
   const double title_left = free.left;
   const std::vector<std::string> y_title = takeYTitle(canvas, free, panel.y_title);
@@ -173,10 +181,15 @@ void drawShape(Canvas& canvas, const Box& cell, const ShapePanel& panel) {
   const double radius = 4 * u;
   const double scale = (std::min(free.width(), free.height()) / 2 - 2 * radius) / reach;
   for (const PointSeries& series : panel.series) {
-    std::vector<Spot> spots;
-    for (const PlotPoint& point : series.points)
-      spots.push_back({free.middleX() + scale * point.x, free.middleY() - scale * point.y});
-    drawMarks(canvas, series, spots, radius);
+    const auto spotsOf = [&](const std::vector<PlotPoint>& points) {
+      std::vector<Spot> spots;
+      for (const PlotPoint& point : points)
+        spots.push_back({free.middleX() + scale * point.x, free.middleY() - scale * point.y});
+      return spots;
+    };
+    const std::vector<Spot> line = spotsOf(series.line);
+    for (std::size_t i = 1; i < line.size(); ++i) canvas.line(line[i - 1], line[i], series.colour, 1.5 * u);
+    drawMarks(canvas, series, spotsOf(series.points), radius);
   }
   if (panel.scale_name.empty()) return;
   const double bar = scale * panel.scale_bar, y = cell.bottom - canvas.measure("0", label).y / 2;
@@ -241,12 +254,18 @@ std::vector<LegendEntry> legendOf(const std::vector<Panel>& panels) {
   return entries;
 }
 
+/// Of a panel in a grid of so many columns.
+double panelWidth(const Canvas& canvas, const Box& free, int columns) {
+  const double gap = 18 * canvas.unit();
+  return (free.width() + gap) / columns - gap;
+}
+
 template <class Panel, class Draw>
 void drawGrid(Canvas& canvas, const Box& free, const std::vector<Panel>& panels, int columns, const Draw& draw) {
   const auto across = static_cast<std::size_t>(columns);
   const std::size_t rows = (panels.size() + across - 1) / across;
   const double gap = 18 * canvas.unit();
-  const double width = (free.width() + gap) / static_cast<double>(across);
+  const double width = panelWidth(canvas, free, columns) + gap;
   const double height = (free.height() + gap) / static_cast<double>(rows);
   for (std::size_t i = 0; i < panels.size(); ++i) {
     const double left = free.left + static_cast<double>(i % across) * width;
@@ -259,9 +278,18 @@ void paintChart(Canvas& canvas, const PointChart& chart) {
   Box free = canvas.all();
   takeMargin(canvas, free);
   takeHeader(canvas, free, chart.title, chart.subtitle);
-  takeLegend(canvas, free, chart.shapes.empty() ? legendOf(chart.diagrams) : legendOf(chart.shapes));
+  double legend_height = 0;  // of all panels the same, so that their plots stand level
+  if (!chart.legend_a_panel)
+    takeLegend(canvas, free, chart.shapes.empty() ? legendOf(chart.diagrams) : legendOf(chart.shapes));
   takeNote(canvas, free, chart.note);
-  drawGrid(canvas, free, chart.diagrams, chart.columns, drawDiagram);
+  for (const PointPanel& panel : chart.diagrams) {
+    if (!chart.legend_a_panel) break;
+    const auto entries = legendOf(std::vector<PointPanel>{panel});
+    legend_height = std::max(legend_height, legendHeight(canvas, panelWidth(canvas, free, chart.columns), entries));
+  }
+  drawGrid(
+      canvas, free, chart.diagrams, chart.columns,
+      [legend_height](Canvas& on, const Box& cell, const auto& panel) { drawDiagram(on, cell, panel, legend_height); });
   drawGrid(canvas, free, chart.shapes, chart.columns, drawShape);
 }
 

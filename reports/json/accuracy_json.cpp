@@ -80,6 +80,7 @@ Json accuracyJson(const campaign::Campaign& campaign, const accuracy::AccuracyDi
   json["limits"] = {{"size_um", micrometres(accuracy.size_limit)}};
   json["chi2_per_equation"] = {{"after", number(accuracy.left_over)},
                                {"after_limit", number(accuracy.left_over_limit)}};
+  json["of_readings"] = accuracy.as_read ? "as_read" : "as_used";
   json["postures"] = accuracy.postures;
   json["readings"] = accuracy.readings;
   json["where"] = tablesJson(accuracy.where);

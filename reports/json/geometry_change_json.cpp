@@ -15,7 +15,7 @@ Json numberJson(const comparison::NumberChange& one) {
   const bool length = one.number.isLength();
   const double unit = length ? io::kMillimetre : kMilliradian;
   Json json{{"number", nameOf(one.number.kind)}, {"name", numberName(one.number)}};
-  if (one.number.kind == comparison::NumberKind::joint_zero) json["joint"] = one.number.axis;
+  if (one.number.kind == comparison::NumberKind::joint_zero && one.number.joint > 0) json["joint"] = one.number.joint;
   json["axes"] = {one.number.axis, one.number.axis + 1};
   json["unit"] = length ? "mm" : "mrad";
   if (!one.identified) {
@@ -39,7 +39,7 @@ Json numberJson(const comparison::NumberChange& one) {
 Json causeJson(const comparison::CauseEvidence& one) {
   using comparison::ChangeCause;
   Json json{{"cause", nameOf(one)}};
-  if (one.cause == ChangeCause::joint_zero) json["joint"] = one.axis;
+  if (one.cause == ChangeCause::joint_zero) json["joint"] = one.joint;
   if (one.cause == ChangeCause::link) json["link"] = one.axis;
   if (one.cause == ChangeCause::axis) json["axis"] = one.axis;
   json["unknowns"] = one.unknowns;

@@ -99,13 +99,13 @@ Json comparisonJson(const campaign::Campaign& before, const campaign::Campaign& 
 
 /// The result of `compare` of two days without a load: comparable, postures (before, after, common), same_postures,
 /// effects (ids fitted beside both geometries), effects_p_value (of unchanged ones), left_mm, machine (changed, chi2,
-/// numbers, p_value, at_targets_mm, sd_at_targets_mm), numbers (each: number "joint_zero", "along", "distance", "twist"
-/// or "tilt", joint or axes, difference, sd_difference, u_difference, unit, p_value, p_value_holm, at_targets_mm; null
-/// and reason where a day does not see it), reflectors (moved, p_value, targets with shift_in_flange_mm), base
-/// (machine_change false, shift_mm, turn_deg), cause (the best of causes where it leaves chance alone, else null),
-/// causes (each: cause "joint_zero", "link", "axis", "growth", "reflectors" or "turn_about_6" (the last axis), joint,
-/// link or axis, unknowns, chi2, left_p_value, bic, size with sd and unit where it has one number, at_targets_mm),
-/// cautions.
+/// numbers, p_value, at_targets_mm, sd_at_targets_mm), numbers (each: number "joint_zero", "along", "distance",
+/// "twist", "tilt", or of coupled axes on one line "off_x", "off_y", "tilt_x", "tilt_y", joint or axes, difference,
+/// sd_difference, u_difference, unit, p_value, p_value_holm, at_targets_mm; null and reason where a day does not see
+/// it), reflectors (moved, p_value, targets with shift_in_flange_mm), base (machine_change false, shift_mm, turn_deg),
+/// cause (the best of causes where it leaves chance alone, else null), causes (each: cause "joint_zero", "link",
+/// "axis", "growth", "reflectors" or "turn_about_6" (the last axis), joint, link or axis, unknowns, chi2, left_p_value,
+/// bic, size with sd and unit where it has one number, at_targets_mm), cautions.
 Json geometryChangeJson(const campaign::Campaign& before, const campaign::Campaign& after,
                         const comparison::GeometryChange& change);
 

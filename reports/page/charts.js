@@ -4,8 +4,9 @@
 // values as CSV. The marks of a figure (shares of its width and height) stand in the page as JSON; the pictures stay as they are.
 (function () {
   const charts = [];
+  let filtersTables = false;  // a row of a table is called so, too
   let marked = '';  // the posture that is marked
-  let sought = '';  // what is filtered for
+  let sought = '';  // what is filtered for; empty where nothing is called so
 
   const element = (name, attributes = {}, text = '') => {
     const made = document.createElement(name);
@@ -82,9 +83,13 @@
     }
 
     fits(mark) {
-      const names = [this.series[mark[2]] || '', mark[3] >= 0 ? this.categories[mark[3]] : ''];
       if (marked && this.hasPostures && mark[3] >= 0 && this.categories[mark[3]] === marked) return true;
-      return sought !== '' && (names[1] === sought || names[0].split(/[:, ]+/).some((name) => same(name, sought)));
+      return sought !== '' && this.isCalled(mark, sought);
+    }
+
+    isCalled(mark, name) {
+      const names = [this.series[mark[2]] || '', mark[3] >= 0 ? this.categories[mark[3]] : ''];
+      return names[1] === name || names[0].split(/[:, ]+/).some((part) => same(part, name));
     }
 
     draw() {
@@ -131,15 +136,32 @@
     }
   }
 
+  // Whether a row of a table, or a mark of a chart, is of this posture or reflector.
+  function isKnown(name) {
+    let inTables = false;
+    rowsOf((row, cells) => { inTables = inTables || cells.some(([, cell]) => same(cell.textContent.trim(), name)); });
+    const inCharts = charts.some((chart) => chart.data.marks.some((mark) => chart.isCalled(mark, name)));
+    return { inTables, inCharts };
+  }
+
+  // A word that nothing is called empties no table: it is said beside the field.
+  function filter(word, says) {
+    const { inTables, inCharts } = word === '' ? {} : isKnown(word);
+    sought = inTables || inCharts ? word : '';
+    filtersTables = Boolean(inTables);
+    says.textContent = word !== '' && sought === '' ? 'no posture or reflector is called \u201c' + word + '\u201d' : '';
+    update();
+  }
+
   function update() {
     for (const chart of charts) chart.draw();
     rowsOf((row, cells) => {
       const names = cells.map(([, cell]) => cell.textContent.trim());
       const isPosture = cells.some(([name, cell]) => /^pos/i.test(name) && cell.textContent.trim() === marked);
       row.classList.toggle('marked', marked !== '' && isPosture);
-      row.classList.toggle('filtered', sought !== '' && !names.some((name) => same(name, sought)));
+      row.classList.toggle('filtered', filtersTables && !names.some((name) => same(name, sought)));
     });
-    document.body.classList.toggle('filtering', sought !== '');
+    document.body.classList.toggle('filtering', filtersTables);
   }
 
   function markPosture(posture, from) {
@@ -158,7 +180,7 @@
   });
 
   for (const script of document.querySelectorAll('script.marks')) {
-    const figure = document.getElementById(script.dataset.figure);
+    const figure = document.querySelector('figure#' + CSS.escape(script.dataset.figure));
     if (figure) charts.push(new Chart(figure, JSON.parse(script.textContent)));
   }
 
@@ -166,8 +188,9 @@
   if (nav && charts.length > 0) {
     const label = element('label', { class: 'filter' }, 'Posture or reflector ');
     const input = element('input', { type: 'search', placeholder: 'all', size: '8' });
-    input.addEventListener('input', () => { sought = input.value.trim(); update(); });
-    label.appendChild(input);
+    const says = element('span', { class: 'unknown', role: 'status' });
+    input.addEventListener('input', () => filter(input.value.trim(), says));
+    label.append(input, says);
     nav.appendChild(label);
   }
   window.addEventListener('resize', () => charts.forEach((chart) => chart.draw()));

@@ -18,9 +18,43 @@ std::string shareOf(double shrink, int decimals) {
   return shrink < -1.0 ? "below −100" : reports::fixed(100.0 * shrink, decimals);
 }
 
+int placesOf(const diagnosis::Shrink& shrink) {
+  return reports::placesThatTell(100.0 * shrink.low, 100.0 * shrink.high);
+}
+
 std::string interval(const diagnosis::Shrink& shrink) {
   if (shrink.high < -1.0) return "–";
-  return fmt::format("{} to {}", shareOf(shrink.low, 0), shareOf(shrink.high, 0));
+  const int places = placesOf(shrink);
+  return fmt::format("{} to {}", shareOf(shrink.low, places), shareOf(shrink.high, places));
+}
+
+namespace {
+
+/// In the verdict although its shrink may be nothing.
+bool namedOtherwise(bool in_verdict, const diagnosis::Shrink& shrink) {
+  return in_verdict && shrink.low <= 0.0 && shrink.high > shrink.low;
+}
+
+}  // namespace
+
+std::string whyNamed(const diagnosis::EffectClass& one) {
+  if (!namedOtherwise(one.in_verdict, one.shrink)) return {};
+  switch (one.effects.front()) {
+    case effects::Effect::kinematic_error:
+      return "by sweeps and unloaded positions; deflections hardly feel it";
+    case effects::Effect::tracker_drift:
+    case effects::Effect::frame_error:
+      return "by floor nests or the fall of BIC, not by this shrink";
+    default:
+      return "by the fall of BIC, not by this shrink";
+  }
+}
+
+std::string whyNamed(const accuracy::AccuracyClass& one) {
+  if (!namedOtherwise(one.in_verdict, one.shrink)) return {};
+  if (one.effects.front() == calibration::UnloadedEffect::kinematic_error)
+    return "the nominal geometry misses by more than is allowed";
+  return "by the fall of BIC and its size; this shrink may be chance";
 }
 
 namespace {

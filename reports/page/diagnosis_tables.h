@@ -19,8 +19,13 @@ namespace stiffscope::page {
 std::string inUm(double metres);
 std::string lengthIn(double metres, const reports::LengthUnit& unit);  ///< without the unit's name
 std::string shareOf(double shrink,
-                    int decimals);  ///< in percent; a gap that more than doubles has no size worth reading
+                    int decimals);              ///< in percent; a gap that more than doubles has no size worth reading
+int placesOf(const diagnosis::Shrink& shrink);  ///< decimals of its percents, by which the interval's ends differ
 std::string interval(const diagnosis::Shrink& shrink);
+
+/// By what the verdict names a class whose shrink held out may be nothing; empty where the shrink shows it.
+std::string whyNamed(const diagnosis::EffectClass& one);
+std::string whyNamed(const accuracy::AccuracyClass& one);
 
 /// The verdict's classes first, then the other candidates. `fall_of` a class: the cell for its fall of BIC.
 template <class Class>
@@ -45,8 +50,8 @@ reports::Table classesTable(const std::vector<Class>& classes, std::string (*fal
                          100.0 * one.shrink.high, 100.0 * one.explained});
     table.groups.front().rows.push_back(
         {reports::Cell(reports::effectNames(one.effects), reports::asIs(reports::shortDetail(one.detail))),
-         one.in_verdict ? "yes" : "no", fall_of(one), shareOf(one.shrink.value, 1), interval(one.shrink),
-         reports::fixed(100.0 * one.explained, 0)});
+         reports::Cell(one.in_verdict ? "yes" : "no", whyNamed(one)), fall_of(one), shareOf(one.shrink.value, 1),
+         interval(one.shrink), reports::fixed(100.0 * one.explained, 0)});
   }
   return table;
 }

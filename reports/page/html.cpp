@@ -134,11 +134,23 @@ void Html::voidElement(const char* name, const Attributes& attributes) {
 
 void Html::text(const std::string& text) { printer_->PushText(clean(text).c_str()); }
 
+namespace {
+
+/// No line ends between a number and its per cent.
+std::string withUnbrokenPercent(std::string text) {
+  for (std::size_t at = text.find(" %"); at != std::string::npos; at = text.find(" %", at + 1)) {
+    if (at > 0 && text[at - 1] >= '0' && text[at - 1] <= '9') text.replace(at, 1, "\u00a0");
+  }
+  return text;
+}
+
+}  // namespace
+
 void Html::rich(const std::string& text) {
   for (const reports::RichStretch& stretch : reports::richStretches(text)) {
     const bool marked = stretch.kind == reports::RichStretch::subscript || stretch.kind == reports::RichStretch::code;
     if (marked) open(stretch.kind == reports::RichStretch::subscript ? "sub" : "code", {});
-    this->text(stretch.text);
+    this->text(stretch.kind == reports::RichStretch::code ? stretch.text : withUnbrokenPercent(stretch.text));
     if (marked) printer_->CloseElement(true);
   }
 }

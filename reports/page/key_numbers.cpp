@@ -10,6 +10,7 @@
 #include "reports/words/names.h"
 #include "reports/words/numbers.h"
 #include "reports/words/remark_words.h"
+#include "reports/words/verdict.h"
 
 namespace stiffscope::page {
 
@@ -91,9 +92,12 @@ KeyNumber trusted(const reports::ReportCampaign& one) {
 
 KeyNumber third(const reports::ReportContent& content, const reports::ReportCampaign& one) {
   if (content.avoided && content.avoided->available) {
-    return {reports::percent(content.avoided->share, 0),
-            fmt::format("of the deflection at {} with double encoders inactive is avoided by active ones",
-                        reports::pointOf(*content.avoided))};
+    std::string words = fmt::format("of the deflection at {} with double encoders inactive is avoided by active ones",
+                                    reports::pointOf(*content.avoided));
+    const std::vector<reports::ReportCampaign> loaded = reports::ofKind(content.campaigns, reports::DayKind::loaded);
+    if (const std::string others = reports::changedWithoutEncoder(loaded, *content.avoided); !others.empty())
+      words += fmt::format("; joints without one differ as well ({}): not only the encoders changed", others);
+    return {reports::percent(content.avoided->share, 0), words};
   }
   return trusted(one);
 }

@@ -14,6 +14,7 @@
 #include "reports/words/conformity_words.h"
 #include "reports/words/day_words.h"
 #include "reports/words/effect_words.h"
+#include "reports/words/extended_model_words.h"
 #include "reports/words/names.h"
 #include "reports/words/numbers.h"
 #include "reports/words/preparation_words.h"
@@ -200,10 +201,28 @@ bool explainedByMistakes(const reports::ReportCampaign& one) {
   return auditFails(one) && !one.audit->suspected.empty();
 }
 
-std::string mendWords(const mistakes::Suspected& suspected) {
-  return fmt::format("The audit suspects a mistake in the files, {} of the {}: {}, then make this report again.",
-                     reports::auditName(std::string(suspected.mistake.name())), reports::words(suspected.where),
-                     reports::words(suspected.remedy));
+/// What mends the files, a sentence a remedy, with all the places that it is for.
+std::vector<std::string> mendWords(const std::vector<mistakes::Suspected>& suspected) {
+  struct Mend {
+    std::string mistake, remedy;
+    std::vector<std::string> places;
+  };
+  std::vector<Mend> mends;
+  for (const mistakes::Suspected& one : suspected) {
+    const Mend own{reports::auditName(std::string(one.mistake.name())), reports::words(one.remedy), {}};
+    auto same = std::find_if(mends.begin(), mends.end(), [&own](const Mend& other) {
+      return other.mistake == own.mistake && other.remedy == own.remedy;
+    });
+    if (same == mends.end()) same = mends.insert(mends.end(), own);
+    same->places.push_back("of the " + reports::words(one.where));
+  }
+  std::vector<std::string> sentences;
+  for (const Mend& mend : mends) {
+    sentences.push_back(fmt::format("The audit suspects {} in the files, {} {}: {}, then make this report again.",
+                                    mend.places.size() > 1 ? "mistakes" : "a mistake", mend.mistake,
+                                    fmt::join(mend.places, "; "), mend.remedy));
+  }
+  return sentences;
 }
 
 /// What a reader does with the result, the most pressing first; nothing where nothing is known to be open.
@@ -212,7 +231,7 @@ void writeNext(Html& html, const reports::ReportContent& content) {
   const auto& campaigns = content.campaigns;
   for (const reports::ReportCampaign& one : campaigns) {
     if (!explainedByMistakes(one)) continue;
-    for (const mistakes::Suspected& suspected : one.audit->suspected) steps.push_back(mendWords(suspected));
+    for (std::string& mend : mendWords(one.audit->suspected)) steps.push_back(std::move(mend));
   }
   if (steps.empty() && std::any_of(campaigns.begin(), campaigns.end(), auditFails)) {
     steps.emplace_back(
@@ -253,6 +272,17 @@ std::string whatAndWhen(const reports::ReportContent& content) {
     add(content.campaigns.size() == 1 ? one.campaign.name : one.campaign.robot.name);
   for (const reports::ReportCampaign& one : content.campaigns) add(one.campaign.date);
   return parts.empty() ? std::string() : fmt::format("{} · ", fmt::join(parts, " · "));
+}
+
+/// Of several days with a load what the verdict says, and what the effects in the model change, one by one.
+std::vector<std::string> findings(const reports::ReportContent& content) {
+  std::vector<std::string> items = reports::verdictItems(content.campaigns, content.avoided);
+  const std::vector<std::string> names = columnNames(content);
+  for (std::size_t i = 0; i < content.campaigns.size(); ++i) {
+    if (const extended_model::ExtendedModel* improved = content.campaigns[i].improved; improved != nullptr)
+      items.push_back(fmt::format("{}: {}", names[i], reports::asIs(reports::gainWords(*improved))));
+  }
+  return items;
 }
 
 }  // namespace
@@ -297,7 +327,10 @@ void writeOpening(Html& html, const reports::ReportContent& content) {
       writeFacts(html, "What was measured, by whom and with what", columnNames(content), sideBySide(facts));
     }
     writeFiguresOf(html, content, "opening");
-    if (several_pictures) html.paragraph(content.verdict, "told");
+    if (several_pictures) {
+      const auto told = html.element("div", {{"class", "told"}});
+      html.list(findings(content));
+    }
   }
   writeAcceptance(html, content);
   if (loaded && !several_pictures) html.paragraph(content.verdict);

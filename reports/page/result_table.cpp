@@ -39,12 +39,11 @@ std::string stiffnessWords(const reports::ReportCampaign& one, int joint, const 
   const auto at = static_cast<std::size_t>(joint);
   if (!estimate.identifiable[at])
     return alone ? reports::unseenWords(one.identification.identifiability.joints[at]) : "not seen";
-  const double u = identification::expandedUncertainty(estimate, joint);
-  const double k = estimate.stiffness(joint) / unit.size;
   const std::string mark = reports::words(estimate.mark(joint));
-  const std::string words = std::isfinite(u) ? reports::withUncertainty(k, u / unit.size)
-                                             : fmt::format("{} (U open)", reports::significant(k, 3));
-  return mark.empty() ? words : fmt::format("{} ({})", words, mark);
+  const std::string words = reports::uncertainStiffness(estimate, joint, unit.size);
+  if (mark.empty()) return words;
+  if (words.ends_with(')')) return fmt::format("{}; {})", words.substr(0, words.size() - 1), mark);
+  return fmt::format("{} ({})", words, mark);
 }
 
 /// The effects in the model beside the joint springs, where all days have the same.
@@ -75,16 +74,19 @@ void addStiffnesses(const reports::ReportContent& content, reports::Table& table
   if (methods.empty()) return;  // the verdict says why
   const bool one_method = methods.size() == 1;
   std::vector<double> stiffnesses;
+  bool brackets = false;
   for (const reports::ReportCampaign& one : content.campaigns) {
     const auto shown = reports::shownMethod(one.identification);
     if (!isLoaded(one) || !shown) continue;
     const identification::StiffnessEstimate& estimate = one.identification.of(*shown).estimate;
     for (int joint = 0; joint < estimate.joints(); ++joint) {
-      if (estimate.identifiable[static_cast<std::size_t>(joint)]) stiffnesses.push_back(estimate.stiffness(joint));
+      if (!estimate.identifiable[static_cast<std::size_t>(joint)]) continue;
+      stiffnesses.push_back(estimate.stiffness(joint));
+      brackets = brackets || reports::farFromSymmetric(estimate, joint);
     }
   }
   const reports::StiffnessUnit unit = reports::stiffnessUnit(stiffnesses);
-  table.caption = fmt::format("Joint stiffness k ± U (95 %), {}{}{}", unit.name,
+  table.caption = fmt::format("Joint stiffness k ± U{} (95 %), {}{}{}", brackets ? ", or its interval," : "", unit.name,
                               one_method ? ", by " + methods.front() : "", modelOf(content));
   table.columns = {"Joint"};
   for (const std::string& head : headsOf(content, isLoaded, "k ± U")) table.columns.push_back(head);

@@ -368,7 +368,8 @@
       this.button('picture', 'back to the picture (q)', () => this.close());
     }
 
-    // The box around all postures of this step, so that stepping does not move the view.
+    // The box around all postures of this step, so that stepping does not move the view. A vector counts with half of what
+    // its arm reaches at most: one bad reading, magnified a thousand times, would make the arm a dot.
     extent(axes) {
       const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
       const include = (point, around) => {
@@ -381,6 +382,7 @@
       for (const frame of this.data.frames) {
         if (frame.step !== this.frame.step) continue;
         const size = proportions(frame);
+        const reach = Math.max(...frame.joints.map((joint) => norm(sub(joint, frame.joints[0]))));
         for (const joint of frame.joints) include(joint, 1.8 * size.base);
         include([frame.joints[0][0], frame.joints[0][1], 0], 2.2 * size.base);
         if (loadTip(frame)) include(loadTip(frame), size.tip);
@@ -388,7 +390,9 @@
           include(point.at, size.tip);
           const vectors = this.vectorsOf(point);
           for (const key of Object.keys(vectors)) {
-            if (vectors[key] && this.shown[key]) include(add(point.at, times(vectors[key], this.factorOf(key))), size.tip);
+            if (!vectors[key] || !this.shown[key]) continue;
+            const drawn = times(vectors[key], this.factorOf(key));
+            include(add(point.at, times(drawn, Math.min(1, (0.5 * reach) / (norm(drawn) || 1)))), size.tip);
           }
         }
       }
@@ -619,7 +623,8 @@
     tell() {
       const { data, frame, palette } = this;
       const postures = data.frames.filter((one) => one.step === frame.step);
-      const parts = [frame.where + ' (' + (postures.indexOf(frame) + 1) + ' of ' + postures.length + ')'];
+      const all = data.postures > postures.length ? '; the day has ' + data.postures : '';
+      const parts = [frame.where + ' (' + (postures.indexOf(frame) + 1) + ' of ' + postures.length + all + ')'];
       if (frame.load) parts.push(frame.load);
       if (data.methods.length > 0) parts.push('predicted by ' + data.methods[this.method].name);
       this.status.textContent = (this.message || parts.join('   ·   '));
@@ -634,6 +639,25 @@
       if (this.shareBox) this.shareBox.checked = this.byShare;
       this.live.classList.toggle('dark', this.dark);
       this.tellPoint();
+      this.tellCaption();
+    }
+
+    // The caption is of the picture: where the scene shows another state, it says so, and the longest vector there.
+    tellCaption() {
+      const { data, frame } = this;
+      const caption = this.figure.querySelector('figcaption');
+      if (!this.now) this.now = element('span', { class: 'now' });
+      this.now.textContent = '';
+      if (this.at === data.first || !caption) return this.now.remove();
+      let longest = null, of = '';
+      for (const point of frame.points) {
+        if (point.m && (!longest || norm(point.m) > norm(longest))) [longest, of] = [point.m, point.label];
+      }
+      const kind = data.vectors.find((vector) => vector.key === 'm');
+      const step = frame.step !== data.frames[data.first].step && frame.load ? ' (' + frame.load + ')' : '';
+      const most = longest && kind ? ', longest vector (' + kind.name + ') ' + (1e-3 * norm(longest)).toFixed(3) + '\u00a0mm, of ' + of : '';
+      rich(this.now, 'In the scene now: ' + frame.where + step + most + '. The words before are of the picture.');
+      caption.append(this.now);
     }
 
     // The numbers of the picked point, mm in R0.
@@ -801,6 +825,7 @@
 
     close() {
       this.closed = true;
+      if (this.now) this.now.remove();
       this.figure.classList.remove('live');
       this.live.remove();
       this.renderer.dispose();
@@ -905,7 +930,7 @@
   }
 
   for (const script of scenes) {
-    const figure = document.getElementById(script.dataset.figure);
+    const figure = document.querySelector('figure#' + CSS.escape(script.dataset.figure));
     if (!figure) continue;
     const data = JSON.parse(script.textContent);
     const seen = new IntersectionObserver((entries) => {

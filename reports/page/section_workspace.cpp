@@ -55,6 +55,13 @@ bool saysAnything(const workspace::WorkspaceStiffness& found) {
   });
 }
 
+/// A terminal's "-25.5 deg" as people write it.
+std::string withDegrees(std::string words) {
+  if (const std::size_t at = words.find(" deg"); at != std::string::npos) words.replace(at, 4, "°");
+  if (const std::size_t at = words.find(" -"); at != std::string::npos) words.replace(at, 2, " −");
+  return words;
+}
+
 }  // namespace
 
 bool hasWorkspace(const reports::ReportCampaign& one) { return one.workspace != nullptr; }
@@ -75,7 +82,7 @@ void writeWorkspace(Html& html, const reports::ReportContent& content) {
                  html.keepTable("stiffness-slice",
                                 reports::csvTable(reports::stiffnessPlaces(found, joints, !kPostures, kSlice)));
                  html.paragraph(fmt::format("By {}; the slice is in the {}.", reports::longName(found.method),
-                                            reports::asIs(reports::sliceWords(found.slice))),
+                                            reports::asIs(withDegrees(reports::sliceWords(found.slice)))),
                                 "faint");
                });
 }

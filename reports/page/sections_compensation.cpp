@@ -10,10 +10,17 @@
 #include "reports/words/paper_values.h"
 #include "reports/words/remark_words.h"
 #include "reports/words/rich_text.h"
+#include "reports/words/verdict.h"
 
 namespace stiffscope::page {
 
 namespace {
+
+/// The paper compensates what the active double encoders leave, and judges at P_wrist: beside other days it has
+/// nothing.
+bool besidePaper(const reports::ReportContent& content, const reports::ReportCampaign& campaign) {
+  return content.compare_with_paper && campaign.campaign.double_encoder == campaign::DoubleEncoder::active;
+}
 
 reports::Row shareRow(const reports::ReportContent& content, const reports::ReportCampaign& campaign,
                       identification::Method method, bool at_wrist) {
@@ -24,12 +31,9 @@ reports::Row shareRow(const reports::ReportContent& content, const reports::Repo
   reports::Row row{reports::shortName(method), reports::percent(compensation.all_postures),
                    ofSubsets(compensation.subsets.used), ofSubsets(compensation.subsets.held_out),
                    ofSubsets(compensation.subsets.all)};
-  if (content.compare_with_paper) {
-    // The paper compensates what the active double encoders leave, and judges at P_wrist.
-    const bool comparable = at_wrist && campaign.campaign.double_encoder == campaign::DoubleEncoder::active;
-    row.emplace_back(comparable ? reports::percent(reports::kPaperCompensated[static_cast<std::size_t>(method)], 0)
-                                : "–");
-  }
+  if (besidePaper(content, campaign))
+    row.emplace_back(at_wrist ? reports::percent(reports::kPaperCompensated[static_cast<std::size_t>(method)], 0)
+                              : "–");
   return row;
 }
 
@@ -45,8 +49,7 @@ std::vector<reports::DataCell> shareData(const reports::ReportContent& content, 
     for (const double share : {compensation.subsets.used, compensation.subsets.held_out, compensation.subsets.all})
       row.emplace_back(100.0 * share);
   }
-  const bool paper =
-      content.compare_with_paper && at_wrist && campaign.campaign.double_encoder == campaign::DoubleEncoder::active;
+  const bool paper = at_wrist && besidePaper(content, campaign);
   row.push_back(paper ? reports::DataCell(100.0 * reports::kPaperCompensated[static_cast<std::size_t>(method)])
                       : reports::DataCell());
   return row;
@@ -66,7 +69,7 @@ reports::Table shareTable(const reports::ReportContent& content, const reports::
                   "subsets_held_out_percent",
                   "subsets_all_percent",
                   "paper_all_percent"};
-  if (content.compare_with_paper) table.columns.emplace_back("Paper: all");
+  if (besidePaper(content, one)) table.columns.emplace_back("Paper: all");
   for (const bool at_wrist : {true, false}) {
     reports::RowGroup group{at_wrist ? "P_{wrist}" : "Reflectors", {}};
     for (const identification::Method method : identification::kMethods) {
@@ -112,18 +115,21 @@ reports::Table heldOutTable(const identification::Identification& result) {
 std::string noiseWords(const reports::ReportCampaign& one) {
   const identification::Identification& result = one.identification;
   if (!result.noise) {
-    return fmt::format("What noise alone forbids is not known: {}.",
+    return fmt::format("How much noise alone keeps from being compensated is not known: {}.",
                        one.campaign.tracker ? "the campaign has displacements only, not the readings they come from"
                                             : "the tracker's noise is not declared");
   }
   const std::string at_targets = reports::percent(result.noise->at_targets);
   if (!result.noise->at_wrist) {
-    return fmt::format("Noise of the tracker alone forbids about {} at the reflectors: no model can take that away.",
-                       at_targets);
+    return fmt::format(
+        "The tracker's noise alone keeps about {} of the deflection at the reflectors from being compensated, by "
+        "whatever model.",
+        at_targets);
   }
   return fmt::format(
-      "Noise of the tracker alone forbids about {} at P_{{wrist}} and {} at the reflectors: no model can take that "
-      "away.",
+      "The tracker's noise alone keeps about {} of the deflection at P_{{wrist}}, and {} of that at the reflectors, "
+      "from "
+      "being compensated, by whatever model.",
       reports::percent(*result.noise->at_wrist), at_targets);
 }
 
@@ -136,9 +142,13 @@ std::string pWords(double p) {
   return p < 1e-4 ? "< 0.0001" : reports::fixed(p, 4);
 }
 
-/// What the active encoders take away, joint by joint.
-reports::Table takenTable(const reports::AvoidedByEncoders& avoided) {
-  reports::Table table{fmt::format("What the double encoders take away ± U, by {}", reports::longName(avoided.method)),
+/// What the active encoders take away, joint by joint; joints that are stated to have none are marked. Where such a
+/// joint has `changed`, no line is the encoders' alone.
+reports::Table takenTable(const reports::AvoidedByEncoders& avoided, const std::vector<int>& having, bool changed) {
+  reports::Table table{fmt::format("{} ± U, by {}",
+                                   changed ? "What differs between the two states of the double encoders"
+                                           : "What the double encoders take away",
+                                   reports::longName(avoided.method)),
                        {"Joint", "Compliance 1/k, 10⁻⁹\u00a0rad/Nm", "Share of it, %",
                         "Of the deflection at the reflectors, %", "p (Holm)"},
                        {{}}};
@@ -156,8 +166,12 @@ reports::Table takenTable(const reports::AvoidedByEncoders& avoided) {
     const comparison::JointChange& joint = avoided.by_joint.joints[j];
     if (!joint.comparable) continue;
     const comparison::Uncertain gone{-joint.difference.value, joint.difference.sd, joint.difference.dof};
-    table.groups.front().rows.push_back({fmt::format("1/{}", reports::jointName(static_cast<int>(j))), withU(gone, 1e9),
-                                         withU(joint.taken, 100.0), withU(joint.avoided, 100.0), pWords(joint.p_holm)});
+    const bool without =
+        !having.empty() && std::find(having.begin(), having.end(), static_cast<int>(j)) == having.end();
+    table.groups.front().rows.push_back({reports::Cell(fmt::format("1/{}", reports::jointName(static_cast<int>(j))),
+                                                       without ? "no double encoder" : ""),
+                                         withU(gone, 1e9), withU(joint.taken, 100.0), withU(joint.avoided, 100.0),
+                                         pWords(joint.p_holm)});
     data.rows.push_back({static_cast<double>(j + 1), gone.value, gone.expanded(), 100.0 * joint.taken.value,
                          100.0 * joint.taken.expanded(), 100.0 * joint.avoided.value, 100.0 * joint.avoided.expanded(),
                          joint.p_holm});
@@ -165,9 +179,16 @@ reports::Table takenTable(const reports::AvoidedByEncoders& avoided) {
   return table;
 }
 
-void writeTaken(Html& html, const reports::AvoidedByEncoders& avoided) {
+void writeTaken(Html& html, const reports::ReportContent& content, const reports::AvoidedByEncoders& avoided) {
   if (!avoided.by_joint.available) return;
-  writeTable(html, takenTable(avoided));
+  const std::vector<reports::ReportCampaign> loaded = reports::ofKind(content.campaigns, reports::DayKind::loaded);
+  const std::string changes = reports::changedWithoutEncoder(loaded, avoided);
+  writeTable(html, takenTable(avoided, loaded.front().campaign.double_encoder_joints, !changes.empty()));
+  if (!changes.empty())
+    html.paragraph(
+        fmt::format("Joints without a double encoder differ as well ({}): not only the encoders changed "
+                    "between the two days, and what joints with one lose need not be the encoders' alone.",
+                    changes));
   std::string words = avoided.by_joint.same_postures
                           ? fmt::format(
                                 "Differences of compliances fitted on the {} postures of both states: what both "
@@ -212,14 +233,14 @@ void writeAvoided(Html& html, const reports::ReportContent& content) {
   }
   html.leaf("h3", "Avoided by the double encoders");
   html.paragraph(words);
-  writeTaken(html, *content.avoided);
+  writeTaken(html, content, *content.avoided);
 }
 
 }  // namespace
 
 void writeCompensation(Html& html, const reports::ReportContent& content) {
   const auto section = html.element("section", {{"id", "compensation"}});
-  html.leaf("h2", "Deflection compensated and avoided");
+  html.leaf("h2", content.avoided ? "Deflection compensated and avoided" : "Deflection compensated");
   html.paragraph(
       "Compensated is 1 − Σ|what is left| / Σ|displacement|. Over the subsets of postures it is "
       "the mean: on the postures a subset used, on those it held out, and on all. P_{wrist} sees " +

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "core/io/units.h"
 #include "reports/csv/csv_table.h"
@@ -8,6 +9,7 @@
 #include "reports/page/facts.h"
 #include "reports/page/html.h"
 #include "reports/page/sections.h"
+#include "reports/words/accuracy_words.h"
 #include "reports/words/day_words.h"
 #include "reports/words/names.h"
 #include "reports/words/numbers.h"
@@ -46,7 +48,8 @@ std::string loadWords(const identification::Identification& result) {
 std::string deflectionWords(const identification::Identification& result) {
   if (!result.finite_deflection) return "small deflections: K_{c} neglected, Jacobians at the unloaded posture";
   return fmt::format(
-      "finite: K_{{c}} of (4) included (it changes the joint torques by {}), Jacobians at the middle of the "
+      "finite: K_{{c}} of the paper's (4) included (it changes the joint torques by {}), Jacobians at the middle of "
+      "the "
       "displacement",
       reports::percent(result.geometric_stiffness_share, 2));
 }
@@ -105,6 +108,26 @@ reports::RowGroup conditions(const reports::ReportCampaign& one) {
   return group;
 }
 
+/// Whether its sections have tables or equations by the paper's numbers.
+bool namesThePaper(const reports::ReportCampaign& one) {
+  return isLoaded(one) || one.identification.frames.wrist.measured;
+}
+
+/// What the audit finds of the same readings, where that is another number; empty where it is not, or where the model
+/// takes nothing off them.
+std::string auditFinds(const reports::ReportCampaign& one, std::string_view id, double here, const char* what) {
+  if (one.audit == nullptr || one.improved == nullptr || one.improved->effects.added.empty()) return {};
+  const auto& checks = one.audit->checks;
+  const auto check = std::find_if(checks.begin(), checks.end(), [id](const auto& own) { return own.id == id; });
+  constexpr int kDigits = 2;
+  const auto shown = [](double metres) { return reports::significant(metres / io::kMillimetre, kDigits); };
+  if (check == checks.end() || !check->value || shown(*check->value) == shown(here)) return {};
+  return fmt::format(
+      "The audit looks at the readings before the effects of the model are taken off them: by it {} up to {}\u00a0mm, "
+      "instead of {}\u00a0mm here.",
+      what, shown(*check->value), shown(here));
+}
+
 }  // namespace
 
 void writeConditions(Html& html, const reports::ReportContent& content) {
@@ -119,6 +142,11 @@ void writeConditions(Html& html, const reports::ReportContent& content) {
       html.paragraph(words);
       said.push_back(words);
     }
+  }
+  if (std::any_of(content.campaigns.begin(), content.campaigns.end(), namesThePaper)) {
+    html.paragraph(
+        "The paper is Ambiehl, Garnier, Subrin and Furet, IROS 2017: Table I, Table II and (4) are named as in it.",
+        "faint");
   }
   std::vector<Facts> facts;
   for (std::size_t i = 0; i < content.campaigns.size(); ++i) {
@@ -238,6 +266,10 @@ void writeLinks(Html& html, const reports::ReportContent& content) {
     writeTable(html, axisTable(frames));
     html.paragraph("± is the expanded uncertainty U, coverage about 95\u00a0%.", "faint");
     notes.write(html);
+    if (const std::string other = auditFinds(one, "link_lengths", reports::largestLinkDifference(frames),
+                                             "distances are off the nominal ones by");
+        !other.empty())
+      html.paragraph(other, "faint");
     html.list(unmeasured);
   });
 }
@@ -359,6 +391,11 @@ void writeMeasured(Html& html, const reports::ReportContent& content, const repo
                           misses.empty() ? " miss each other" : "", missWords(miss.distance, miss.sd));
   }
   html.paragraph(misses + "; ± is U, about 95\u00a0%.");
+  double miss = 0.0;
+  for (const frames::WristAxesMiss& own : wrist.misses) miss = std::max(miss, own.distance);
+  if (const std::string other = auditFinds(one, "wrist_axes_meet", miss, "the wrist's axes miss each other by");
+      !other.empty())
+    html.paragraph(other, "faint");
 }
 
 }  // namespace

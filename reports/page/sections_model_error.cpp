@@ -53,7 +53,8 @@ std::string figuresOf(const diagnosis::Diagnosis& diagnosis) {
       "took no part "
       "it shrinks by {}\u00a0% (95\u00a0%: {}\u00a0%).",
       entries > 1 ? "them" : "it", shown(diagnosis.gap.before), shown(diagnosis.gap.after), noise,
-      reports::fixed(100.0 * diagnosis.shrink_together.value, 0), interval(diagnosis.shrink_together));
+      reports::fixed(100.0 * diagnosis.shrink_together.value, placesOf(diagnosis.shrink_together)),
+      interval(diagnosis.shrink_together));
 }
 
 }  // namespace
@@ -185,8 +186,7 @@ bool seen(const identification::MethodResult& method, int joint) {
 
 reports::Cell stiffnessOf(const identification::MethodResult& method, int joint, const reports::StiffnessUnit& unit) {
   if (!seen(method, joint)) return "–";
-  const double expanded = reports::coverageOf(method.estimate, joint).factor * method.estimate.stiffnessSd(joint);
-  return reports::withUncertainty(method.estimate.stiffness(joint) / unit.size, expanded / unit.size);
+  return reports::uncertainStiffness(method.estimate, joint, unit.size);
 }
 
 reports::Table stiffnessWithEffectsTable(const extended_model::ExtendedModel& model) {
@@ -261,6 +261,25 @@ reports::Table residualTable(const extended_model::ExtendedModel& model) {
   return table;
 }
 
+/// How the sum of the budget leads to the stated U: below it, and no part of it.
+void addExpanded(const identification::StiffnessEstimate& estimate, reports::Table& table) {
+  reports::Row factors{"U over u: coverage factor"}, stated{"U: farther end of the stated interval"};
+  std::vector<reports::DataCell> cells(estimate.identifiable.size());
+  for (int j = 0; j < estimate.joints(); ++j) {
+    if (!estimate.identifiable[static_cast<std::size_t>(j)]) continue;
+    const double k = std::abs(estimate.stiffness(j)), u = estimate.stiffnessSd(j) / k,
+                 expanded = identification::expandedUncertainty(estimate, j) / k;
+    // Where the interval itself stands instead of U there is none to be led to.
+    const bool known = std::isfinite(expanded) && !reports::farFromSymmetric(estimate, j);
+    factors.emplace_back(known ? reports::fixed(expanded / u, 2) : "–");
+    stated.emplace_back(known ? reports::fixed(100.0 * expanded, 2) : "–");
+    if (std::isfinite(expanded)) cells[static_cast<std::size_t>(j)] = 100.0 * expanded;
+  }
+  table.groups.push_back({"", {std::move(factors), std::move(stated)}});
+  cells.insert(cells.begin(), {std::string("U"), 1.0});
+  table.data->rows.push_back(std::move(cells));
+}
+
 /// Of the method that stands for the campaign: standard uncertainties of k in per cent, largest lines.
 reports::Table budgetTable(const extended_model::ExtendedModel& model) {
   const identification::Method which = identification::bestMethod(model.with);
@@ -295,6 +314,7 @@ reports::Table budgetTable(const extended_model::ExtendedModel& model) {
   for (const extended_model::BudgetLine& line : model.hidden->budget[static_cast<std::size_t>(which)])
     add(reports::budgetWords(line), line.variance, line.in_model);
   add("together", estimate.covariance.diagonal(), true);
+  addExpanded(estimate, table);
   return table;
 }
 
@@ -304,16 +324,46 @@ void writeHidden(Html& html, const extended_model::ExtendedModel& model) {
   writeTable(html, budgetTable(model));
   html.paragraph(
       "As fitted: of an effect's size in the model. Could hide: of all sizes that the data leave possible. Effects in "
-      "common: negative where effects are known better together than one by one.",
+      "common: negative where effects are known better together than one by one. U is taken from the interval that "
+      "holds "
+      "95\u00a0% of what the data leave possible: what could hide has longer tails than a normal distribution, not "
+      "alike "
+      "on both sides, so that U over u need not be 1.96. Where the interval itself stands for U there is none here "
+      "(–).",
       "faint");
   const identification::Method which = identification::bestMethod(model.with);
   std::vector<std::string> combinations;
-  for (const extended_model::SeenCombination& one : model.hidden->combinations[static_cast<std::size_t>(which)])
-    combinations.push_back(reports::asIs(reports::withMicro(reports::combinationWords(one))));
+  for (const extended_model::SeenCombination& one : model.hidden->combinations[static_cast<std::size_t>(which)]) {
+    std::string words = reports::withMicro(reports::combinationWords(one));
+    if (const std::size_t at = words.find("1e-9"); at != std::string::npos) words.replace(at, 4, "10⁻⁹");
+    combinations.push_back(reports::asIs(words));
+  }
   html.list(combinations);
 }
 
-void writeModel(Html& html, const extended_model::ExtendedModel& model) {
+/// Effects in the model that the diagnosis does not name, with why they are there; empty where it names all.
+std::string keptWords(const extended_model::ExtendedModel& model, const diagnosis::Diagnosis* diagnosis) {
+  if (diagnosis == nullptr || !diagnosis->usable) return {};
+  std::vector<effects::Effect> kept;
+  for (const extended_model::AddedEffect& one : model.effects.added) {
+    const auto& entries = diagnosis->verdict.entries;
+    const bool named = std::any_of(entries.begin(), entries.end(), [&one](const diagnosis::VerdictEntry& entry) {
+      return std::find(entry.effects.begin(), entry.effects.end(), one.effect) != entry.effects.end();
+    });
+    if (!named) kept.push_back(one.effect);
+  }
+  if (kept.empty()) return {};
+  const bool several = kept.size() > 1;
+  const std::string begin = fmt::format("{} {} in the model although the diagnosis does not name {}",
+                                        reports::capitalised(reports::effectNames(kept, " and ")),
+                                        several ? "are" : "is", several ? "them" : "it");
+  if (!model.hidden) return begin + ": the effects were asked for.";
+  return begin +
+         ": the model keeps what predicts postures left out better than joint springs alone; a name has also to "
+         "leave little of the gap, and nothing that speaks against it.";
+}
+
+void writeModel(Html& html, const extended_model::ExtendedModel& model, const diagnosis::Diagnosis* diagnosis) {
   html.paragraph(reports::asIs(reports::gainWords(model)));
   std::vector<std::string> uses;
   for (const extended_model::AddedEffect& one : model.effects.added) {
@@ -327,6 +377,7 @@ void writeModel(Html& html, const extended_model::ExtendedModel& model) {
     for (const std::string& note : reports::words(model.effects.notes)) uses.push_back(reports::asIs(note + "."));
   }
   html.list(uses);
+  if (const std::string kept = keptWords(model, diagnosis); !kept.empty()) html.paragraph(kept);
   if (model.effects.added.empty()) {
     writeHidden(html, model);
     return;
@@ -336,8 +387,8 @@ void writeModel(Html& html, const extended_model::ExtendedModel& model) {
   writeTable(html, stiffnessWithEffectsTable(model));
   writeTable(html, residualTable(model));
   html.paragraph(
-      "Every other number and picture of this page, the diagnosis aside, is of the model with the effects: what they "
-      "do is taken off the readings, "
+      "Every other number and picture of this page, diagnosis and audit aside, is of the model with the effects: what "
+      "they do is taken off the readings, "
       "and stiffnesses are those of the joint springs beside them. Their own uncertainty is in every ±. Shares are of "
       "the "
       "machine's deflection, effects of the machine in it; the effects were fitted anew on the postures of every "
@@ -353,7 +404,7 @@ void writeExtendedModel(Html& html, const reports::ReportContent& content) {
                                [](const reports::ReportCampaign& one) { return one.improved != nullptr; });
   if (!any) return;
   writeForEach(html, content, "effects", "Effects in the model", isLoaded, [&](const reports::ReportCampaign& one) {
-    if (one.improved != nullptr) writeModel(html, *one.improved);
+    if (one.improved != nullptr) writeModel(html, *one.improved, one.diagnosis);
   });
 }
 

@@ -28,6 +28,12 @@ std::string withUnit(const std::optional<double>& value, const std::string& unit
                      reports::withMicro(unit));
 }
 
+/// "at most 1.26 of noise sd", "at least 90 deg".
+std::string limitWords(const reports::AuditFigures& figures) {
+  if (!figures.limit) return "–";
+  return (figures.least ? "at least " : "at most ") + withUnit(figures.limit, figures.unit);
+}
+
 /// A limit's source without what holds for all that are by chance; that is said once.
 std::string sourceOf(const preparation::AuditCheck& check) {
   constexpr std::string_view kCommon = reports::kChanceIsShared;
@@ -47,7 +53,7 @@ reports::Row findingRow(const preparation::AuditCheck& check) {
   const std::string source = sourceOf(check);
   const reports::AuditFigures figures = reports::figuresOf(check);
   return {reports::auditName(check.id), reports::auditWord(check.verdict), withUnit(figures.value, figures.unit),
-          withUnit(figures.limit, figures.unit),
+          limitWords(figures),
           reports::Cell(reports::withMicro(reports::words(check.message)) + where + ".",
                         source.empty() ? "" : fmt::format("Limit: {}.", source))};
 }
@@ -120,7 +126,7 @@ reports::Table passedTable(const audit::AuditReport& report) {
     table.groups.front().rows.push_back(
         {reports::Cell(reports::auditName(check.id),
                        line.size() > 1 ? fmt::format("({} times)", line.size()) : std::string()),
-         rangeOf(line), withUnit(figures.limit, figures.unit), sourceOf(check)});
+         rangeOf(line), limitWords(figures), sourceOf(check)});
   }
   return table;
 }
@@ -230,8 +236,8 @@ bool isAudited(const reports::ReportCampaign& one) { return one.audit != nullptr
 
 void writeAudit(Html& html, const reports::ReportContent& content) {
   const auto write = [&](const reports::ReportCampaign& one) {
-    html.paragraph(fmt::format("{} {} of {} checks could be made.", reports::auditMeaning(*one.audit, kindOf(one)),
-                               one.audit->made, one.audit->of));
+    html.paragraph(fmt::format("{} {} of {} checks could be made.",
+                               reports::auditMeaning(*one.audit, kindOf(one), false), one.audit->made, one.audit->of));
     if (isLoaded(one)) writeUnanswered(html, *one.audit);
     writeTable(html, findingsTable(*one.audit));
     html.list(suspectedWords(*one.audit));

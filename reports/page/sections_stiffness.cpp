@@ -39,11 +39,10 @@ reports::Cell stiffnessCell(const identification::Identification& result, identi
   if (!one.available) return {"not available", notes.mark(unavailable(result, method))};
   if (!one.estimate.identifiable[static_cast<std::size_t>(joint)]) {
     const Remark& reason = result.identifiability.joints[static_cast<std::size_t>(joint)].reason;
-    return {"not identifiable",
-            notes.mark(fmt::format("{} is not identifiable: {}.", reports::jointName(joint), reports::words(reason)))};
+    return {"not seen",
+            notes.mark(fmt::format("{} is not seen: {}.", reports::jointName(joint), reports::words(reason)))};
   }
-  const double expanded = reports::coverageOf(one.estimate, joint).factor * one.estimate.stiffnessSd(joint);
-  const std::string value = reports::withUncertainty(one.estimate.stiffness(joint) / unit.size, expanded / unit.size);
+  const std::string value = reports::uncertainStiffness(one.estimate, joint, unit.size);
   const Remark mark = one.estimate.mark(joint);
   return mark.empty() ? reports::Cell(value)
                       : reports::Cell(value, fmt::format("{} {}", reports::words(mark), notes.mark(markNote(mark))));
@@ -238,29 +237,23 @@ std::string uncertaintyWords(const identification::Identification& result) {
       fmt::join(factors, ", "));
 }
 
-/// Where the interval of the stiffness is far from symmetric, or open.
-std::string wideIntervals(const identification::Identification& result) {
-  const reports::StiffnessUnit unit = reports::stiffnessUnit(result);
-  std::vector<std::string> wide;
+/// What the cells say whose interval is far from symmetric, or open; empty where there is none.
+std::string bracketWords(const identification::Identification& result) {
+  bool any = false, open = false;
   for (const identification::Method method : identification::kMethods) {
     const identification::StiffnessEstimate& estimate = result.of(method).estimate;
     for (int joint = 0; joint < estimate.joints() && result.of(method).available; ++joint) {
-      if (!estimate.identifiable[static_cast<std::size_t>(joint)]) continue;
-      const identification::CoverageInterval compliance = identification::complianceInterval(estimate, joint);
-      const double c = estimate.compliance[joint];
-      constexpr double kWide = 0.2;
-      if (!std::isfinite(compliance.low) || compliance.high - c < kWide * std::abs(c)) continue;
-      const identification::CoverageInterval own = identification::stiffnessInterval(compliance);
-      wide.push_back(std::isfinite(own.high)
-                         ? fmt::format("{} by {} is between {} and {}", reports::jointName(joint),
-                                       reports::shortName(method), reports::significant(own.low / unit.size, 3),
-                                       reports::significant(own.high / unit.size, 3))
-                         : fmt::format("{} by {} is only known to be above {}", reports::jointName(joint),
-                                       reports::shortName(method), reports::significant(own.low / unit.size, 3)));
+      if (!estimate.identifiable[static_cast<std::size_t>(joint)] || !reports::farFromSymmetric(estimate, joint))
+        continue;
+      any = true;
+      open = open || !std::isfinite(identification::stiffnessInterval(estimate, joint).high);
     }
   }
-  if (wide.empty()) return {};
-  return fmt::format("Wide 95\u00a0% intervals, {}: {}.", unit.name, fmt::join(wide, "; "));
+  if (!any) return {};
+  return fmt::format("In brackets: the 95\u00a0% interval itself, where it is far from symmetric.{}",
+                     open ? " Above: the joint's compliance may be zero, so that the data only say how stiff it is at "
+                            "least."
+                          : "");
 }
 
 }  // namespace
@@ -271,7 +264,8 @@ void writeStiffness(Html& html, const reports::ReportContent& content) {
     writeTable(html, stiffnessTable(one.identification, notes));
     writeTable(html, complianceTable(one.identification));
     html.paragraph(uncertaintyWords(one.identification), "faint");
-    if (const std::string wide = wideIntervals(one.identification); !wide.empty()) html.paragraph(wide);
+    if (const std::string brackets = bracketWords(one.identification); !brackets.empty())
+      html.paragraph(brackets, "faint");
     notes.write(html);
     writeTable(html, fitTable(one.identification));
     if (reports::shownMethod(one.identification)) {

@@ -55,6 +55,7 @@ void writeCause(Html& html, const accuracy::AccuracyDiagnosis& accuracy) {
   }
   html.paragraph(reports::asIs(reports::accuracyFinding(accuracy)), "finding");
   html.list(reports::accuracyMeanings(accuracy));
+  if (accuracy.as_read) html.paragraph(reports::asReadWords());
   if (const std::string figures = reports::accuracyFigures(accuracy); !figures.empty()) html.paragraph(figures);
   const std::vector<std::string> reasons = reports::words(accuracy.reasons);
   if (!reasons.empty()) html.paragraph(reports::withMicro(fmt::format("{}", fmt::join(reasons, " "))), "faint");
@@ -62,7 +63,7 @@ void writeCause(Html& html, const accuracy::AccuracyDiagnosis& accuracy) {
   const bool weighed = std::any_of(accuracy.classes.begin(), accuracy.classes.end(),
                                    [](const auto& one) { return one.score != 0.0 || one.shrink.value != 0.0; });
   if (weighed) writeTable(html, classesTable(accuracy.classes, &fallOf));
-  const calibration::ArmFit& fit = accuracy.calibration.best().fit;
+  const calibration::ArmFit& fit = accuracy.ofCause().best().fit;
   writeTable(html, effectsTable(fit));
   if (fit.parts.size() > kMostParts) html.paragraph(reports::morePartsWords(fit.parts.size() - kMostParts), "faint");
   writeTable(html, whereTable("Where the gap lies that the calibrated geometry leaves, rms per coordinate", "Position",

@@ -121,7 +121,8 @@ constexpr const char* kScripted =
     "var(--faint);padding:.3rem .5rem;font-size:.82rem;margin:.6rem;z-index:3;max-width:20rem;overflow:hidden}"
     ".csv,.offer{font:inherit;font-size:.85rem;color:var(--accent);background:var(--band);border:1px solid var(--line);"
     "cursor:pointer;padding:.05rem .45rem}.filter{display:block;font-size:.85rem;color:var(--faint);margin:.4rem "
-    "0}.filter input{font:inherit;color:var(--ink);"
+    "0}.unknown{display:block;color:var(--ink);overflow-wrap:anywhere}.now{display:block;font-weight:600}"
+    ".filter input{font:inherit;color:var(--ink);"
     "background:var(--band);border:1px solid var(--faint);padding:.05rem .3rem}"
     "tr.marked th,tr.marked td{background:#e8a82044}tr.filtered{display:none}"
     "figure.live .picture{display:none}.scene-live{border:1px solid var(--line)}"
@@ -143,7 +144,7 @@ constexpr const char* kScripted =
 constexpr const char* kPrint =
     "@media print{"
     ":root{--paper:#fff;--ink:#000;--faint:#444;--line:#bbb;--band:#f4f6f8;--accent:#1c4a96}"
-    "body{font-size:9.5pt}nav,.skip,details,.scene-live,.csv,.offer,canvas.marks,.tip{display:none}"
+    "body{font-size:9.5pt}nav,.skip,details,.scene-live,.csv,.offer,canvas.marks,.tip,.now{display:none}"
     "figure.live .picture{display:block}.first{grid-template-columns:9fr 11fr;gap:0 6mm}.first "
     ".figures{display:block}.first table{font-size:7.5pt}.first .figures{grid-row:1}.first .told{grid-column:1 / span "
     "2}tr.filtered{display:table-row}"
@@ -168,7 +169,7 @@ constexpr const char* kPrint =
     "main figure img{max-height:74mm;object-fit:contain;object-position:left top}.first "
     "figcaption{margin-top:1mm;font-size:7.5pt}"
     // Two pictures one above the other stand on the first page.
-    ".first figure img{max-height:49mm}.first figure{margin:1.5mm 0}"
+    ".first figure img{max-height:49mm;object-fit:contain;object-position:left top}.first figure{margin:1.5mm 0}"
     ".scroll{overflow:visible;margin-bottom:3mm}caption{max-width:none}"
     "p,ul,ol,figcaption{max-width:none}"
     ".numbers{grid-template-columns:repeat(3,1fr)}.numbers b{font-size:16pt}"

@@ -82,6 +82,7 @@ std::string accuracyText(const campaign::Campaign& campaign, const AccuracyDiagn
   fmt::format_to(out, "{}: unloaded positions of {} postures, {} readings\n\nVerdict: {}\n", campaign.name,
                  accuracy.postures, accuracy.readings, wrapped(verdictLine(accuracy), 9));
   for (const std::string& sentence : words(accuracy.reasons)) fmt::format_to(out, "  {}\n", wrapped(sentence, 2));
+  if (accuracy.as_read) fmt::format_to(out, "  {}\n", wrapped(asReadWords(), 2));
   fmt::format_to(
       out,
       "\nHow far: gap of the positions, µm rms per coordinate, held out\n  as the URDF has the arm{:>13.1f}\n"

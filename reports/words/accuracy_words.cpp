@@ -62,11 +62,24 @@ std::string auditSentence(const ReportCampaign& one) {
   return one.audit == nullptr ? std::string() : " " + auditMeaning(*one.audit, kindOf(one));
 }
 
+/// What the verdict names, a geometry that is not the URDF's said for itself: it is nothing besides the geometry.
+std::string foundWords(const accuracy::AccuracyDiagnosis& accuracy) {
+  std::vector<accuracy::AccuracyEntry> others = accuracy.verdict;
+  std::erase_if(others, [](const accuracy::AccuracyEntry& one) {
+    return one.effects == std::vector{calibration::UnloadedEffect::kinematic_error};
+  });
+  if (others.size() == accuracy.verdict.size())
+    return fmt::format("Besides the geometry the readings show {}", presentWords(accuracy.verdict));
+  std::string text =
+      fmt::format("The arm is not as its URDF says ({})", effectName(calibration::UnloadedEffect::kinematic_error));
+  if (others.empty()) return text + "; what the calibrated geometry leaves is noise, or too small to matter";
+  return text + fmt::format("; besides its geometry the readings show {}", presentWords(others));
+}
+
 std::string causeSentence(const accuracy::AccuracyDiagnosis& accuracy) {
   if (!accuracy.usable) return fmt::format("No cause can be given: {}.", asIs(words(accuracy.unusable_reason)));
   if (accuracy.verdict.empty()) return "What the calibrated geometry leaves is noise, or too small to matter.";
-  return asIs(fmt::format("Besides the geometry the readings show {} (see What the geometry misses).",
-                          presentWords(accuracy.verdict)));
+  return asIs(fmt::format("{} (see What the geometry misses).", foundWords(accuracy)));
 }
 
 }  // namespace
@@ -122,7 +135,13 @@ std::string accuracyFinding(const accuracy::AccuracyDiagnosis& accuracy) {
         "matter{}.",
         small);
   }
-  return fmt::format("Besides the geometry the readings show {}.", presentWords(accuracy.verdict));
+  return foundWords(accuracy) + ".";
+}
+
+std::string asReadWords() {
+  return "The cause is looked for in the readings as they were read; accuracy, axes and places are of the readings "
+         "with "
+         "the station's motion taken off.";
 }
 
 std::vector<std::string> accuracyMeanings(const accuracy::AccuracyDiagnosis& accuracy) {
@@ -147,8 +166,9 @@ std::string accuracyFigures(const accuracy::AccuracyDiagnosis& accuracy) {
   text += fmt::format(". With the verdict's effects in the model {} are left", shown(gap.after));
   const diagnosis::Shrink& shrink = accuracy.shrink_together;
   if (shrink.high > shrink.low) {
-    text += fmt::format(": it shrinks by {} (95\u00a0%: {} to {})", percent(shrink.value, 0),
-                        fixed(100.0 * shrink.low, 0), percent(shrink.high, 0));
+    const int places = placesThatTell(100.0 * shrink.low, 100.0 * shrink.high);
+    text += fmt::format(": it shrinks by {} (95\u00a0%: {} to {})", percent(shrink.value, places),
+                        fixed(100.0 * shrink.low, places), percent(shrink.high, places));
   }
   return text + ".";
 }

@@ -26,6 +26,9 @@ double largestLinkDifference(const frames::Frames& frames);
 
 /// What is there besides the geometry; and what each effect of it means.
 std::string accuracyFinding(const accuracy::AccuracyDiagnosis& accuracy);
+
+/// Of which readings the cause is, and of which the accuracy, where they are not the same.
+std::string asReadWords();
 std::vector<std::string> accuracyMeanings(const accuracy::AccuracyDiagnosis& accuracy);
 
 /// How far the gap falls, with noise and interval; empty where nothing is known of it.

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "core/identification/warnings.h"
 #include "core/io/units.h"
 
 namespace stiffscope::reports {
@@ -68,6 +69,13 @@ consteval bool printsAllChecks() {
 }
 static_assert(printsAllChecks(), "every check needs its unit, in the order of preparation::kAuditCheckIds");
 
+/// Checks whose figure has to reach its limit; that of a load's size is held between two, of which it has the nearer.
+bool hasToReach(const preparation::AuditCheck& check) {
+  constexpr std::array<std::string_view, 3> kAtLeast{"circle_arc", "circle_count", "reflector_on_axis"};
+  if (check.id == "load_size") return check.limit == identification::kSoftArm;
+  return std::find(kAtLeast.begin(), kAtLeast.end(), check.id) != kAtLeast.end();
+}
+
 }  // namespace
 
 AuditFigures figuresOf(const preparation::AuditCheck& check) {
@@ -80,7 +88,7 @@ AuditFigures figuresOf(const preparation::AuditCheck& check) {
   const auto printed = [unit](const std::optional<double>& figure) {
     return figure ? std::optional(*figure * unit->times / unit->by) : std::nullopt;
   };
-  return {printed(check.value), printed(check.limit), std::string(unit->unit)};
+  return {printed(check.value), printed(check.limit), std::string(unit->unit), hasToReach(check)};
 }
 
 }  // namespace stiffscope::reports

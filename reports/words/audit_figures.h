@@ -11,6 +11,8 @@ namespace stiffscope::reports {
 struct AuditFigures {
   std::optional<double> value, limit;
   std::string unit;  ///< empty where there is neither
+  /// Below the limit it warns, and not beyond it: the limit is "at least", not "at most".
+  bool least = false;
 };
 
 AuditFigures figuresOf(const preparation::AuditCheck& check);

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <algorithm>
+#include <cmath>
 
 #include "core/audit/remarks.h"
 #include "core/io/units.h"
@@ -25,12 +26,19 @@ std::string state(const RemarkValues& values) {
   return fmt::format("pose {}, step {}", values.name(0), values.count(1));
 }
 
-/// The first of them, and how many there are besides.
-std::string missing(const std::vector<Remark>& gaps) {
-  constexpr std::size_t kShown = 8;
-  const auto end = gaps.begin() + static_cast<std::ptrdiff_t>(std::min(kShown, gaps.size()));
-  return fmt::format("missing: {}{}", fmt::join(words(std::vector<Remark>(gaps.begin(), end)), "; "),
-                     gaps.size() > kShown ? fmt::format("; and {} more", gaps.size() - kShown) : "");
+/// The first of them, and how many there are besides: of a list that grows with the day.
+std::string few(const std::vector<Remark>& all, const char* between, std::size_t most = 8) {
+  const auto end = all.begin() + static_cast<std::ptrdiff_t>(std::min(most, all.size()));
+  std::string text = fmt::format("{}", fmt::join(words(std::vector<Remark>(all.begin(), end)), between));
+  if (all.size() > most) text += fmt::format("{}and {} more", *between != 0 ? between : "; ", all.size() - most);
+  return text;
+}
+
+/// "at loading.csv:2 (pose 1, step 0)", "from ... on", "from ... to ..."
+std::string whereExchanged(const RemarkValues& values) {
+  const std::string first = fmt::format("{} ({})", values.name(0), values.name(1));
+  if (values.count(3) == 1) return "at " + first;
+  return "from " + first + (values.count(5) != 0 ? std::string(" on") : fmt::format(" to {}", values.name(4)));
 }
 
 /// "P10 is P11, P11 is P10"
@@ -60,7 +68,11 @@ std::string wristAxesMiss(const RemarkValues& values) {
   return text + " (U, 95 %)" + more(values, 1);
 }
 
-std::string mending(std::int64_t cures) {
+std::string mending(std::int64_t cures, const std::string& check) {
+  if (cures == 0 && !check.empty()) {
+    return fmt::format("the readings contradict the model; what {} finds explains it",
+                       check == "rigid_tool" ? "rigid tool" : "time order");
+  }
   if (cures == 0) return "the readings contradict the model, and none of the usual mistakes explains it";
   return cures == 1 ? "one of the usual mistakes explains it (suspected)"
                     : fmt::format("{} mistakes would each explain it (suspected), or are several", cures);
@@ -131,17 +143,26 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
     case audit::RemarkId::steps_follow:
       return "steps follow each other in time in every posture";
     case audit::RemarkId::steps_out_of_order:
-      return fmt::format("steps out of order: {}", joined(values, 0, "; "));
+      return "steps out of order: " + few(values.remarks(0), "; ");
     case audit::RemarkId::step_too_early:
       return fmt::format("{} (pose {}: step {} before step {} ends)", values.name(0), values.name(1), values.count(2),
                          values.count(3));
     case audit::RemarkId::state_during:
       return fmt::format("{} (pose {}: the state of step {} was taken during step {})", values.name(0), values.name(1),
                          values.count(2), values.count(3));
+    case audit::RemarkId::clocks_apart:
+      return fmt::format("the clock of {} is {:.0f} s {} that of {}: with that {} its times all {} rows are in order",
+                         values.name(0), std::abs(values.number(2)), values.number(2) > 0.0 ? "ahead of" : "behind",
+                         values.name(1), values.number(2) > 0.0 ? "taken off" : "added to", values.count(3));
+    case audit::RemarkId::rows_of_other_postures:
+      return fmt::format(
+          "{} of {} postures have rows in {} that were taken while another posture was read, pose {} while {} was{}",
+          values.count(1), values.count(2), values.name(0), values.name(3), values.name(4),
+          values.count(5) != 0 ? ": the table was sorted as text (1, 10, 11, 2) and numbered afresh" : "");
     case audit::RemarkId::all_there:
       return fmt::format("every one of {} postures has all steps, reflectors and repeats", values.count(0));
     case audit::RemarkId::missing:
-      return missing(values.remarks(0));
+      return "missing: " + few(values.remarks(0), "; ");
     case audit::RemarkId::step_not_read:
       return state(values) + ": no readings";
     case audit::RemarkId::no_row_in_states:
@@ -177,6 +198,11 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
           "too "
           "small by as much",
           values.number(0), joined(values, 1, ", "));
+    case audit::RemarkId::noise_explained:
+      return fmt::format(
+          "readings scatter {:.1f} times otherwise than declared, because of the mistake that is suspected: of the "
+          "declared noise show {}",
+          values.number(0), joined(values, 1, ", "));
     case audit::RemarkId::repeats_along_show:
       return fmt::format("repeats along the beam {:.2f}", values.number(0));
     case audit::RemarkId::repeats_across_show:
@@ -199,14 +225,21 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
           values.numbers(0).at(0), values.numbers(0).at(1));
     case audit::RemarkId::declare_load_cell_noise:
       return fmt::format("multiply force_sigma_n and moment_sigma_nm by {:.2g}", values.numbers(0).at(0));
+    case audit::RemarkId::take_step_0_off:
+      return fmt::format(
+          "unloaded, the load cell drifts by {:.3g} N and {:.2g} Nm in {:.1f} h: take what it shows in step 0 of each "
+          "posture off all rows of that posture",
+          values.number(0), values.number(1), values.number(2));
+    case audit::RemarkId::unloaded_scatter:
+      return fmt::format("unloaded readings then scatter by {:.2f} of the declared noise instead of {:.2f}",
+                         values.number(1), values.number(0));
     case audit::RemarkId::distance_changes:
       return fmt::format("largest change of a distance: {} to {} by {} at {}{}", values.name(0), values.name(1),
-                         lengthWords(values.number(2), 0), values.name(3), more(values, 4));
+                         lengthWords(values.number(2), 0), values.name(3), few(values.remarks(4), ""));
     case audit::RemarkId::distances_scatter:
       return fmt::format("; over all states distances scatter {:.2f} times as far as noise alone", values.number(0));
     case audit::RemarkId::reflectors_exchanged:
-      return fmt::format("; reflectors exchanged at {} ({}): {}", values.name(0), values.name(1),
-                         exchange(values.names(2)));
+      return fmt::format("; reflectors exchanged {}: {}", whereExchanged(values), exchange(values.names(2)));
     case audit::RemarkId::no_one_reflector:
       return "; no one reflector explains it: two move, the tool itself bends, or the tracker's noise is larger "
              "than declared";
@@ -382,7 +415,7 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
     case audit::RemarkId::angles_agree:
       return "reported joint angles agree with what the reflectors say, posture by posture";
     case audit::RemarkId::angles_stale:
-      return "reported before the arm settled, or stale: " + joined(values, 0, "; ");
+      return "reported before the arm settled, or stale: " + few(values.remarks(0), "; ");
     case audit::RemarkId::joint_off:
       return fmt::format("{} (pose {}: joint {} stands {:.4f} deg from what is reported)", values.name(0),
                          values.name(1), values.count(2), values.number(3) / io::kDegree);
@@ -403,13 +436,17 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
       return fmt::format(
           "; {} of {} postures do not come back{}{}; friction, backlash, a slipping part, or drift that "
           "nests do not show",
-          values.remarks(0).size(), values.count(1), values.remarks(0).empty() ? "" : ": ", joined(values, 0, ", "));
+          values.remarks(0).size(), values.count(1), values.remarks(0).empty() ? "" : ": ",
+          few(values.remarks(0), ", "));
     case audit::RemarkId::posture_off:
       return fmt::format("{} by {}", values.name(0), lengthWords(values.number(1), 0));
     case audit::RemarkId::unloaded_reading:
       return unloadedReading(values);
     case audit::RemarkId::not_tared:
       return ": not tared, or tared with something on it";
+    case audit::RemarkId::zero_drifts:
+      return fmt::format(": its zero drifts, by {:.3g} N and {:.2g} Nm in {:.1f} h", values.number(0), values.number(1),
+                         values.number(2));
     case audit::RemarkId::one_pose_off:
       return fmt::format("; pose {} is {:.1f} sigma off", values.name(0), values.number(1));
     case audit::RemarkId::force_off_gravity:
@@ -454,13 +491,13 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
                          values.number(0) / io::kMillimetre);
     case audit::RemarkId::readings_contradict:
       return fmt::format("postures and sweeps miss the URDF's arm, sag taken off, by {:.4g} mm (median): {}",
-                         values.number(0) / io::kMillimetre, mending(values.count(1)));
+                         values.number(0) / io::kMillimetre, mending(values.count(1), values.name(2)));
     case audit::RemarkId::springs_agree:
       return fmt::format("joint springs on the URDF's arm leave {:.1f} % of the displacements",
                          100.0 * values.number(0));
     case audit::RemarkId::springs_contradict:
       return fmt::format("joint springs on the URDF's arm leave {:.1f} % of the displacements: {}",
-                         100.0 * values.number(0), mending(values.count(1)));
+                         100.0 * values.number(0), mending(values.count(1), values.name(2)));
     case audit::RemarkId::controller_states:
       return fmt::format(
           "the poses that the controller states in {} postures miss the URDF's by {:.3f} mm rms, at most {:.3f} mm, "

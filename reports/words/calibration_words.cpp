@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/calibration/remarks.h"
 #include "core/io/units.h"
 #include "reports/words/entry_words.h"
 #include "reports/words/remark_words.h"
+#include "reports/words/remarks.h"
 
 namespace stiffscope::reports {
 
@@ -54,10 +56,39 @@ std::string foldWords(const calibration::CalibrationOptions& options) {
       options.folds, options.fold_size, options.folds);
 }
 
+namespace {
+
+/// What is said of one compliance after the other, of all of an effect at once.
+std::vector<Remark> negativeTogether(const std::vector<Remark>& notes) {
+  using calibration::RemarkId;
+  std::vector<Remark> together;
+  for (const Remark& note : notes) {
+    const auto same = std::find_if(together.begin(), together.end(), [&note](const Remark& other) {
+      return note.is(RemarkId::negative_compliance) && other.is(RemarkId::negative_compliance) &&
+             RemarkValues(note).name(0) == RemarkValues(other).name(0);
+    });
+    if (same == together.end()) {
+      together.push_back(note);
+      continue;
+    }
+    *same = Remark(RemarkId::negative_compliance, RemarkValues(note).name(0),
+                   fmt::format("{}, {}", RemarkValues(*same).name(1), RemarkValues(note).name(1)));
+  }
+  for (Remark& note : together) {
+    if (note.is(RemarkId::negative_compliance))
+      note = Remark(RemarkId::negative_compliance, std::string(RemarkValues(note).name(0)),
+                    shortDetail(RemarkValues(note).name(1)));
+  }
+  return together;
+}
+
+}  // namespace
+
 std::vector<std::string> modelNotes(const calibration::Calibration& calibration) {
   std::vector<std::string> notes;
   for (const calibration::ModelResult& model : calibration.models) {
-    for (const Remark& note : model.notes) notes.push_back(fmt::format("{}: {}", nameOf(model.model), words(note)));
+    for (const Remark& note : negativeTogether(model.notes))
+      notes.push_back(fmt::format("{}: {}", nameOf(model.model), words(note)));
   }
   return notes;
 }

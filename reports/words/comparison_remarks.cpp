@@ -83,8 +83,8 @@ std::string comparisonWords(comparison::RemarkId id, const RemarkValues& values)
     case zero_1_with_base:
       return "joint 1's zero is not compared: a base that turned about axis 1 looks the same";
     case zero_of_last_with_reflectors:
-      return fmt::format("joint {0}'s zero is not compared: reflectors that all turned about axis {0} look the same",
-                         values.count(0));
+      return fmt::format("joint {}'s zero is not compared: reflectors that all turned about axis {} look the same",
+                         values.count(0), values.count(1));
     case nothing_comparable:
       return fmt::format("{}; {}", words(values.remark(0)), words(values.remark(1)));
     case of_one_campaign:

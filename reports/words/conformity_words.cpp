@@ -37,6 +37,8 @@ const char* nameOf(Missing missing) {
       return "no_such_joint";
     case Missing::not_identified:
       return "not_identified";
+    case Missing::sag_left_in:
+      return "sag_left_in";
     case Missing::no_uncertainty:
       return "no_uncertainty";
     case Missing::nothing:
@@ -105,6 +107,8 @@ std::string foundWords(const Decision& one) {
       return "the machine has no such joint";
     case Missing::not_identified:
       return "not found on this day";
+    case Missing::sag_left_in:
+      return "not decided: the arm's own sag is in the readings and not in their uncertainty (the URDF has no masses)";
     case Missing::no_uncertainty:
       return "too little was measured for an uncertainty";
     case Missing::nothing:

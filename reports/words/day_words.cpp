@@ -102,14 +102,15 @@ std::string failureWords(const std::vector<std::string>& ids) {
 
 }  // namespace
 
-std::string auditMeaning(const audit::AuditReport& audit, DayKind kind) {
+std::string auditMeaning(const audit::AuditReport& audit, DayKind kind, bool refers) {
   const std::vector<std::string> warned = checksThat(audit, preparation::AuditVerdict::warn);
   switch (audit.verdict) {
     case preparation::AuditVerdict::pass:
       return fmt::format("The audit passes: the readings are fit to {}.", purposeOf(kind));
     case preparation::AuditVerdict::warn:
-      return fmt::format("The readings are good enough to {}; the audit warns of {} (see Audit).", purposeOf(kind),
-                         warned.size() == 1 ? "one thing" : fmt::format("{} things", warned.size()));
+      return fmt::format("The readings are good enough to {}; the audit warns of {}{}.", purposeOf(kind),
+                         warned.size() == 1 ? "one thing" : fmt::format("{} things", warned.size()),
+                         refers ? " (see Audit)" : "");
     case preparation::AuditVerdict::not_testable:
       // A day that is not meant for loads does not fail by what only a load would tell.
       if (kind == DayKind::sweeps) return "No check of the audit fails; some need what such a day does not measure.";

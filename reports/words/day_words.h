@@ -16,7 +16,8 @@ std::string reportTitle(const std::vector<ReportCampaign>& campaigns);
 std::string methodWords(DayKind kind, int joints);
 
 /// What the audit's verdict means for such a day, a sentence.
-std::string auditMeaning(const audit::AuditReport& audit, DayKind kind);
+/// `refers`: to the audit's own section, in which nothing refers to it.
+std::string auditMeaning(const audit::AuditReport& audit, DayKind kind, bool refers = true);
 
 /// Before numbers of a day that fails the audit.
 std::string doubtedNumbersWords();

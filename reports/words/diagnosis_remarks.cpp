@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "core/io/units.h"
+#include "reports/words/entry_words.h"
 #include "reports/words/remark_words.h"
 #include "reports/words/remarks.h"
 
@@ -66,7 +67,7 @@ std::string diagnosisWords(diagnosis::RemarkId id, const RemarkValues& values) {
           1e3 * values.number(0), 1e3 * values.number(1));
     case follows_from_geometry:
       return fmt::format("Besides, what looks like {} ({}) is no more than the wrong geometry puts there.",
-                         values.name(0), words(values.remark(1)));
+                         nameOfId(values.name(0)), words(values.remark(1)));
     case deflection_not_explained:
       return fmt::format(
           "Besides, {} rms of the deflection at the largest load are explained by no effect of the vocabulary.",
@@ -74,13 +75,15 @@ std::string diagnosisWords(diagnosis::RemarkId id, const RemarkValues& values) {
     case positions_not_explained:
       return fmt::format("Besides, {} rms of the unloaded positions are explained by no effect (limit {}).",
                          lengthWords(values.number(0), 1), lengthWords(values.number(1), 1));
-    case candidates_only:
+    case candidates_only: {
+      std::vector<std::string> names;
+      for (const std::string& id : values.names(0)) names.push_back(nameOfId(id));
       return fmt::format(
           "Beside that, {} {} no more than {}: with {} in the model {:.0f} % of the gap's squares beyond noise stay "
           "({:.0f} % may).",
-          fmt::join(values.names(0), " and "), values.names(0).size() > 1 ? "are" : "is",
-          values.names(0).size() > 1 ? "candidates" : "a candidate", values.names(0).size() > 1 ? "them" : "it",
-          100.0 * values.number(1), 100.0 * values.number(2));
+          fmt::join(names, " and "), names.size() > 1 ? "are" : "is", names.size() > 1 ? "candidates" : "a candidate",
+          names.size() > 1 ? "them" : "it", 100.0 * values.number(1), 100.0 * values.number(2));
+    }
     case nests_speak_against_drift:
       return "The floor nests lose their shape: what wanders with the readings is no motion of the tracker as one "
              "body.";
@@ -89,7 +92,7 @@ std::string diagnosisWords(diagnosis::RemarkId id, const RemarkValues& values) {
           "While a load stood the readings moved on by {} rms (t = {:.0f}): {} does not do that, and what "
           "creeps "
           "looks like it.",
-          lengthWords(values.number(1), 1), values.number(2), values.name(0));
+          lengthWords(values.number(1), 1), values.number(2), nameOfId(values.name(0)));
     case chi_square_significant:
       return fmt::format(
           "What is left is small and yet more than noise: chi2 per equation {:.2f}, by chance no more than {:.2f}.",

@@ -19,6 +19,7 @@ std::string shortDetail(const std::string& detail) {
     at = end + 2;
   }
   if (joints.size() < 2) return detail;
+  std::sort(joints.begin(), joints.end());  // they come in the order in which they were found
   bool in_a_row = joints.size() > 2;
   for (std::size_t i = 1; i < joints.size(); ++i) in_a_row = in_a_row && joints[i][0] == joints[i - 1][0] + 1;
   if (in_a_row) return fmt::format("joints {} to {}", joints.front(), joints.back());

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 #include <cmath>
 
+#include "reports/words/entry_words.h"
 #include "reports/words/remark_words.h"
 #include "reports/words/remarks.h"
 
@@ -27,8 +28,8 @@ std::string extendedModelWords(extended_model::RemarkId id, const RemarkValues& 
       return "every stiffness is negative: wrench and readings contradict each other, and no model of the machine is "
              "looked for";
     case taken_of_a_class:
-      return fmt::format("{} is added because it fits best; this data cannot tell it from {}", values.name(0),
-                         fmt::join(values.names(1), " or "));
+      return fmt::format("{} is added because it fits best; this data cannot tell it from {}", nameOfId(values.name(0)),
+                         nameOfId(fmt::format("{}", fmt::join(values.names(1), " or "))));
     case no_gap_to_fit:
       return "there is no gap to fit it to: " + words(values.remark(0));
     case lacks_what_shows_it:

@@ -26,14 +26,14 @@ std::string explainedWords(const extended_model::EffectFit& effects) {
   const diagnosis::Gap& gap = effects.gap;
   const diagnosis::Shrink& shrink = effects.shrink;
   return fmt::format(
-      "Stiffnesses alone leave {} rms per coordinate of the deflection in all load steps, {} {}; noise "
+      "Stiffnesses alone leave {0} rms per coordinate of the deflection in all load steps, {1} {2}; noise "
       "alone "
-      "{}. On postures held out the rms shrinks by {:.0f} % ({:.0f} to {:.0f} %), and {} % of what is above "
+      "{3}. On postures held out the rms shrinks by {4:.{8}f} % ({5:.{8}f} to {6:.{8}f} %), and {7} % of what is above "
       "the noise "
       "is explained.",
       withMicro(lengthWords(gap.before, 1)), "with the effects", withMicro(lengthWords(gap.after, 1)),
       withMicro(lengthWords(gap.noise, 1)), 100.0 * shrink.value, 100.0 * shrink.low, 100.0 * shrink.high,
-      percentNumber(effects.explained, 0));
+      percentNumber(effects.explained, 0), placesThatTell(100.0 * shrink.low, 100.0 * shrink.high));
 }
 
 namespace {
@@ -114,10 +114,15 @@ std::string budgetWords(const extended_model::BudgetLine& line) {
 }
 
 std::string combinationWords(const extended_model::SeenCombination& seen) {
+  constexpr double kNano = 1e-9;
   const std::string unit = seen.parameter.unit.empty() ? "" : ", " + seen.parameter.unit;
-  return fmt::format("only 1/k{} {} {:.3g} times {} ({}{}) is seen: {:.4g} +- {:.2g} rad/Nm (U, 95 %)", seen.joint + 1,
-                     seen.ratio < 0.0 ? "-" : "+", std::abs(seen.ratio), effectName(seen.parameter.effect),
-                     seen.parameter.name, unit, seen.value, expanded(seen.sd));
+  const double value = seen.value / kNano, u = expanded(seen.sd) / kNano;
+  const int places = u > 0.0 ? std::max(0, 1 - static_cast<int>(std::floor(std::log10(u)))) : 1;
+  return fmt::format(
+      "1/k{0} and {1} ({2}{3}) are hardly told apart; known is 1/k{0} {4} {5:.3g} times that: ({6:.{8}f} +- {7:.{8}f}) "
+      "1e-9 rad/Nm (U, 95 %)",
+      seen.joint + 1, effectName(seen.parameter.effect), seen.parameter.name, unit, seen.ratio < 0.0 ? "-" : "+",
+      std::abs(seen.ratio), value, u, places);
 }
 
 std::string residualWords(const extended_model::ExtendedModel& model) {
@@ -126,6 +131,10 @@ std::string residualWords(const extended_model::ExtendedModel& model) {
   // What was taken off the readings before counts as noise, too, so that less than nothing can be left.
   if (!model.effects.added.empty())
     text += hidden.left_over > 0.0 ? fmt::format(", the model {:.3g}", hidden.left_over) : ", the model less than it";
+  // What no effect explains has become noise to the fit: without that a reader holds the figure against the tracker's.
+  if (model.study && model.study->fit.state.model_error > 0.0)
+    text += fmt::format(" (noise is the tracker's and, once a posture, {} at the largest load that no effect explains)",
+                        withMicro(lengthWords(model.study->fit.state.model_error, 1)));
   if (hidden.unexplained)
     return text + fmt::format(
                       "; {:.0f} % of the gap is explained by no effect that is known here: values are apparent "

@@ -21,7 +21,8 @@ std::string budgetWords(const extended_model::BudgetLine& line);
 /// Its key in JSON and CSV.
 std::string budgetKey(const extended_model::BudgetLine& line);
 
-/// "only 1/k4 + 0.8 times link compliance (1/GJ of link 3, 1/Nm2) is seen: 3e-06 +- 2e-08 rad/Nm (U, 95 %)".
+/// "1/k4 and link compliance (1/GJ of link 3, 1/Nm2) are hardly told apart; known is 1/k4 + 0.8 times that: (3000 +-
+/// 20) 1e-9 rad/Nm (U, 95 %)".
 std::string combinationWords(const extended_model::SeenCombination& seen);
 
 /// What springs alone and the model leave of the readings, in multiples of the noise, and whether that is explained:

@@ -50,6 +50,15 @@ std::string framesWords(frames::RemarkId id, const RemarkValues& values) {
       return "the robot's link masses are not known, so the arm's own sag is left in";
     case RemarkId::sag_taken_off:
       return "the arm's own sag is taken off the readings by the identified stiffnesses and the URDF's masses";
+    case RemarkId::sag_by_known_stiffness:
+      return "the arm's own sag is taken off the readings by the stiffnesses that the campaign states and the URDF's "
+             "masses";
+    case RemarkId::sag_allowed_for:
+      return fmt::format(
+          "no stiffness is known of some joints, so the arm's own sag is left in; the uncertainties have what it does "
+          "where such a joint turns by {:.0f} mrad (one standard uncertainty) under the largest torque of the own "
+          "weight in the sweeps",
+          1e3 * values.number(0));
     case RemarkId::no_unloaded_positions:
       return "there are no absolute unloaded positions (loading, step 0) to calibrate on";
     case RemarkId::base_not_placed:

@@ -48,6 +48,14 @@ const char* nameOf(NumberKind kind) {
       return "distance";
     case NumberKind::twist:
       return "twist";
+    case NumberKind::off_x:
+      return "off_x";
+    case NumberKind::off_y:
+      return "off_y";
+    case NumberKind::tilt_x:
+      return "tilt_x";
+    case NumberKind::tilt_y:
+      return "tilt_y";
     case NumberKind::tilt:
       break;
   }
@@ -76,13 +84,21 @@ std::string numberName(const comparison::GeometryNumber& number) {
   const int axis = number.axis, next = axis + 1;
   switch (number.kind) {
     case NumberKind::joint_zero:
-      return fmt::format("zero of joint {}", axis);
+      return number.joint > 0 ? fmt::format("zero of joint {}", number.joint) : fmt::format("zero of axis {}", axis);
     case NumberKind::along:
       return fmt::format("axis {} along axis {}", next, axis);
     case NumberKind::distance:
       return fmt::format("distance of axes {} and {}", axis, next);
     case NumberKind::twist:
       return fmt::format("angle of axes {} and {}", axis, next);
+    case NumberKind::off_x:
+      return fmt::format("axis {} off axis {}, x", next, axis);
+    case NumberKind::off_y:
+      return fmt::format("axis {} off axis {}, y", next, axis);
+    case NumberKind::tilt_x:
+      return fmt::format("tilt of axis {} to x of axis {}", next, axis);
+    case NumberKind::tilt_y:
+      return fmt::format("tilt of axis {} to y of axis {}", next, axis);
     case NumberKind::tilt:
       break;
   }
@@ -92,7 +108,10 @@ std::string numberName(const comparison::GeometryNumber& number) {
 std::string causeWords(const CauseEvidence& evidence) {
   switch (evidence.cause) {
     case ChangeCause::joint_zero:
-      return fmt::format("the zero of joint {} moved by {}", evidence.axis, turnWords(*evidence.size));
+      return fmt::format("the zero of joint {} moved by {}{}", evidence.joint, turnWords(*evidence.size),
+                         evidence.same_line > 0
+                             ? fmt::format(", or what turns axis {} did, which looks the same", evidence.same_line)
+                             : std::string());
     case ChangeCause::link:
       return fmt::format("link {} bent: what axis {} and all beyond stand on moved against axis {}", evidence.axis,
                          evidence.axis + 1, evidence.axis);
@@ -106,8 +125,10 @@ std::string causeWords(const CauseEvidence& evidence) {
     case ChangeCause::turn_about_last:
       break;
   }
-  return fmt::format("all reflectors turned about axis {0}, or the zero of joint {0} moved, which looks the same: {1}",
-                     evidence.axis, turnWords(*evidence.size));
+  if (evidence.joint == 0)
+    return fmt::format("all reflectors turned about axis {}: {}", evidence.axis, turnWords(*evidence.size));
+  return fmt::format("all reflectors turned about axis {}, or the zero of joint {} moved, which looks the same: {}",
+                     evidence.axis, evidence.joint, turnWords(*evidence.size));
 }
 
 std::vector<std::string> changeWords(const comparison::GeometryChange& change) {
@@ -129,11 +150,11 @@ std::vector<std::string> changeWords(const comparison::GeometryChange& change) {
     sentences.push_back(fmt::format("What the model has beside the geometry did change ({} of the same sizes): {}.",
                                     probability(change.effects_p), fmt::join(change.effects, ", ")));
   if (change.reflectors_moved) {
-    sentences.push_back(fmt::format("Reflectors moved on the flange ({}), which is no change of the machine{}.",
-                                    probability(change.reflectors_p),
-                                    change.causes.empty() || change.causes.front().cause != ChangeCause::turn_about_last
-                                        ? std::string()
-                                        : fmt::format(" unless joint {}'s zero moved", change.causes.front().axis)));
+    const bool turned = !change.causes.empty() && change.causes.front().cause == ChangeCause::turn_about_last &&
+                        change.causes.front().joint > 0;
+    sentences.push_back(fmt::format(
+        "Reflectors moved on the flange ({}), which is no change of the machine{}.", probability(change.reflectors_p),
+        turned ? fmt::format(" unless joint {}'s zero moved", change.causes.front().joint) : std::string()));
   } else if (!change.reflectors.empty()) {
     sentences.push_back(fmt::format("Reflectors did not move beyond chance ({}).", probability(change.reflectors_p)));
   }

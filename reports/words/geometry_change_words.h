@@ -9,7 +9,7 @@
 
 namespace stiffscope::reports {
 
-const char* nameOf(comparison::NumberKind kind);                ///< "joint_zero", "along", "distance", "twist", "tilt"
+const char* nameOf(comparison::NumberKind kind);                ///< "joint_zero", "along", "distance", ..., "off_x"
 std::string nameOf(const comparison::CauseEvidence& evidence);  ///< "joint_zero", "link", "axis", ..., "turn_about_6"
 
 std::string numberName(const comparison::GeometryNumber& number);  ///< "zero of joint 3", "distance of axes 2 and 3"

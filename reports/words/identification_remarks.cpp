@@ -221,6 +221,9 @@ std::string identificationWords(identification::RemarkId id, const RemarkValues&
       return outlyingWords(values);
     case RemarkId::mostly_noise:
       return "the tracker's noise is more than half of the deflection: this load step hardly moves the arm";
+    case RemarkId::sag_left_in:
+      return "the arm's own sag is left in what the sweeps give, and is not in its uncertainties: they are of the "
+             "readings alone";
     case RemarkId::sag_in_sweeps_weighed:
       return fmt::format(
           "axes and lengths stand on sweeps from which up to {} of the arm's own sag was taken off by the "

@@ -84,6 +84,13 @@ Coverage coverageOf(const identification::StiffnessEstimate& estimate, int joint
   return {factor, std::isfinite(factor) ? estimate.dof(joint) : 0.0};
 }
 
+int placesThatTell(double low, double high) {
+  constexpr int kMost = 2;
+  int places = 0;
+  while (places < kMost && low != high && fixed(low, places) == fixed(high, places)) ++places;
+  return places;
+}
+
 double expanded(double standard_uncertainty) {
   return numerics::normalLimit(1.0 - identification::kStatedCoverage) * standard_uncertainty;
 }
@@ -133,6 +140,30 @@ std::string withUncertainty(double value, double standard_uncertainty) {
   }
   const int places = placesFor(standard_uncertainty, 2);
   return fmt::format("{} ± {}", fixed(value, places), fixed(standard_uncertainty, places));
+}
+
+bool farFromSymmetric(const identification::StiffnessEstimate& estimate, int joint) {
+  constexpr double kWide = 0.2;
+  const identification::CoverageInterval interval = identification::complianceInterval(estimate, joint);
+  const double c = estimate.compliance[joint];
+  return std::isfinite(interval.low) && std::isfinite(interval.high) &&
+         std::max(interval.high - c, c - interval.low) >= kWide * std::abs(c);
+}
+
+std::string uncertainStiffness(const identification::StiffnessEstimate& estimate, int joint, double unit) {
+  constexpr int kDigits = 2;
+  const double k = estimate.stiffness(joint) / unit;
+  const identification::CoverageInterval interval = identification::stiffnessInterval(estimate, joint);
+  const auto shown = [unit](double end) { return significant(end / unit, kDigits); };
+  if (farFromSymmetric(estimate, joint) && std::isfinite(interval.low)) {
+    if (std::isfinite(interval.high))
+      return fmt::format("{} ({} to {})", significant(k, kDigits), shown(interval.low), shown(interval.high));
+    if (k < 0.0) return fmt::format("above {} (fit {})", shown(interval.low), significant(k, kDigits));
+    return fmt::format("{} (above {})", significant(k, kDigits), shown(interval.low));
+  }
+  const double u = identification::expandedUncertainty(estimate, joint);
+  if (!std::isfinite(u)) return fmt::format("{} (U open)", significant(k, kDigits));
+  return withUncertainty(k, u / unit);
 }
 
 std::string toPlaceOf(double value, double width) {

@@ -50,6 +50,9 @@ std::string lengthWords(double metres, int decimals);
 /// "9.4 µm", "58 mm": as many significant digits, a no-break space before the unit. On the page.
 std::string shownLength(double metres, int digits);
 
+/// The fewest decimal places, up to two, with which two numbers that differ do not print alike.
+int placesThatTell(double low, double high);
+
 /// From standard to expanded uncertainty, U = k u (GUM, annex G): Student's t for 95 % at the effective degrees of
 /// freedom of a joint's compliance. NaN where none is left.
 struct Coverage {
@@ -71,6 +74,15 @@ std::string significant(double value, int digits);
 /// "5.60 ± 0.10": the uncertainty (or spread) to two digits, the value to the same place. Without a finite positive
 /// uncertainty the value to four digits.
 std::string withUncertainty(double value, double uncertainty);
+
+/// Whether the stated interval of a joint's stiffness is far from symmetric, or open: from a fifth of the compliance on
+/// its two ends are half as far again from the value as each other.
+bool farFromSymmetric(const identification::StiffnessEstimate& estimate, int joint);
+
+/// A stiffness with its uncertainty for a cell of a table, in parts of `unit` Nm/rad: "5.60 ± 0.10". Where a ± would
+/// hold what the data exclude, the stated interval with two digits: "6.2 (4.1 to 17)", "0.52 (above 0.22)", and of a
+/// negative fit that only says how stiff the joint is at least "above 5.0 (fit −4.2)". "0.52 (U open)" without one.
+std::string uncertainStiffness(const identification::StiffnessEstimate& estimate, int joint, double unit);
 
 /// `value` to the place of the second digit of `width`, a range or an uncertainty: numbers beside it have the
 /// same digits. Without a finite positive width four significant digits.

@@ -6,6 +6,7 @@
 
 #include "core/comparison/matched_postures.h"
 #include "reports/words/accuracy_words.h"
+#include "reports/words/day_words.h"
 #include "reports/words/effect_words.h"
 #include "reports/words/names.h"
 #include "reports/words/numbers.h"
@@ -42,8 +43,9 @@ std::string jointsSentence(const identification::Identification& identification)
     if (!seen) unseen.push_back(jointName(joint));
     if (seen && !estimate.mark(joint).empty()) doubtful.push_back(jointName(joint));
   }
+  // As the first page's card counts them: not those that are not to be trusted.
   std::string text = fmt::format("{} finds the stiffness of {} of {} joints", longName(*shown),
-                                 estimate.identifiable.size() - unseen.size(), estimate.joints());
+                                 estimate.identifiable.size() - unseen.size() - doubtful.size(), estimate.joints());
   if (!unseen.empty()) {
     text += fmt::format("; {} cannot be seen{}", fmt::join(unseen, ", "),
                         identification.identifiability.load_hangs ? " under a load that only hangs" : " in this data");
@@ -82,29 +84,26 @@ bool sameJoints(const std::vector<ReportCampaign>& campaigns) {
   });
 }
 
-/// Said once where it is the same in all campaigns.
-std::string together(const std::vector<ReportCampaign>& campaigns) {
-  std::string text = capitalised(jointsSentence(campaigns.front().identification));
-  std::vector<std::string> shares;
+/// What is the same in all campaigns once, then what each takes away.
+std::vector<std::string> together(const std::vector<ReportCampaign>& campaigns) {
+  std::vector<std::string> items{capitalised(jointsSentence(campaigns.front().identification))};
   for (const ReportCampaign& one : campaigns) {
     const std::string words = compensatedWords(one);
     if (words.empty()) continue;
     const std::string label = campaigns.size() > 1 ? fmt::format("{} ", labelOf(one)) : std::string();
-    shares.push_back(fmt::format("{}it takes away {}", label, words));
+    items.push_back(capitalised(fmt::format("{}it takes away {}.", label, words)));
   }
-  if (!shares.empty()) text += fmt::format(" {}.", capitalised(fmt::format("{}", fmt::join(shares, "; "))));
-  return text;
+  return items;
 }
 
-std::string oneByOne(const std::vector<ReportCampaign>& campaigns) {
-  std::string text;
+std::vector<std::string> oneByOne(const std::vector<ReportCampaign>& campaigns) {
+  std::vector<std::string> items;
   for (const ReportCampaign& one : campaigns) {
-    text +=
-        fmt::format("{}{}, {}", text.empty() ? "" : " ", capitalised(labelOf(one)), jointsSentence(one.identification));
+    items.push_back(fmt::format("{}, {}", capitalised(labelOf(one)), jointsSentence(one.identification)));
     const std::string words = compensatedWords(one);
-    if (!words.empty()) text += fmt::format(" It takes away {}.", words);
+    if (!words.empty()) items.back() += fmt::format(" It takes away {}.", words);
   }
-  return text;
+  return items;
 }
 
 /// What is there besides joint springs; empty without a diagnosis.
@@ -131,10 +130,6 @@ std::string gapSentences(const std::vector<ReportCampaign>& campaigns) {
 
 }  // namespace
 
-namespace {
-
-/// Joints that no double encoder holds and that differ between its two states all the same: then the encoders are not
-/// all that changed from the one day to the other.
 std::string changedWithoutEncoder(const std::vector<ReportCampaign>& campaigns, const AvoidedByEncoders& avoided) {
   if (!avoided.by_joint.available) return {};
   constexpr double kLevel = 0.05, kLeast = 0.01;  // of all joints together; of the stiffness: less is no news
@@ -149,22 +144,30 @@ std::string changedWithoutEncoder(const std::vector<ReportCampaign>& campaigns, 
     changes.push_back(fmt::format("{} by {}{}", jointName(static_cast<int>(j)), change > 0.0 ? "+" : "\u2212",
                                   percent(std::abs(change), 0)));
   }
-  if (changes.empty()) return {};
-  return fmt::format(" Joints that have none differ as well ({}): not only the encoders changed between the two days.",
-                     fmt::join(changes, ", "));
+  return fmt::format("{}", fmt::join(changes, ", "));
 }
 
+namespace {
+
 /// Of the days with a load.
-std::string stiffnessVerdict(const std::vector<ReportCampaign>& campaigns,
-                             const std::optional<AvoidedByEncoders>& avoided) {
-  if (campaigns.empty()) return {};
-  std::string text = sameJoints(campaigns) ? together(campaigns) : oneByOne(campaigns);
-  if (avoided && avoided->available) {
-    text += fmt::format(" The double encoders avoid {} of the deflection at {}.", percent(avoided->share, 0),
-                        pointOf(*avoided));
-    text += changedWithoutEncoder(campaigns, *avoided);
-  }
-  return text;
+std::vector<std::string> stiffnessVerdict(const std::vector<ReportCampaign>& campaigns,
+                                          const std::optional<AvoidedByEncoders>& avoided) {
+  std::vector<std::string> items = sameJoints(campaigns) ? together(campaigns) : oneByOne(campaigns);
+  if (!avoided || !avoided->available) return items;
+  items.push_back(fmt::format("The double encoders avoid {} of the deflection at {}.", percent(avoided->share, 0),
+                              pointOf(*avoided)));
+  if (const std::string changes = changedWithoutEncoder(campaigns, *avoided); !changes.empty())
+    items.back() += fmt::format(
+        " Joints that have none differ as well ({}): not only the encoders changed between the two days.", changes);
+  return items;
+}
+
+/// Of a day that the audit refuses that is said before what was found, as of days with a load.
+std::string failureFirst(const ReportCampaign& one, const std::string& verdict) {
+  if (one.audit == nullptr || one.audit->verdict != preparation::AuditVerdict::fail) return verdict;
+  const std::string failure = auditMeaning(*one.audit, kindOf(one));
+  if (!verdict.ends_with(" " + failure)) return verdict;
+  return fmt::format("{} {}", failure, verdict.substr(0, verdict.size() - failure.size() - 1));
 }
 
 }  // namespace
@@ -176,20 +179,26 @@ std::string diagnosisVerdict(const std::vector<ReportCampaign>& campaigns) {
   return text.empty() ? text : text.substr(1);
 }
 
-std::string verdictOf(const std::vector<ReportCampaign>& campaigns, const std::optional<AvoidedByEncoders>& avoided) {
-  std::string text;
-  const auto add = [&](const ReportCampaign& one, const std::string& words) {
-    const std::string name = campaigns.size() > 1 ? asIs(one.campaign.name) + ": " : std::string();
-    text += (text.empty() ? "" : " ") + name + words;
+std::vector<std::string> verdictItems(const std::vector<ReportCampaign>& campaigns,
+                                      const std::optional<AvoidedByEncoders>& avoided) {
+  std::vector<std::string> items;
+  const auto named = [&](const ReportCampaign& one, const std::string& words) {
+    return (campaigns.size() > 1 ? asIs(one.campaign.name) + ": " : std::string()) + words;
   };
-  for (const ReportCampaign& one : ofKind(campaigns, DayKind::unloaded)) add(one, accuracyVerdict(one));
-  const std::vector<ReportCampaign> loaded = ofKind(campaigns, DayKind::loaded);
-  if (loaded.size() == 1)
-    add(loaded.front(), stiffnessVerdict(loaded, avoided));
-  else if (!loaded.empty())
-    text += (text.empty() ? "" : " ") + stiffnessVerdict(loaded, avoided);
-  for (const ReportCampaign& one : ofKind(campaigns, DayKind::sweeps)) add(one, sweepsVerdict(one));
-  return text;
+  for (const ReportCampaign& one : ofKind(campaigns, DayKind::unloaded))
+    items.push_back(named(one, failureFirst(one, accuracyVerdict(one))));
+  if (const std::vector<ReportCampaign> loaded = ofKind(campaigns, DayKind::loaded); !loaded.empty()) {
+    std::vector<std::string> own = stiffnessVerdict(loaded, avoided);
+    if (loaded.size() == 1) own.front() = named(loaded.front(), own.front());
+    items.insert(items.end(), own.begin(), own.end());
+  }
+  for (const ReportCampaign& one : ofKind(campaigns, DayKind::sweeps))
+    items.push_back(named(one, failureFirst(one, sweepsVerdict(one))));
+  return items;
+}
+
+std::string verdictOf(const std::vector<ReportCampaign>& campaigns, const std::optional<AvoidedByEncoders>& avoided) {
+  return fmt::format("{}", fmt::join(verdictItems(campaigns, avoided), " "));
 }
 
 }  // namespace stiffscope::reports

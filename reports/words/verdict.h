@@ -18,6 +18,15 @@ std::vector<std::string> doubtsOfTheMachine(const std::vector<ReportCampaign>& c
 /// without a load their accuracy, for sweeps alone the axes.
 std::string verdictOf(const std::vector<ReportCampaign>& campaigns, const std::optional<AvoidedByEncoders>& avoided);
 
+/// The same, an item a day and finding: for a list.
+std::vector<std::string> verdictItems(const std::vector<ReportCampaign>& campaigns,
+                                      const std::optional<AvoidedByEncoders>& avoided);
+
+/// Joints that are stated to have no double encoder and that differ between its two states all the same: then the
+/// encoders are not all that changed from the one day to the other. "k_{4} by +11 %, k_{5} by +53 %"; empty where there
+/// is none, or where nobody states which joints have one.
+std::string changedWithoutEncoder(const std::vector<ReportCampaign>& campaigns, const AvoidedByEncoders& avoided);
+
 /// What the diagnosis finds besides joint springs, of the days with a load; empty without a diagnosis.
 std::string diagnosisVerdict(const std::vector<ReportCampaign>& campaigns);
 

@@ -43,9 +43,11 @@ std::vector<std::string> workspaceNotes(const workspace::WorkspaceStiffness& fou
         "no "
         "number here, and intervals hold it only as far as those of the stiffnesses do.");
   } else {
-    notes.push_back(fmt::format(
-        "The whole model holds besides what the day shows of: {}. K_x without it is too stiff where that gives.",
-        effectNames(found.held, ", ")));
+    notes.push_back(
+        fmt::format("The whole model holds, besides the springs of the joints, what the day shows of {}. K_x is "
+                    "without that, and too "
+                    "stiff where it gives.",
+                    effectNames(found.held, ", ")));
   }
   if (!found.unknown.empty()) {
     std::vector<std::string> names;
@@ -61,7 +63,8 @@ std::vector<std::string> workspaceNotes(const workspace::WorkspaceStiffness& fou
 
 std::string sliceWords(const workspace::StiffnessSlice& slice) {
   return fmt::format(
-      "vertical plane through axis 1, {:.1f} deg from x0, the tool turned as in posture {}; {} places, {:g} mm apart",
+      "vertical plane through axis 1, turned about it by {:.1f} deg from x0, the tool turned as in posture {}; {} "
+      "places, {:g} mm apart",
       unsignedZero(slice.azimuth / io::kDegree, 1), slice.pose, slice.places.size(), slice.spacing / io::kMillimetre);
 }
 

@@ -178,8 +178,9 @@ TEST(Figures, APracticeCampaignFillsAPage) {
     EXPECT_FALSE(figure.alt.empty());
     EXPECT_EQ(figure.alt.find("_{"), std::string::npos) << figure.alt;
   }
-  EXPECT_EQ(ids, (std::vector<std::string>{"deflection", "all-postures", "compensation", "compensation-zoom", "subsets",
-                                           "stiffness", "residuals", "circles", "wrist-sphere", "station"}));
+  EXPECT_EQ(ids, (std::vector<std::string>{"deflection", "all-postures", "compensation-bars", "compensation-zoom",
+                                           "subset-spreads", "stiffness-intervals", "residuals", "circles",
+                                           "wrist-sphere", "station-drift"}));
   EXPECT_LT(page::reportPage(content).size(), 5'000'000u);
   const render::GroupedBarChart chart = app::residualBars(content.campaigns[0]);
   EXPECT_EQ(chart.series.size(), 4u);

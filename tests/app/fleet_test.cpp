@@ -114,6 +114,37 @@ TEST_F(FleetCommand, ACrashCostsItsRow) {
   EXPECT_EQ(contentsOf(scratch.path() / "out" / "fleet.csv").find("signal"), std::string::npos);
 }
 
+/// The working directory of a test, and the old one after it.
+class WorkingFolder {
+ public:
+  explicit WorkingFolder(const fs::path& folder) : before_(fs::current_path()) { fs::current_path(folder); }
+  ~WorkingFolder() { fs::current_path(before_); }
+  WorkingFolder(const WorkingFolder&) = delete;
+  WorkingFolder& operator=(const WorkingFolder&) = delete;
+
+ private:
+  fs::path before_;
+};
+
+// Of the fleet's own processes and of SLURM's jobs no folder is taken for an option.
+TEST(FleetFolders, MayBeginWithADash) {
+  const ScratchFolder scratch;
+  simulateDay(scratch.path(), scratch.path() / "-lab2" / "d1", 1, 1);
+  const WorkingFolder here(scratch.path());
+  const Ran ran = runProgram("fleet ./-lab2 --out=-out --springs-only --reports", scratch.path());
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  EXPECT_NE(ran.out.find("1 machines, 1 campaigns, 0 without a result\n"), std::string::npos) << ran.out;
+  const std::string table = contentsOf(scratch.path() / "-out" / "fleet.csv");
+  EXPECT_NE(table.find("-lab2/d1,,loaded,"), std::string::npos) << table;
+  EXPECT_EQ(std::distance(fs::directory_iterator(scratch.path() / "-out" / "reports"), {}), 1);
+  for (const auto& report : fs::directory_iterator(scratch.path() / "-out" / "reports"))
+    EXPECT_TRUE(fs::exists(report.path() / "report.html")) << report.path();
+  const Ran dry = runProgram("fleet --out=-out --slurm 2 --slurm-dry-run -- -lab2", scratch.path());
+  ASSERT_EQ(dry.status, 0) << dry.err;
+  const std::string merge = contentsOf(scratch.path() / "-out" / "slurm" / "merge.sh");
+  EXPECT_NE(merge.find(" fleet ./-lab2 --out ./-out --merge\n"), std::string::npos) << merge;
+}
+
 /// A day without a load of the sample's machine, in the same 40 postures, joint 2 of this stiffness.
 void simulateUnloadedDay(const fs::path& scratch, const fs::path& folder, int measurement, const char* stiffness) {
   std::string spec = contentsOf(STIFFSCOPE_SOURCE_DIR "/samples/unloaded.xml");

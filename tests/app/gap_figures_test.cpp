@@ -97,6 +97,16 @@ TEST(GapScene, OfALongDayNoMoreArrowsThanPartEachOther) {
   const auto scenes = app::gapScenes(shown.one);
   ASSERT_TRUE(scenes.has_value());
   EXPECT_EQ(scenes->before.poses.size(), 25u);  // every fourth: 75 arrows, where 90 are the most
+
+  // Two that are not among these are named by captions: they are drawn, too.
+  shown.diagnosis.at_points[3 * 33].before = {0, 5e-4, 0};
+  shown.diagnosis.at_points[3 * 34].after = {0, 0, 5e-5};
+  const auto with_longest = app::gapScenes(shown.one);
+  ASSERT_TRUE(with_longest.has_value());
+  EXPECT_EQ(with_longest->before.poses.size(), 27u);
+  EXPECT_NE(app::describeGapBefore(shown.one, *with_longest).caption.find("The picture has 27 of 1000 postures"),
+            std::string::npos)
+      << app::describeGapBefore(shown.one, *with_longest).caption;
 }
 
 TEST(GapScene, NothingToShowWhereNothingWasFound) {

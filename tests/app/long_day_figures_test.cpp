@@ -2,11 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 #include "app/figures/chart_style.h"
 #include "app/figures/figures.h"
+#include "app/figures/page_scene.h"
 #include "tests/reports/small_result.h"
 
 namespace stiffscope {
@@ -69,6 +71,11 @@ TEST(LongDay, BarsOfTwoHundredPosturesAndTheLongestInWords) {
       << caption;
   const SmallResult three;
   EXPECT_EQ(app::describeResidualBars({three.campaign, three.identification}).caption.find("Drawn"), std::string::npos);
+}
+
+TEST(LongDay, ThePostureThatCaptionsNameIsInTheScene) {
+  const LongDay day;  // p617 has the longest displacement and the longest residual; every seventeenth is in the scene
+  EXPECT_EQ(app::namedPoses(day.report()), (std::set<int>{static_cast<int>(kFarthest)}));
 }
 
 TEST(LongDay, ResidualsOfAHundredPosturesAtTheirPlaces) {

@@ -30,7 +30,7 @@ constexpr double kAlike = 0.97;
 TEST(WholeFigures, LookAsTheyDid) {
   const std::filesystem::path kept = STIFFSCOPE_SOURCE_DIR "/tests/app/baselines";
   const auto figures = app::makeFigures({sample().report});
-  for (const char* id : {"compensation", "stiffness", "residuals", "circles", "station"}) {
+  for (const char* id : {"compensation-bars", "stiffness-intervals", "residuals", "circles", "station-drift"}) {
     SCOPED_TRACE(id);
     const auto figure =
         std::find_if(figures.begin(), figures.end(), [id](const reports::Figure& f) { return f.id == id; });

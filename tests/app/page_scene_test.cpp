@@ -126,13 +126,13 @@ TEST_F(PageScene, AValueIsNamedByTheAxisOfItsOwnPanel) {
 }
 
 TEST_F(PageScene, MarksOfAChartAreItsValuesAtTheirPlaces) {
-  const nlohmann::json chart = dataOf("marks", "compensation");
+  const nlohmann::json chart = dataOf("marks", "compensation-bars");
   ASSERT_FALSE(chart.is_null());
   EXPECT_EQ(chart["categories"].size(), 19u);
   EXPECT_EQ(chart["marks"].size(), 19u * 4u);
-  const auto rows = rowsOf(out() / "figure-compensation.csv");
+  const auto rows = rowsOf(out() / "figure-compensation-bars.csv");
   ASSERT_EQ(rows.size(), chart["marks"].size());
-  const cv::Mat picture = cv::imread((out() / "compensation.png").string());
+  const cv::Mat picture = cv::imread((out() / "compensation-bars.png").string());
   ASSERT_EQ(picture.cols, 1920);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const nlohmann::json& mark = chart["marks"][i];

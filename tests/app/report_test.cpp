@@ -99,7 +99,7 @@ TEST(Report, LimitsAreDecidedByTheWholeInterval) {
   const ScratchFolder scratch;
   const fs::path out = scratch.path() / "out", limits = scratch.path() / "limits.csv";
   const fs::path sweeps = sweepsOnly(scratch);
-  // 2.28 mm off in the sample, known to a tenth of a millimetre.
+  // Millimetres off in the sample, and known to millimetres, since nobody knows how far its arm sags.
   const auto run = [&](const std::string& most) {
     std::ofstream(limits) << "name,least,most,reason\nlink_difference_largest_mm,," << most << ",drawing 7\n";
     return runProgram(
@@ -107,12 +107,12 @@ TEST(Report, LimitsAreDecidedByTheWholeInterval) {
         scratch.path());
   };
   const auto verdict = [&] { return json::parse(contentsOf(out / "results.json"))["campaigns"][0]["limits"][0]; };
-  EXPECT_EQ(run("3").status, 0);
+  EXPECT_EQ(run("100").status, 0);
   EXPECT_EQ(verdict()["verdict"], "pass");
-  EXPECT_EQ(run("2").status, 1);
+  const double value = verdict()["value"], high = verdict()["high"];
+  EXPECT_EQ(run(std::to_string(0.99 * value)).status, 1);
   EXPECT_EQ(verdict()["verdict"], "fail");
   EXPECT_FALSE(verdict()["in_guard_band"].get<bool>());
-  const double value = verdict()["value"], high = verdict()["high"];
   EXPECT_EQ(run(std::to_string((value + high) / 2)).status, 1);
   EXPECT_TRUE(verdict()["in_guard_band"].get<bool>());
   EXPECT_NE(contentsOf(out / "report.html").find("Decision rule: guarded acceptance"), std::string::npos);
@@ -143,7 +143,7 @@ TEST(Report, SweepsAloneGiveFramesAuditAndReasons) {
   EXPECT_NE(page.find("<section id=\"audit\">"), std::string::npos);
   EXPECT_EQ(page.find(">nan"), std::string::npos);
   EXPECT_EQ(picturesIn(out),
-            (std::vector<std::string>{"circles.png", "station.png", "sweeps.png", "wrist-sphere.png"}));
+            (std::vector<std::string>{"circles.png", "station-drift.png", "sweeps.png", "wrist-sphere.png"}));
   EXPECT_NE(page.find("<b>6 of 6</b>"), std::string::npos);  // axes, not stiffnesses
   EXPECT_EQ(page.find("id=\"compensation\""), std::string::npos);
 }
@@ -163,8 +163,8 @@ TEST(Report, TakesAwayTheEarlierOnesPicturesAndNothingElse) {
   earlier["files"].push_back("notes.txt");
   std::ofstream(out / "results.json") << earlier;
   ASSERT_EQ(report(sweepsOnly(scratch), out, scratch).status, 0);
-  EXPECT_EQ(picturesIn(out),
-            (std::vector<std::string>{"circles.png", "mine.png", "station.png", "sweeps.png", "wrist-sphere.png"}));
+  EXPECT_EQ(picturesIn(out), (std::vector<std::string>{"circles.png", "mine.png", "station-drift.png", "sweeps.png",
+                                                       "wrist-sphere.png"}));
   EXPECT_TRUE(fs::exists(scratch.path() / "outside.png"));
   EXPECT_TRUE(fs::exists(out / "notes.txt"));
 }

@@ -75,7 +75,7 @@ TEST(UnloadedReport, SpeaksOfAccuracy) {
     ASSERT_NE(found, std::string::npos) << id;
     at = found;
   }
-  for (const char* name : {"accuracy-curves", "accuracy-map", "accuracy-before", "over-the-day", "station"})
+  for (const char* name : {"accuracy-curves", "accuracy-map", "accuracy-before", "over-the-day", "station-drift"})
     expectDrawn(out / (std::string(name) + ".png"));
   const json results = json::parse(contentsOf(out / "results.json"));
   // Fours of postures, as the diagnosis takes them: said where the figures stand.

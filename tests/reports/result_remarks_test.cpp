@@ -25,7 +25,7 @@ TEST(ResultRemarks, OfADiagnosis) {
   EXPECT_EQ(reports::words(both), "joint 3: 2e-05, 0.1235 rad; 50, -1 mm");
   EXPECT_EQ(
       reports::words(Remark(follows_from_geometry, std::string("load_point_error"), both)),
-      "Besides, what looks like load_point_error (joint 3: 2e-05, 0.1235 rad; 50, -1 mm) is no more than the wrong "
+      "Besides, what looks like load point error (joint 3: 2e-05, 0.1235 rad; 50, -1 mm) is no more than the wrong "
       "geometry puts there.");
   EXPECT_EQ(reports::words(Remark(axes_off_nominal, 0.0012345, 0.002)),
             "axes up to 1.234 mm and 2.000 mrad from the nominal ones");
@@ -51,7 +51,7 @@ TEST(ResultRemarks, OfAModelAndItsUse) {
             "that can be brought into the robot's frame");
   EXPECT_EQ(reports::words(Remark(extended_model::RemarkId::taken_of_a_class, std::string("hysteresis"),
                                   std::vector<std::string>{"backlash", "load_cell_bias"})),
-            "hysteresis is added because it fits best; this data cannot tell it from backlash or load_cell_bias");
+            "hysteresis is added because it fits best; this data cannot tell it from backlash or load cell bias");
   EXPECT_EQ(
       reports::words(Remark(extended_model::RemarkId::residual_beyond_noise, 4.104, 6.9, true)),
       "more than noise is left in the readings: 4.1 times its chi-square, 6.9 by springs alone; no effect that is "

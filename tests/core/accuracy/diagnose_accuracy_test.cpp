@@ -141,6 +141,52 @@ TEST(DiagnoseAccuracy, AStationThatWanders) {
   EXPECT_EQ(inWords(diagnosed(spec, noise)), "tracker_drift");
 }
 
+/// Six nests on the floor, read six times over the day through the station of `spec`, where it then stood.
+void addNests(const UnloadedSpec& spec, Noise& noise, campaign::Campaign& campaign) {
+  campaign::Nests& nests = campaign.nests.emplace();
+  nests.file = "nests.csv";
+  std::vector<Eigen::Vector3d> floor;
+  for (int n = 0; n < 6; ++n) {
+    campaign.nest_ids.push_back("N" + std::to_string(n + 1));
+    floor.emplace_back(3.0 * std::cos(1.1 * n), 3.0 * std::sin(1.1 * n) - 1.0, 0.3 * n - 0.6);
+  }
+  for (int round = 0; round < 6; ++round) {
+    const int posture = round * (spec.postures - 1) / 5;
+    for (std::size_t n = 0; n < floor.size(); ++n) {
+      campaign::NestReading reading;
+      reading.nest = static_cast<int>(n);
+      reading.time_s = 30.0 * posture + 1.0 + static_cast<double>(n);
+      reading.point = spec.station_moved(posture) * floor[n] + spec.noise * noise.normal3();
+      reading.line = nests.rows.size() + 2;
+      nests.rows.push_back(reading);
+    }
+  }
+}
+
+// What the station did is the cause that is named, and no part of what is said of the arm.
+TEST(DiagnoseAccuracy, AccuracyIsOfReadingsWithTheStationsMotionTakenOff) {
+  Noise noise(41);
+  UnloadedSpec spec = machine(noise, 60);
+  spec.station_moved = [](int posture) {
+    return Eigen::Isometry3d(Eigen::Translation3d(posture / 59.0 * Eigen::Vector3d(0.5e-3, -0.4e-3, 0.2e-3)));
+  };
+  campaign::Campaign campaign = unloadedCampaign(spec, noise);
+  addNests(spec, noise, campaign);
+  for (campaign::LoadingReading& reading : campaign.loading->rows) reading.time_s = 30.0 * reading.pose;
+  const AccuracyDiagnosis result = accuracy::diagnoseAccuracy(campaign);
+  ASSERT_TRUE(result.usable);
+  ASSERT_TRUE(result.as_read.has_value());
+  EXPECT_EQ(inWords(result), "tracker_drift");
+  const double as_read = result.as_read->geometry().held_out.rms;
+  EXPECT_GT(as_read, 100e-6);
+  EXPECT_NEAR(result.gap.before, as_read / std::sqrt(3.0), 1e-12);
+  EXPECT_LT(result.calibration.geometry().held_out.rms, 60e-6);  // 35 um of noise, what 60 postures leave, the nests'
+  // Of the readings as they are used, as `calibrate` has them.
+  const preparation::PreparedCampaign prepared = preparation::prepareCampaign(campaign);
+  EXPECT_NEAR(result.calibration.geometry().held_out.rms,
+              calibration::calibrate(prepared.campaign, accuracy::kDiagnosisFolds).geometry().held_out.rms, 2e-6);
+}
+
 TEST(DiagnoseAccuracy, AWristThatTurnsAlong) {
   Noise noise(37);
   UnloadedSpec spec = machine(noise, 80);
@@ -249,6 +295,14 @@ TEST(DiagnoseAccuracy, AUrdfOfAnotherArmIsAKinematicError) {
   EXPECT_EQ(inWords(result), "kinematic_error");
   EXPECT_TRUE(result.geometry_off_nominal);
   EXPECT_GT(result.gap.nominal, result.geometry_limit);
+  // Its shrink and share are of the same figures, and the shrink has an interval as any other.
+  const accuracy::AccuracyGap& gap = result.gap;
+  const accuracy::AccuracyClass& named = result.classes.front();
+  EXPECT_NEAR(named.shrink.value, 1.0 - gap.before / gap.nominal, 1e-6);
+  EXPECT_LT(named.shrink.low, named.shrink.value - 1e-4);
+  EXPECT_GT(named.shrink.high, named.shrink.value + 1e-4);
+  const double noise_square = gap.noise * gap.noise, nominal_square = gap.nominal * gap.nominal;
+  EXPECT_NEAR(named.explained, (nominal_square - gap.before * gap.before) / (nominal_square - noise_square), 1e-9);
 }
 
 TEST(DiagnoseAccuracy, ShrinkIntervalsHoldTheirValues) {

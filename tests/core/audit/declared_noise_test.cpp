@@ -1,8 +1,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+
 #include "core/audit/audit.h"
 #include "core/audit/remarks.h"
+#include "core/mistakes/cell_zero.h"
 #include "reports/words/remark_words.h"
 #include "tests/fixtures/clean_day.h"
 
@@ -153,6 +158,90 @@ TEST(DeclaredNoise, QuietRepeatsOfANoisyDayAreNoFinding) {
   }
   const audit::AuditReport report = audit::audit(campaign);
   EXPECT_TRUE(report.suspected.empty());
+}
+
+const preparation::AuditCheck& checkAt(const audit::AuditReport& report, const char* id, audit::RemarkId where) {
+  for (const preparation::AuditCheck& check : report.checks) {
+    if (check.id == id && (check.id != "noise_declared" || check.where.is(where))) return check;
+  }
+  throw std::out_of_range(id);
+}
+
+/// Whether some suspicion asks for another noise of the load cell or the tracker.
+bool suspectsNoise(const audit::AuditReport& report) {
+  return std::any_of(report.suspected.begin(), report.suspected.end(),
+                     [](const mistakes::Suspected& one) { return one.mistake == "noise_declared"; });
+}
+
+// Another noise would make such a day pass: the zero that drifts is named, with what takes it off, and no noise.
+TEST(DeclaredNoise, ADriftOfTheCellsZeroIsNoNoise) {
+  campaign::Campaign campaign = dayOf(21, {});
+  Vector6d drift;  // over the day, twenty times the noise
+  drift << 12.0, -8.0, 20.0, 6.0, 3.0, -2.0;
+  const double first = campaign.states->rows.front().time_s, span = campaign.states->rows.back().time_s - first;
+  for (campaign::State& row : campaign.states->rows) row.wrench_in_cell += (row.time_s - first) / span * drift;
+  const audit::AuditReport report = audit::audit(campaign);
+  EXPECT_FALSE(suspectsNoise(report));
+  ASSERT_EQ(report.suspected.size(), 1u);
+  const mistakes::Suspected& one = report.suspected.front();
+  EXPECT_EQ(one.mistake, "not_tared");
+  ASSERT_TRUE(one.remedy.is(audit::RemarkId::take_step_0_off)) << reports::words(one.remedy);
+  EXPECT_NEAR(std::get<double>(one.remedy.values.at(0)), drift.head<3>().norm(), 2.0);  // to the last step 0
+  EXPECT_NEAR(std::get<double>(one.remedy.values.at(1)), drift.tail<3>().norm(), 0.6);
+  EXPECT_GT(one.before, 3.0);
+  EXPECT_NEAR(one.after, 1.0, 0.25);
+  EXPECT_EQ(checkAt(report, "noise_declared", audit::RemarkId::at_load_cell).verdict, preparation::AuditVerdict::pass);
+  const preparation::AuditCheck& tare = checkAt(report, "tare", audit::RemarkId::at_load_cell);
+  EXPECT_EQ(tare.verdict, preparation::AuditVerdict::warn);
+  EXPECT_NE(reports::words(tare.message).find("its zero drifts"), std::string::npos) << reports::words(tare.message);
+
+  // What the remedy asks for mends the day.
+  std::map<int, Vector6d> zero;
+  for (const campaign::State& row : campaign.states->rows) {
+    if (row.step == 0) zero[row.pose] = row.wrench_in_cell;
+  }
+  for (campaign::State& row : campaign.states->rows) row.wrench_in_cell -= zero.at(row.pose);
+  EXPECT_TRUE(audit::audit(campaign).suspected.empty());
+}
+
+TEST(DeclaredNoise, AWeightThatWasNotTaredIsNoNoise) {
+  campaign::Campaign campaign = dayOf(22, {});
+  constexpr double kMass = 6.0;  // kg
+  const Eigen::Vector3d centre(0.0, 0.0, 0.1);
+  for (campaign::State& row : campaign.states->rows) {
+    const Eigen::Vector3d weight =
+        kMass * mistakes::gravityInCell(campaign, campaign.robot, campaign.gravity_in_base, row.q);
+    row.wrench_in_cell.head<3>() += weight;
+    row.wrench_in_cell.tail<3>() += centre.cross(weight);
+  }
+  const mistakes::CellZero zero = mistakes::cellZero(campaign);
+  EXPECT_TRUE(zero.weighs);
+  EXPECT_FALSE(zero.drifts);
+  EXPECT_NEAR(zero.mass, kMass, 0.1);
+  const audit::AuditReport report = audit::audit(campaign);
+  EXPECT_FALSE(suspectsNoise(report));
+  ASSERT_FALSE(report.suspected.empty());
+  EXPECT_EQ(report.suspected.front().mistake, "not_tared");
+}
+
+TEST(DeclaredNoise, MomentsInAnotherUnitAreNoNoise) {
+  campaign::Campaign campaign = dayOf(23, {});
+  for (campaign::State& row : campaign.states->rows) row.wrench_in_cell.tail<3>() *= 1e3;
+  const audit::AuditReport report = audit::audit(campaign);
+  ASSERT_FALSE(report.suspected.empty());
+  EXPECT_EQ(report.suspected.front().mistake, "wrench_unit");
+  EXPECT_FALSE(suspectsNoise(report));
+  const preparation::AuditCheck& check = checkAt(report, "noise_declared", audit::RemarkId::at_load_cell);
+  EXPECT_TRUE(check.message.is(audit::RemarkId::noise_explained)) << reports::words(check.message);
+}
+
+TEST(DeclaredNoise, IsSuspectedLast) {
+  campaign::Campaign campaign = dayOf(24, {kTrackerTimes});
+  for (campaign::State& row : campaign.states->rows) row.wrench_in_cell = -row.wrench_in_cell;
+  const audit::AuditReport report = audit::audit(campaign);
+  ASSERT_GE(report.suspected.size(), 2u);
+  EXPECT_EQ(report.suspected.front().mistake, "wrench_sign");
+  EXPECT_EQ(report.suspected.back().mistake, "noise_declared");
 }
 
 }  // namespace declared_noise_test

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include "core/audit/audit.h"
 #include "core/audit/remarks.h"
+#include "core/io/input_error.h"
 #include "core/preparation/finding.h"
 #include "core/preparation/remarks.h"
+#include "core/robot/read_urdf.h"
 #include "reports/words/remark_words.h"
 #include "tests/fixtures/clean_day.h"
 #include "tests/fixtures/simulated_lab.h"
@@ -144,8 +146,26 @@ TEST(Evidence, SweepsAndUnloadedDaysAreNotTestable) {
   std::erase_if(unloaded.loading->rows, [](const campaign::LoadingReading& row) { return row.step != 0; });
   std::erase_if(unloaded.states->rows, [](const campaign::State& row) { return row.step != 0; });
   EXPECT_EQ(audit::audit(unloaded).verdict, preparation::AuditVerdict::not_testable);
+  // A load cell that stays in campaign.xml does not make it a day with a load.
+  campaign::Campaign left_over_cell = unloaded;
+  for (campaign::State& row : left_over_cell.states->rows) row.wrench_in_cell.setZero();
+  const audit::AuditReport left_over = audit::audit(left_over_cell);
+  EXPECT_EQ(left_over.purpose, audit::Purpose::calibrate);
+  for (const preparation::AuditCheck& check : left_over.checks) {
+    if (check.id == "tare") EXPECT_EQ(check.verdict, preparation::AuditVerdict::not_testable);
+  }
   unloaded.load_cell.reset();
   EXPECT_EQ(audit::audit(unloaded).verdict, preparation::AuditVerdict::not_testable);
+}
+
+TEST(Evidence, ALinkThatIsNotInTheUrdfIsLookedForInTheCampaign) {
+  try {
+    robot::readUrdf(STIFFSCOPE_SOURCE_DIR "/samples/m900ib700.urdf", "base_link", "flansch");
+    FAIL();
+  } catch (const io::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("attribute flange_link of `robot` in campaign.xml"), std::string::npos)
+        << error.what();
+  }
 }
 
 TEST(Evidence, AFailureOutranksWhatCannotBeTested) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include "core/audit/remarks.h"
 #include "core/io/units.h"
 #include "tests/fixtures/spoilt_campaign.h"
@@ -320,6 +321,71 @@ TEST(SpoiltCampaign, DoesNotComeBackToZero) {
   EXPECT_NE(check.verdict, preparation::AuditVerdict::pass);
   EXPECT_TRUE(contains(check.message, "1 of 19 postures do not come back: 15 by")) << reports::words(check.message);
   EXPECT_ONLY(report, {"return_to_zero"});
+}
+
+TEST(SpoiltCampaign, ClockOfTheStatesAnHourAhead) {
+  for (const double ahead : {3600.0, -7200.0}) {
+    const audit::AuditReport report = auditSpoilt([&](campaign::Campaign& campaign) {
+      for (campaign::State& row : campaign.states->rows) row.time_s += ahead;
+    });
+    const preparation::AuditCheck& check = checkNamed(report, "time_order");
+    EXPECT_EQ(check.verdict, preparation::AuditVerdict::fail);
+    EXPECT_TRUE(contains(check.message, ahead > 0.0 ? "the clock of states.csv is 3600 s ahead of that of loading.csv"
+                                                    : "the clock of states.csv is 7200 s behind that of loading.csv"))
+        << reports::words(check.message);
+    EXPECT_LT(reports::words(check.message).size(), 250u);
+  }
+}
+
+TEST(SpoiltCampaign, StatesSortedAsTextAndNumberedAfresh) {
+  const audit::AuditReport report = auditSpoilt([](campaign::Campaign& campaign) {
+    std::vector<std::string> as_text = campaign.pose_ids;
+    std::sort(as_text.begin(), as_text.end());
+    std::map<std::string, int> place;
+    for (std::size_t i = 0; i < as_text.size(); ++i) place[as_text[i]] = static_cast<int>(i);
+    for (campaign::State& row : campaign.states->rows)
+      row.pose = place.at(campaign.pose_ids[static_cast<std::size_t>(row.pose)]);
+  });
+  const preparation::AuditCheck& check = checkNamed(report, "time_order");
+  EXPECT_EQ(check.verdict, preparation::AuditVerdict::fail);
+  EXPECT_TRUE(contains(check.message, "pose 2 while 10 was: the table was sorted as text"))
+      << reports::words(check.message);
+  const preparation::AuditCheck& arm = checkNamed(report, "arm_model");
+  EXPECT_EQ(arm.verdict, preparation::AuditVerdict::fail);
+  EXPECT_TRUE(contains(arm.message, "what time order finds explains it")) << reports::words(arm.message);
+}
+
+TEST(SpoiltCampaign, ManyStepsInWrongOrderAreNotAllListed) {
+  const audit::AuditReport report = auditSpoilt([](campaign::Campaign& campaign) {
+    for (campaign::LoadingReading& row : campaign.loading->rows) {
+      if (row.step == 1 || row.step == 2) row.step = 3 - row.step;
+    }
+  });
+  const preparation::AuditCheck& check = checkNamed(report, "time_order");
+  EXPECT_TRUE(contains(check.message, "pose 1: step 2 before step 1")) << reports::words(check.message);
+  EXPECT_TRUE(contains(check.message, fmt::format("and {:.0f} more", *check.value - 8.0)))
+      << reports::words(check.message);
+}
+
+TEST(SpoiltCampaign, ReflectorsRenamedFromAPostureOn) {
+  std::size_t line = 0;
+  const audit::AuditReport report = auditSpoilt([&](campaign::Campaign& campaign) {
+    for (campaign::LoadingReading& row : campaign.loading->rows) {
+      if (row.pose < 12 || row.target > 1) continue;
+      row.target = 1 - row.target;
+      if (line == 0) line = row.line;
+    }
+  });
+  const preparation::AuditCheck& check = checkNamed(report, "rigid_tool");
+  EXPECT_EQ(check.verdict, preparation::AuditVerdict::fail);
+  const std::string words = reports::words(check.message);
+  EXPECT_TRUE(contains(words, fmt::format("reflectors exchanged from loading.csv:{} (pose 13, step 0) on: ", line)))
+      << words;
+  EXPECT_EQ(words.find("reflectors exchanged"), words.rfind("reflectors exchanged")) << words;
+  for (const char* id : {"arm_model", "load_model"}) {
+    EXPECT_FALSE(contains(checkNamed(report, id).message, "none of the usual mistakes"))
+        << id << ": " << reports::words(checkNamed(report, id).message);
+  }
 }
 
 }  // namespace spoilt_test

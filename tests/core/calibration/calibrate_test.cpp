@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <random>
 
 #include "core/campaign/read_campaign.h"
+#include "core/campaign/state_points.h"
 #include "core/preparation/prepare.h"
 #include "tests/fixtures/unloaded_day.h"
 
@@ -91,6 +94,37 @@ TEST(Calibrate, FindsAReflectorThatMoved) {
     EXPECT_NEAR(*result.best().fit.parts.front().from, 60.0 / 99.0, 3.0 / 99.0);
     EXPECT_TRUE(result.rejected.empty());
   }
+}
+
+// A table may be sorted by anything: a lag of the last move and a reflector that slipped are found by the times.
+TEST(Calibrate, RowsInAnyOrderAreReadByTheirTimes) {
+  Noise noise(16);
+  UnloadedSpec spec = builtOtherwise(noise);
+  spec.still_to_go = 1e-4;
+  spec.target_moved = [](int posture, std::size_t target) {
+    return target == 1 && posture >= 36 ? Eigen::Vector3d(0.2e-3, 0.0, -0.15e-3) : Eigen::Vector3d::Zero();
+  };
+  const campaign::Campaign in_order = unloadedCampaign(spec, noise);
+  campaign::Campaign shuffled = in_order;
+  std::mt19937_64 random(3);
+  std::shuffle(shuffled.states->rows.begin(), shuffled.states->rows.end(), random);
+  std::shuffle(shuffled.loading->rows.begin(), shuffled.loading->rows.end(), random);
+  const calibration::UnloadedDay day = calibration::unloadedDay(in_order), other = calibration::unloadedDay(shuffled);
+  ASSERT_EQ(day.postures.size(), other.postures.size());
+  for (std::size_t i = 0; i < day.postures.size(); ++i) {
+    EXPECT_EQ(day.postures[i].pose, other.postures[i].pose);
+    EXPECT_EQ(day.postures[i].time, other.postures[i].time);
+    EXPECT_EQ(day.postures[i].move, other.postures[i].move);
+    EXPECT_EQ(day.postures[i].side, other.postures[i].side);
+  }
+  const calibration::Calibration result = calibration::calibrate(shuffled, {});
+  EXPECT_TRUE(has(result.best().fit, calibration::UnloadedEffect::target_motion, "P11"));
+  EXPECT_TRUE(has(result.best().fit, calibration::UnloadedEffect::read_back_error, ""));
+  // Without times the order of the rows is all there is.
+  for (campaign::State& state : shuffled.states->rows) state.time_s = campaign::kNoTime;
+  const calibration::UnloadedDay timeless = calibration::unloadedDay(shuffled);
+  EXPECT_FALSE(timeless.times_known);
+  EXPECT_EQ(timeless.postures.front().pose, campaign::statePoints(shuffled).front().pose);
 }
 
 TEST(Calibrate, FoldsAreBlocksOfTheCampaignsOrder) {

@@ -84,5 +84,52 @@ TEST(FrameUncertainty, StationTurnAndReflectorsAreWithinTheirUncertainties) {
   }
 }
 
+/// The scatter of a hundred days' results is what each states of itself, for a fitted arm, whose flange follows its
+/// last axes, and a station that is turned far. A standard deviation of a hundred is known to 7 %.
+TEST(FrameUncertainty, IsTheScatterOfDays) {
+  constexpr int kDays = 100;
+  UnloadedSpec spec;
+  spec.tracker_from_base =
+      Eigen::Translation3d(3.0, -1.0, 0.5) * Eigen::AngleAxisd(2.6, Eigen::Vector3d(0.2, -0.3, 0.93).normalized());
+  spec.postures = 40;
+  Noise noise(45);
+  std::vector<calibration::UncertainPoint> points[3];
+  for (int k = 0; k < kDays; ++k) {
+    Noise postures(7);  // the same every day
+    const campaign::Campaign exact = unloadedCampaign(
+        [&] {
+          auto still = spec;
+          still.noise = 0.0;
+          return still;
+        }(),
+        postures);
+    campaign::Campaign campaign = exact;
+    campaign.tracker = campaign::Tracker{"even", spec.noise, 0.0, spec.noise, 0.0, Eigen::Vector3d::Zero()};
+    for (campaign::LoadingReading& reading : campaign.loading->rows) reading.point += spec.noise * noise.normal3();
+    const calibration::UnloadedDay day = calibration::unloadedDay(campaign);
+    const std::vector<double> weights(day.readings(), 1.0);
+    calibration::FitOptions options;
+    options.robust = false;
+    options.weights = weights;
+    const calibration::ArmFit fit = calibration::fitArm(day, *calibration::placeArm(day, weights), {}, options);
+    ASSERT_TRUE(fit.done);
+    points[0].push_back(calibration::stationInBase(day, fit));
+    points[1].push_back(calibration::turnOfStation(fit));
+    points[2].push_back(calibration::targetsInFlange(day, fit).front());
+  }
+  for (int kind = 0; kind < 3; ++kind) {
+    for (int axis = 0; axis < 3; ++axis) {
+      double mean = 0.0, squares = 0.0, stated = 0.0;
+      for (const calibration::UncertainPoint& one : points[kind]) {
+        mean += one.value[axis] / kDays;
+        stated += one.sd[axis] * one.sd[axis] / kDays;
+      }
+      for (const calibration::UncertainPoint& one : points[kind])
+        squares += (one.value[axis] - mean) * (one.value[axis] - mean) / (kDays - 1);
+      EXPECT_NEAR(std::sqrt(squares / stated), 1.0, 0.3) << kind << ", " << axis;
+    }
+  }
+}
+
 }  // namespace position_errors_test
 }  // namespace stiffscope

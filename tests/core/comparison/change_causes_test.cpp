@@ -89,8 +89,8 @@ TEST(CausesOfReflectors, ATurnOfAllIsToldFromOneThatMoved) {
   // Three reflectors; what a turn about axis 6 does to them, m/rad.
   const Eigen::VectorXd by_turn = (Eigen::VectorXd(9) << 0.1, 0.2, 0, -0.3, 0.1, 0, 0.2, -0.2, 0).finished();
   const Eigen::MatrixXd covariance = kSd * kSd * Eigen::MatrixXd::Identity(9, 9);
-  const std::vector<CauseEvidence> turned =
-      comparison::causesOfReflectors(by_turn, 6, {1e-3 * by_turn, covariance, 100.0, kPostures});
+  const std::vector<CauseEvidence> turned = comparison::causesOfReflectors(
+      by_turn, Machine().arm.axes_in_base_at_zero, {1e-3 * by_turn, covariance, 100.0, kPostures});
   EXPECT_EQ(turned.front().cause, ChangeCause::turn_about_last);
   ASSERT_TRUE(turned.front().size);
   EXPECT_NEAR(turned.front().size->value, 1e-3, 1e-12);
@@ -99,7 +99,10 @@ TEST(CausesOfReflectors, ATurnOfAllIsToldFromOneThatMoved) {
   EXPECT_NEAR(turned[1].bic - turned[0].bic, 8.0 * std::log(kPostures), 1e-6);
   Eigen::VectorXd one_moved = Eigen::VectorXd::Zero(9);
   one_moved.segment<3>(3) << 1e-4, 2e-4, -1e-4;
-  EXPECT_EQ(comparison::causesOfReflectors(by_turn, 6, {one_moved, covariance, 100.0, kPostures}).front().cause,
+  EXPECT_EQ(comparison::causesOfReflectors(by_turn, Machine().arm.axes_in_base_at_zero,
+                                           {one_moved, covariance, 100.0, kPostures})
+                .front()
+                .cause,
             ChangeCause::reflectors);
 }
 

@@ -83,6 +83,30 @@ TEST(ErrorComponents, AVarianceIsNeverNegative) {
   }
 }
 
+// 120 combinations of the coordinates are free of what joints do, less their share of the unknowns: the variance of
+// coordinates is known to 14 %, however large the joints' errors are. With weights of 1 it is lost in these.
+TEST(ErrorComponents, CoordinatesAreSeenBesideLargeErrorsOfJoints) {
+  Noise noise(34);
+  const Made made(noise);
+  constexpr double kCoordinate = 0.1;
+  for (int draw = 0; draw < 20; ++draw) {
+    const comparison::ErrorComponents found =
+        comparison::errorComponents(made.fit, made.residuals(kCoordinate, JointVector::Constant(6, 2.0), noise), 1e-4);
+    EXPECT_NEAR(found.coordinate, kCoordinate * kCoordinate, 0.6 * kCoordinate * kCoordinate) << draw;
+    // Forty errors of each joint, not all of them apart from the unknowns.
+    for (Eigen::Index joint = 0; joint < 6; ++joint) EXPECT_NEAR(found.angle[joint], 4.0, 4.0) << draw;
+  }
+}
+
+TEST(ErrorComponents, CoordinatesErrByNoLessThanIsDeclared) {
+  Noise noise(35);
+  const Made made(noise);
+  const comparison::ErrorComponents found =
+      comparison::errorComponents(made.fit, made.residuals(0.5, JointVector::Constant(6, 1.0), noise), 0.6);
+  EXPECT_DOUBLE_EQ(found.coordinate, 0.6);
+  for (Eigen::Index joint = 0; joint < 6; ++joint) EXPECT_NEAR(found.angle[joint], 1.0, 1.0);
+}
+
 // N^-1 J^T S J N^-1 by the dense covariance S of all rows; no prior, so that it has no share.
 TEST(ErrorComponents, TheCovarianceIsThatOfLeastSquares) {
   Noise noise(33);

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
+#include <utility>
 
 #include "reports/words/remark_words.h"
 #include "tests/fixtures/unloaded_day.h"
@@ -190,6 +192,109 @@ TEST(GeometryChange, JointSixIsSaidWithTheReflectors) {
   EXPECT_EQ(found.causes.front().cause, ChangeCause::turn_about_last);
   ASSERT_TRUE(found.causes.front().size);
   EXPECT_NEAR(found.causes.front().size->value, 0.5e-3, 4.0 * found.causes.front().size->sd);
+}
+
+/// The example's arm with rods that keep the forearm's direction when joint 2 turns: axis 3, on one line with joint
+/// 3's, turns back by as much. Seven axes, six joints.
+ChainArm withRods() {
+  ChainArm arm = exampleChain();
+  const auto second = [](auto& list, const auto& one) { list.insert(list.begin() + 2, one); };
+  second(arm.to_joint, Eigen::Isometry3d(arm.to_joint[2]));
+  second(arm.axis, Eigen::Vector3d(0, 1, 0));
+  second(arm.mass, 20.0);
+  second(arm.centre, Eigen::Vector3d(0, 0, 0));
+  arm.to_joint[3] = Eigen::Isometry3d::Identity();
+  return arm;
+}
+
+JointMatrix turnsOfRods() {
+  JointMatrix turns = JointMatrix::Zero(7, 6);
+  turns(2, 1) = -1.0;
+  for (const auto& [axis, joint] : {std::pair(0, 0), {1, 1}, {3, 2}, {4, 3}, {5, 4}, {6, 5}}) turns(axis, joint) = 1.0;
+  return turns;
+}
+
+robot::Robot robotWithRods() {
+  robot::Robot robot = withRods().robot();
+  robot.axes_in_base_at_zero.couplings = std::make_shared<const robot::Couplings>(
+      robot::Couplings{turnsOfRods(), {0, 1, 3, 4, 5, 6}, {0, 1, -1, 2, 3, 4, 5}});
+  robot.axis_names = robot.joint_names, robot.axis_limits = robot.limits;
+  robot.joint_names.pop_back(), robot.limits.pop_back();
+  return robot;
+}
+
+/// The states of `day` as an arm with rods reaches them, its joints at `beyond` more than they say.
+campaign::Campaign measuredWithRods(campaign::Campaign day, const ChainArm& built, const JointVector& beyond,
+                                    const UnloadedSpec& spec, Noise& noise) {
+  day.robot = robotWithRods();
+  for (campaign::LoadingReading& reading : day.loading->rows) {
+    const JointVector& q = day.states->rows[static_cast<std::size_t>(reading.pose)].q;
+    const JointVector angles = turnsOfRods() * (q + beyond);
+    reading.point =
+        spec.tracker_from_base * (built.flangeAt(angles) * spec.on_flange[static_cast<std::size_t>(reading.target)]) +
+        spec.noise * noise.normal3();
+  }
+  return day;
+}
+
+TEST(GeometryChange, ZerosOfCoupledJointsHaveTheirJointsNumbers) {
+  Noise noise(91);
+  const UnloadedSpec spec;
+  const campaign::Campaign day = unloadedCampaign(spec, noise);
+  const ChainArm built = withRods().disturbed(noise, 0.3e-3, 0.2e-3);
+  const campaign::Campaign before = measuredWithRods(day, built, JointVector::Zero(6), spec, noise);
+  for (const int joint : {2, 3, 4, 5, 6}) {
+    const double moved = 0.3e-3;
+    JointVector beyond = JointVector::Zero(6);
+    beyond[joint - 1] = moved;
+    const GeometryChange found = comparison::compareGeometry(before, measuredWithRods(day, built, beyond, spec, noise));
+    ASSERT_TRUE(found.reason.empty()) << reports::words(found.reason);
+    EXPECT_EQ(found.machine_changed, joint != 6);
+    EXPECT_EQ(found.reflectors_moved, joint == 6);
+    ASSERT_FALSE(found.causes.empty());
+    const comparison::CauseEvidence& best = found.causes.front();
+    EXPECT_EQ(best.cause, joint == 6 ? ChangeCause::turn_about_last : ChangeCause::joint_zero) << joint;
+    EXPECT_EQ(best.joint, joint);
+    EXPECT_EQ(best.axis, joint < 3 ? joint : joint + 1);
+    EXPECT_EQ(best.same_line, joint == 3 ? 3 : 0);  // rods of another length turn the forearm, too
+    ASSERT_TRUE(best.size);
+    EXPECT_NEAR(best.size->value, moved, 4.0 * best.size->sd) << joint;
+    EXPECT_LT(best.size->sd, 0.1 * moved);
+  }
+}
+
+TEST(GeometryChange, TheLastLinkOfCoupledJointsIsACause) {
+  Noise noise(92);
+  const UnloadedSpec spec;
+  const campaign::Campaign day = unloadedCampaign(spec, noise);
+  const ChainArm built = withRods().disturbed(noise, 0.3e-3, 0.2e-3);
+  ChainArm bent = built;  // axis 7 off axis 6, and turned
+  bent.to_joint[6].translate(Eigen::Vector3d(0.0, 0.1e-3, 0.3e-3));
+  bent.to_joint[6].rotate(Eigen::AngleAxisd(0.4e-3, Eigen::Vector3d::UnitY()));
+  const JointVector none = JointVector::Zero(6);
+  const GeometryChange found = comparison::compareGeometry(measuredWithRods(day, built, none, spec, noise),
+                                                           measuredWithRods(day, bent, none, spec, noise));
+  EXPECT_TRUE(found.machine_changed);
+  ASSERT_FALSE(found.causes.empty());
+  EXPECT_EQ(found.causes.front().cause, ChangeCause::link);
+  EXPECT_EQ(found.causes.front().axis, 6);
+}
+
+// Two days of an unchanged machine whose joints stand anew in each posture, by 0.2 mrad.
+TEST(GeometryChange, JointsThatScatterMoveNoReflectors) {
+  for (std::uint64_t seed = 95; seed < 98; ++seed) {
+    Noise noise(seed);
+    UnloadedSpec spec = builtOtherwise(noise);
+    spec.joint_errors = [&noise](const JointVector& q) {
+      JointVector errors(q.size());
+      for (double& one : errors) one = 200e-6 * noise.normal();
+      return errors;
+    };
+    const campaign::Campaign before = unloadedCampaign(spec, noise);
+    const GeometryChange found = comparison::compareGeometry(before, unloadedCampaign(spec, noise));
+    EXPECT_FALSE(found.reflectors_moved) << seed << ": p " << found.reflectors_p;
+    EXPECT_FALSE(found.machine_changed) << seed << ": p " << found.machine_p;
+  }
 }
 
 TEST(GeometryChange, RefusesAnotherMachineAndADayWithoutReadings) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Dense>
+
 #include "tests/fixtures/unloaded_day.h"
 
 namespace stiffscope {
@@ -83,6 +85,59 @@ TEST(PairedDays, TheCovarianceIsByWhatRecursOnlyWherePosturesDiffer) {
   for (Eigen::Index k = 0; k < kAxes; ++k)
     ratio += std::log(apart.covariances[0](k, k) / same.covariances[0](k, k)) / (2.0 * kAxes);
   EXPECT_GT(std::exp(ratio), 2.0);
+}
+
+/// Covariance of a day's unknowns by errors of single coordinates of this variance (m^2) alone.
+Eigen::MatrixXd byCoordinates(const comparison::PairedDays& pair, std::size_t k, double variance, double declared) {
+  comparison::ErrorComponents errors(6);
+  errors.coordinate = variance / (declared + pair.fits[k].model_sd * pair.fits[k].model_sd);
+  return comparison::covarianceBy(comparison::FitEquations(pair.day(k), pair.fits[k]), errors);
+}
+
+// Joints that stand anew in each posture, by ten times what the tracker's noise is at the reflectors: whatever the
+// scatter of the joints hides, no unknown is better known than the tracker has it.
+TEST(PairedDays, TheTrackersNoiseIsNotLostBesideJointsThatScatter) {
+  for (std::uint64_t seed = 21; seed < 25; ++seed) {
+    Noise noise(seed);
+    UnloadedSpec spec = builtOtherwise(noise);
+    spec.joint_errors = [&noise](const JointVector& q) {
+      JointVector errors(q.size());
+      for (double& one : errors) one = 100e-6 * noise.normal();
+      return errors;
+    };
+    const campaign::Campaign before = unloadedCampaign(spec, noise);
+    const comparison::PairedDays pair = paired(before, unloadedCampaign(spec, noise));
+    ASSERT_FALSE(pair.same_postures);
+    for (std::size_t k = 0; k < 2; ++k) {
+      const double declared = spec.noise * spec.noise;
+      const Eigen::MatrixXd least = byCoordinates(pair, k, declared, declared);
+      // In parts of the least, unknown by unknown combined in any way: one or more.
+      const Eigen::VectorXd ratios =
+          Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(pair.covariances[k], least).eigenvalues();
+      EXPECT_GT(ratios.minCoeff(), 0.999) << seed;
+      EXPECT_LT(ratios.minCoeff(), 1.5) << seed;  // some combinations are free of what joints do
+    }
+  }
+}
+
+// The day after by a tracker of a third of the noise: of the difference, noise of both, each day has half.
+TEST(PairedDays, NoiseOfTheDifferenceIsSharedByBothDays) {
+  Noise noise(26);
+  UnloadedSpec spec = builtOtherwise(noise);
+  const campaign::Campaign before = unloadedCampaign(spec, noise);
+  const double coarse = spec.noise * spec.noise;
+  spec.noise /= 3.0;
+  const double fine = spec.noise * spec.noise;
+  campaign::Campaign after = measuredAgain(before, spec, noise);
+  after.tracker->range_fixed = after.tracker->angle_fixed = spec.noise;
+  const comparison::PairedDays pair = paired(before, after);
+  ASSERT_TRUE(pair.same_postures);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Eigen::MatrixXd expected = byCoordinates(pair, k, 0.5 * (coarse + fine), k == 0 ? coarse : fine);
+    const Eigen::VectorXd ratios = pair.covariances[k].diagonal().cwiseQuotient(expected.diagonal());
+    EXPECT_GT(ratios.minCoeff(), 0.999) << k;
+    EXPECT_LT(ratios.mean(), 1.3) << k;  // by the noise of the day before alone: 1.8 of that day
+  }
 }
 
 }  // namespace paired_days_test

@@ -90,6 +90,71 @@ TEST(Decide, StiffnessesAreThoseOfTheMethodShownFirst) {
   EXPECT_EQ(decisions[3].missing, Missing::not_identified);
 }
 
+/// A posture whose softest known direction gives by `compliance` -+ 2 %; `unknown`: joints that move P_TCP.
+workspace::PointStiffness postureOf(double compliance, std::vector<int> unknown) {
+  workspace::PointStiffness posture;
+  posture.unknown = std::move(unknown);
+  posture.of_model.push_back({Eigen::Vector3d::UnitZ(), compliance, {0.98 * compliance, 1.02 * compliance}});
+  return posture;
+}
+
+TEST(Decide, TheSoftestOfTheKnownDirectionsIsAnUpperBound) {
+  const identification::Identification day = loadedDay();
+  workspace::WorkspaceStiffness workspace;
+  conformity::DayResult result;
+  result.identification = &day, result.workspace = &workspace;
+  const auto decided = [&](std::optional<double> least, std::optional<double> most) {
+    conformity::Limits limits;
+    limits.limits.push_back({Quantity::softest, least, most, "", 2});
+    return conformity::decide(limits, result).front();
+  };
+  // 2e6 and 1e6 N/m, all joints known: the softer of the two, from 0.98e6 to 1.02e6.
+  workspace.postures = {postureOf(0.5e-6, {}), postureOf(1e-6, {})};
+  EXPECT_EQ(decided(0.97e6, std::nullopt).verdict, Verdict::pass);
+  EXPECT_EQ(decided(1.1e6, std::nullopt).verdict, Verdict::fail);
+  // Joint 1 moves the stiffer one, too, and may give more there than all that is known.
+  workspace.postures.front().unknown = {0};
+  const Decision kept = decided(0.97e6, std::nullopt);
+  EXPECT_EQ(kept.verdict, Verdict::not_evaluated);
+  EXPECT_EQ(kept.missing, Missing::not_identified);
+  EXPECT_FALSE(kept.measured);
+  // A limit within the interval of the bound: it may be kept by the bound, and nothing is known of what is below.
+  EXPECT_EQ(decided(1.01e6, std::nullopt).verdict, Verdict::not_evaluated);
+  // Whatever joint 1 gives, it is softer than this.
+  const Decision missed = decided(1.1e6, std::nullopt);
+  EXPECT_EQ(missed.verdict, Verdict::fail);
+  EXPECT_FALSE(missed.in_guard_band);
+  ASSERT_TRUE(missed.measured);
+  EXPECT_DOUBLE_EQ(missed.measured->value, 1e6);
+  EXPECT_EQ(missed.measured->interval.low, 0.0);
+  // As soft as asked for, and softer with joint 1; beyond the upper limit by what is known alone tells nothing.
+  EXPECT_EQ(decided(std::nullopt, 1.1e6).verdict, Verdict::pass);
+  EXPECT_EQ(decided(std::nullopt, 0.9e6).verdict, Verdict::not_evaluated);
+  EXPECT_EQ(decided(0.5e6, 1.1e6).verdict, Verdict::not_evaluated);
+  // Joints of unknown stiffness move all directions of a posture: it has none, and may still be the softest.
+  workspace.postures = {postureOf(1e-6, {}), postureOf(1e-6, {0, 1, 2})};
+  workspace.postures.back().of_model.clear();
+  EXPECT_EQ(decided(0.5e6, std::nullopt).verdict, Verdict::not_evaluated);
+}
+
+TEST(Decide, TheLargestDifferenceOfLinksIsNotThatOfTheLeastCertainOne) {
+  frames::Frames swept;
+  const auto link = [](double difference, double sd) {
+    frames::LinkGeometry link;
+    link.nominal_distance = 1.0, link.distance = 1.0 + difference, link.distance_sd = sd;
+    return link;
+  };
+  swept.links = {link(-0.5e-3, 0.01e-3), link(0.1e-3, 0.4e-3)};  // up to 0.52 mm, up to 0.88 mm
+  swept.sag_removed = true;
+  conformity::DayResult day;
+  day.swept = &swept;
+  const Decision one = conformity::decide(limitsOn({Quantity::link_difference}), day).front();
+  ASSERT_TRUE(one.measured);
+  EXPECT_NEAR(one.measured->value, 0.5e-3, 1e-12);
+  EXPECT_NEAR(one.measured->interval.low, 0.5e-3 - 1.96 * 0.01e-3, 1e-8);
+  EXPECT_NEAR(one.measured->interval.high, 0.1e-3 + 1.96 * 0.4e-3, 1e-7);
+}
+
 TEST(Decide, ErrorsOfPositionByTheTrackersNoise) {
   calibration::Calibration calibration;
   calibration.models.resize(2);

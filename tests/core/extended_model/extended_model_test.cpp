@@ -304,7 +304,7 @@ TEST(RequestedEffects, OfADiagnosisTakesTheFirstOfAClassAndNeverTheUnknown) {
   EXPECT_EQ(wanted.effects[0].parts, (std::vector<std::string>{"joint 2", "joint 3"}));
   ASSERT_EQ(wanted.notes.size(), 2u);
   EXPECT_EQ(reports::words(wanted.notes[0]),
-            "bearing_tilt is added because it fits best; this data cannot tell it from link_compliance");
+            "bearing tilt is added because it fits best; this data cannot tell it from link compliance");
   EXPECT_TRUE(wanted.notes[1].is(extended_model::RemarkId::diagnosis_finds_unknown));
   diagnosis.verdict.entries = {{{}, ""}};
   wanted = extended_model::namedBy(diagnosis);

@@ -7,6 +7,10 @@
 #include <random>
 
 #include "core/fleet/remarks.h"
+#include "reports/csv/fleet_csv.h"
+#include "reports/page/pages.h"
+#include "reports/words/remark_words.h"
+#include "reports/words/rich_text.h"
 #include "tests/core/fleet/made_days.h"
 
 namespace stiffscope::fleet {
@@ -171,6 +175,47 @@ std::vector<FleetCampaign> unloaded(std::vector<FleetCampaign> all) {
     one.result->springs_method = one.result->method = std::nullopt;
   }
   return all;
+}
+
+// Softened by 8 % and mended: two changes, each of the dates beside it and no others.
+TEST(Fleet, AChangeThatIsUndoneIsTwoChanges) {
+  std::mt19937_64 draws(8);
+  std::vector<FleetCampaign> mended = campaignsOf("mended", unchangedDays(draws, 10, 12));
+  for (std::size_t t = 3; t < 7; ++t) springs(mended[t]).compliance[1] += 8.0;
+  std::vector<FleetCampaign> all = mended;
+  add(all, campaignsOf("well", unchangedDays(draws, 10, 12)));
+  const Fleet fleet = studied(all);
+  ASSERT_EQ(fleet.steps.size(), 2u);
+  EXPECT_EQ(fleet.campaigns[fleet.steps[0].campaign].date, "2026-01-13");
+  EXPECT_EQ(fleet.campaigns[fleet.steps[1].campaign].date, "2026-01-17");
+  EXPECT_EQ(fleet.steps[0].days_before, 3u);
+  EXPECT_EQ(fleet.steps[0].days_after, 4u);
+  EXPECT_EQ(fleet.steps[1].days_before, 4u);
+  EXPECT_EQ(fleet.steps[1].days_after, 3u);
+  const Stated softer = fleet.steps[0].compliance.share(), stiffer = fleet.steps[1].compliance.share();
+  EXPECT_LT(softer.low, 0.08);
+  EXPECT_GT(softer.high, 0.08);
+  EXPECT_LT(stiffer.low, -8.0 / 108.0);
+  EXPECT_GT(stiffer.high, -8.0 / 108.0);
+  for (const FleetStep& step : fleet.steps) EXPECT_LE(step.p_holm, kFleetLevel);
+}
+
+// A fit may give a joint less than no compliance. That it changed is said, and which way; not by what share.
+TEST(Fleet, AShareOfNoComplianceIsWrittenAsNotKnown) {
+  std::mt19937_64 draws(9);
+  std::vector<FleetCampaign> odd = campaignsOf("odd", unchangedDays(draws, 6, 12));
+  for (std::size_t t = 0; t < 6; ++t) springs(odd[t]).compliance[1] += (t < 3 ? 0.0 : 20.0) - 150.0;
+  const Fleet fleet = studied(odd);
+  ASSERT_EQ(fleet.steps.size(), 1u);
+  EXPECT_NE(reports::stepsCsv(fleet).find("odd,2026-01-13,compliance,2,,,,,,"), std::string::npos)
+      << reports::stepsCsv(fleet);
+  const std::string need = reports::plain(reports::words(machine(fleet, "odd").needs.front().reason));
+  EXPECT_NE(need.find("joint 2 softer from 2026-01-13 on"), std::string::npos) << need;
+  const std::string page = page::fleetPage(fleet, {}, "0");
+  for (const std::string& text : {need, page, reports::needsCsv(fleet), reports::stepsCsv(fleet)}) {
+    for (const char* wrong : {">nan", " nan", "inf ", ">inf", "-nan"})
+      EXPECT_EQ(text.find(wrong), std::string::npos) << wrong;
+  }
 }
 
 // A joint of days without a load is judged as one of days with loads is, beside the geometry of each pair.

@@ -54,6 +54,20 @@ TEST(Numbers, AreReadWholeAndTheSameInEveryLocale) {
   for (const char* text : {"", "7.0", "7a", "99999999999"}) EXPECT_FALSE(io::parseInteger(text)) << text;
 }
 
+TEST(Numbers, WhatIsWrongIsSaid) {
+  const auto says = [](const char* text, const char* part) {
+    EXPECT_NE(io::parseNumber(text).expectation.find(part), std::string::npos)
+        << text << ": " << io::parseNumber(text).expectation;
+  };
+  for (const char* text : {"1,5", "-0,25", "1500,5"}) says(text, "not a decimal comma");
+  for (const char* text : {"1,234.5", "1.234,5", "1,234,567"}) says(text, "without a mark between thousands");
+  for (const char* text : {"27.11.2026", "27.11.2026 08:00:00", "2026-11-27T08:00:00", "2026-11-27", "11/27/2026",
+                           "08:15", "08:15:30.5", "27.11.26"})
+    says(text, "times are in seconds");
+  for (const char* text : {"1.2.3", "1e-5-", "-", "."})
+    EXPECT_EQ(io::parseNumber(text).expectation.find("seconds"), std::string::npos) << text;
+}
+
 // The way of tables must give the very bits of the other, wherever it gives a value at all.
 TEST(Numbers, OfTablesAreTheSameBits) {
   std::mt19937_64 random(1);

@@ -114,6 +114,36 @@ TEST(FindMistakes, NamesTheRowOfOnePosture) {
             fmt::format("pose 8, q1_deg to q6_deg from states.csv:{} on", line));
 }
 
+// The other steps agree within a hundredth: a fifth stands out of that.
+TEST(FindMistakes, NamesAStepOfAFifthTooMuch) {
+  for (const double factor : {1.2, 1.0 / 1.2}) {
+    campaign::Campaign day = simulation::simulate(cleanDay(31, 1.0));
+    for (campaign::State& row : day.states->rows) {
+      if (row.step == 2) row.wrench_in_cell *= factor;
+    }
+    const mistakes::ModelAgreement agreement = mistakes::findMistakes(day);
+    ASSERT_EQ(agreement.loads.size(), 1u) << said(agreement);
+    EXPECT_EQ(agreement.loads.front().mistake, "step_scale");
+    EXPECT_EQ(std::get<std::int64_t>(agreement.loads.front().remedy.values.at(0)), 2);
+    EXPECT_NEAR(std::get<double>(agreement.loads.front().remedy.values.at(1)), factor, 0.02);
+  }
+}
+
+// Joints that stiffen, have play or stick put the first step apart from the others, and are no wrong step.
+TEST(FindMistakes, JointsThatAreNotLinearAreNoWrongStep) {
+  for (const int kind : {0, 1, 2}) {
+    simulation::SimulationSpec spec = cleanDay(32, 1.0);
+    for (auto& joint : spec.machine.joints) {
+      const double rate = *joint.torsion;
+      if (kind == 0) joint.stages = simulation::JointStages{{1e-4 * rate, 3e-4 * rate}, {0.4 * rate, 0.7 * rate, rate}};
+      if (kind == 1) joint.backlash = simulation::JointBacklash{2e-4};
+      if (kind == 2) joint.friction = simulation::JointFriction{1e-4 * rate, rate};
+    }
+    const mistakes::ModelAgreement agreement = mistakes::findMistakes(simulation::simulate(spec));
+    EXPECT_TRUE(agreement.loads.empty()) << kind << ": " << said(agreement);
+  }
+}
+
 /// The sample with the angles of the posture after its own, or before it, from the tenth on.
 mistakes::ModelAgreement withRowsShifted(bool lost) {
   campaign::Campaign day = goodDay();

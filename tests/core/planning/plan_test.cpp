@@ -249,6 +249,41 @@ TEST(Plan, AddsToACampaignWhatItLacks) {
   EXPECT_GT(plan.postures.front().log_det_gain, 0.0);
 }
 
+// Of a machine of joint springs alone the noise is all that the model leaves: a plan states what the measured postures
+// are worth as their identification does, and does not add the noise to itself.
+TEST(Plan, CountsTheNoiseOnce) {
+  simulation::SimulationSpec spec = sample();
+  for (auto& joint : spec.machine.joints) joint.bearing.reset();
+  const campaign::Campaign campaign = simulation::simulate(spec);
+  identification::IdentifyOptions quick;
+  quick.subsets.most_all = 1;
+  quick.subsets.sample = 2;
+  const identification::Identification result = identification::identify(campaign, quick);
+  ASSERT_TRUE(result.noise.has_value());
+  const double sigma = result.of(identification::Method::partial_pose).estimate.sigma;
+  const double noise = result.noise->per_coordinate;
+  const double beyond = std::sqrt(std::max(0.0, sigma * sigma - noise * noise));
+  planning::PlanOptions options;
+  options.postures = 2;
+  options.augment = true;
+  options.candidates = 60;
+  options.random_sets = 2;
+  for (const int repeats : {1, 3}) {  // of the day to come; sigma is of the measured day's
+    options.inputs.repeats = repeats;
+    EXPECT_DOUBLE_EQ(planning::planningArm(campaign, &result, options.inputs).misfit, beyond) << repeats;
+  }
+  EXPECT_LT(beyond, 0.7 * sigma);
+  const planning::Plan plan = planning::planCampaign(campaign, &result, options);  // three repeats, as measured
+  const JointMatrix& stated = result.of(identification::Method::partial_pose).estimate.covariance;
+  for (int j = 1; j < 6; ++j) {
+    const double ratio = plan.sd_measured[j] / std::sqrt(stated(j, j));
+    // identify weighs all readings alike, which is worth less than the plan's weights; with the noise added to itself
+    // the plan would state 1.16 to 1.27 of it.
+    EXPECT_LT(ratio, 0.85) << j;
+    EXPECT_GT(ratio, 0.5) << j;
+  }
+}
+
 /// Mean square of the standard deviations of c over k's, by Partial Pose, of one simulated campaign.
 JointVector squaresOf(const simulation::SimulationSpec& spec) {
   identification::IdentifyOptions quick;

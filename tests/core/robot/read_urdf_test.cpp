@@ -281,8 +281,10 @@ TEST(ReadUrdf, RefusesLinksThatAreNotOnOneChain) {
     }
     return "";
   };
-  EXPECT_EQ(why("base", "tol0"),
-            "odd.urdf:2: flange_link: 'tol0': expected a link of the robot (did you mean 'tool0'?)");
+  EXPECT_EQ(
+      why("base", "tol0"),
+      "odd.urdf:2: flange_link: 'tol0': expected a link of the robot (did you mean 'tool0'?); the name is that of "
+      "attribute flange_link of `robot` in campaign.xml or the specification, or of an option");
   EXPECT_EQ(why("tool0", "base"),
             "odd.urdf:2: flange_link: 'base': expected a link beyond 'tool0'; the way back from it ends at "
             "'world'");
