@@ -124,7 +124,7 @@ TEST_F(PageFigures, AnUnknownWordEmptiesNoTableAndEveryChartIsItsOwnFigures) {
 constexpr const char* kAskScene = R"js(
 addEventListener('load', async function () {
   const wait = (ms) => new Promise((done) => setTimeout(done, ms));
-  for (let i = 0; i < 2000 && !(window.stiffscopeScenes || []).length; ++i) await wait(25);
+  for (let i = 0; i < 1000 && !(window.stiffscopeScenes || []).length; ++i) await wait(25);
   const say = (what) => {
     const pre = document.createElement('pre');
     pre.textContent = '@@' + JSON.stringify(what) + '@@';
@@ -154,7 +154,7 @@ addEventListener('load', async function () {
 TEST_F(PageFigures, TheCaptionSaysWhatTheSceneShowsAndTheArmStaysLarge) {
   if (!installed("chromium")) GTEST_SKIP() << "chromium is not installed";
   const nlohmann::json answers =
-      said("active", kAskScene, "--virtual-time-budget=60000");
+      said("active", kAskScene, "--virtual-time-budget=30000");
   if (!answers.is_object()) GTEST_SKIP() << "the browser did not run the page";
   if (answers.contains("none")) GTEST_SKIP() << answers["none"];
   EXPECT_EQ(answers["first"], "");
