@@ -90,11 +90,11 @@ CellZero cellZero(const campaign::Campaign& campaign) {
     if (state.step == 0) unloaded.push_back(&state);
   }
   if (unloaded.size() < 2) return zero;
-  const auto [first, last] = std::minmax_element(
-      unloaded.begin(), unloaded.end(), [](const auto* a, const auto* b) { return a->time_s < b->time_s; });
-  const bool timed = std::all_of(unloaded.begin(), unloaded.end(),
-                                 [](const auto* one) { return std::isfinite(one->time_s); }) &&
-                     (*last)->time_s > (*first)->time_s;
+  const auto [first, last] = std::minmax_element(unloaded.begin(), unloaded.end(),
+                                                 [](const auto* a, const auto* b) { return a->time_s < b->time_s; });
+  const bool timed =
+      std::all_of(unloaded.begin(), unloaded.end(), [](const auto* one) { return std::isfinite(one->time_s); }) &&
+      (*last)->time_s > (*first)->time_s;
   const double span = timed ? (*last)->time_s - (*first)->time_s : 0.0;  // s
   std::vector<Row> rows(unloaded.size());
   double forces = 0.0;

@@ -9,10 +9,10 @@ namespace stiffscope::mistakes {
 
 /// What the load cell shows in step 0 of every posture, which is nothing where it is tared and its zero stays.
 struct CellZero {
-  double chi2 = 0.0;    ///< of the readings about what is found below, by the declared noise
-  int dof = 0;          ///< 0: too few readings, no declared noise, or figures that never change: not read
-  bool drifts = false;  ///< they follow a line in time, which explains more than all else that is in them
-  bool weighs = false;  ///< they follow a weight that turns with the postures, likewise
+  double chi2 = 0.0;                 ///< of the readings about what is found below, by the declared noise
+  int dof = 0;                       ///< 0: too few readings, no declared noise, or figures that never change: not read
+  bool drifts = false;               ///< they follow a line in time, which explains more than all else that is in them
+  bool weighs = false;               ///< they follow a weight that turns with the postures, likewise
   double before = 0.0, after = 0.0;  ///< scatter in parts of the declared noise: about the mean, both taken off
   double drift_force = 0.0, drift_moment = 0.0;  ///< from the first reading to the last, N and Nm
   double hours = 0.0;                            ///< between these

@@ -30,6 +30,16 @@ inline Ran runBrowser(const std::string& words, const std::filesystem::path& scr
       scratch);
 }
 
+/// The same with WebGL by software, as long as a scene takes to come.
+inline Ran runBrowserWithWebGl(const std::string& words, const std::filesystem::path& scratch) {
+  return runShell(
+      "timeout 100 chromium --headless --no-sandbox --no-first-run --use-gl=angle --use-angle=swiftshader "
+      "--enable-unsafe-swiftshader --ignore-gpu-blocklist --window-size=1400,1000 --virtual-time-budget=10000 "
+      "--user-data-dir='" +
+          (scratch / "profile-webgl").string() + "' " + words,
+      scratch);
+}
+
 /// What a page wrote to the console, out of what the browser logs. The graphics driver says there what it did slowly,
 /// which hangs on the machine and not on the page.
 inline std::string writtenToConsole(const std::string& log) {

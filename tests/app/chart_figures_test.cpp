@@ -102,8 +102,7 @@ render::Colour inTheDark(render::Colour colour) {
   Eigen::Matrix3d half_turn;
   half_turn << -0.574, 1.43, 0.144, 0.426, 0.43, 0.144, 0.426, 1.43, -0.856;
   const Eigen::Vector3d rgb(colour.red, colour.green, colour.blue);
-  const Eigen::Vector3d seen =
-      cut(1.35 * cut(half_turn * cut(Eigen::Vector3d::Constant(0.905 * 255.0) - 0.81 * rgb)));
+  const Eigen::Vector3d seen = cut(1.35 * cut(half_turn * cut(Eigen::Vector3d::Constant(0.905 * 255.0) - 0.81 * rgb)));
   return {static_cast<std::uint8_t>(seen[0]), static_cast<std::uint8_t>(seen[1]), static_cast<std::uint8_t>(seen[2])};
 }
 

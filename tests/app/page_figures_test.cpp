@@ -31,13 +31,14 @@ class PageFigures : public ::testing::Test {
   static std::string pageOf(const std::string& day) { return contentsOf(out(day) / "report.html"); }
 
   /// What `script` says between marks in a copy of the page; null where it did not run.
-  static nlohmann::json said(const std::string& day, const std::string& script, const std::string& options) {
+  static nlohmann::json said(const std::string& day, const std::string& script, bool by_webgl) {
     std::string page = pageOf(day);
     page.replace(page.rfind("</body>"), 7, "<script>" + script + "</script></body>");
     const auto copy = scratch_->path() / "copy.html";
     std::ofstream(copy, std::ios::binary) << page;
-    const Ran ran = runBrowser(options + " --window-size=1400,1000 --dump-dom 'file://" + copy.string() + "'",
-                               scratch_->path());
+    const std::string words = "--dump-dom 'file://" + copy.string() + "'";
+    const Ran ran = by_webgl ? runBrowserWithWebGl(words, scratch_->path())
+                             : runBrowser("--disable-3d-apis --window-size=1400,1000 " + words, scratch_->path());
     const std::size_t close = ran.out.rfind("@@"), open = ran.out.rfind("@@{", close);
     if (open == std::string::npos) return {};
     return nlohmann::json::parse(ran.out.substr(open + 2, close - open - 2), nullptr, false);
@@ -107,7 +108,7 @@ addEventListener('load', function () {
 
 TEST_F(PageFigures, AnUnknownWordEmptiesNoTableAndEveryChartIsItsOwnFigures) {
   if (!installed("chromium")) GTEST_SKIP() << "chromium is not installed";
-  const nlohmann::json answers = said("active", kAskFilter, "--disable-3d-apis");
+  const nlohmann::json answers = said("active", kAskFilter, false);
   if (!answers.is_object()) GTEST_SKIP() << "the browser did not run the page";
   EXPECT_GT(answers["known"]["hidden"], 0);
   EXPECT_EQ(answers["known"]["says"], "");
@@ -124,7 +125,7 @@ TEST_F(PageFigures, AnUnknownWordEmptiesNoTableAndEveryChartIsItsOwnFigures) {
 constexpr const char* kAskScene = R"js(
 addEventListener('load', async function () {
   const wait = (ms) => new Promise((done) => setTimeout(done, ms));
-  for (let i = 0; i < 1000 && !(window.stiffscopeScenes || []).length; ++i) await wait(25);
+  for (let i = 0; i < 300 && !(window.stiffscopeScenes || []).length; ++i) await wait(25);
   const say = (what) => {
     const pre = document.createElement('pre');
     pre.textContent = '@@' + JSON.stringify(what) + '@@';
@@ -153,8 +154,7 @@ addEventListener('load', async function () {
 
 TEST_F(PageFigures, TheCaptionSaysWhatTheSceneShowsAndTheArmStaysLarge) {
   if (!installed("chromium")) GTEST_SKIP() << "chromium is not installed";
-  const nlohmann::json answers =
-      said("active", kAskScene, "--virtual-time-budget=30000");
+  const nlohmann::json answers = said("active", kAskScene, true);
   if (!answers.is_object()) GTEST_SKIP() << "the browser did not run the page";
   if (answers.contains("none")) GTEST_SKIP() << answers["none"];
   EXPECT_EQ(answers["first"], "");
@@ -169,9 +169,9 @@ TEST_F(PageFigures, TheCaptionSaysWhatTheSceneShowsAndTheArmStaysLarge) {
 TEST_F(PageFigures, NoPictureIsStretchedInPrint) {
   if (!installed("chromium") || !installed("pdfimages")) GTEST_SKIP() << "chromium or poppler-utils is not installed";
   const std::string pdf = (scratch_->path() / "report.pdf").string();
-  runBrowser("--no-pdf-header-footer --print-to-pdf='" + pdf + "' 'file://" + (out("active") / "report.html").string() +
-                 "'",
-             scratch_->path());
+  runBrowser(
+      "--no-pdf-header-footer --print-to-pdf='" + pdf + "' 'file://" + (out("active") / "report.html").string() + "'",
+      scratch_->path());
   const Ran ran = runShell("pdfimages -list '" + pdf + "'", scratch_->path());
   std::istringstream lines(ran.out);
   std::string line;

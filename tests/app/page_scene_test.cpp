@@ -171,12 +171,7 @@ nlohmann::json saidWithWebGl(std::string page, const char* script, const std::fi
   page.replace(page.rfind("</body>"), 7, script);
   const auto copy = scratch / "look.html";
   std::ofstream(copy, std::ios::binary) << page;
-  const Ran ran = runShell(
-      "timeout 100 chromium --headless --no-sandbox --no-first-run --use-gl=angle --use-angle=swiftshader "
-      "--enable-unsafe-swiftshader --ignore-gpu-blocklist --window-size=1400,1000 --virtual-time-budget=10000 "
-      "--user-data-dir='" +
-          (scratch / "profile").string() + "' --dump-dom 'file://" + copy.string() + "'",
-      scratch);
+  const Ran ran = runBrowserWithWebGl("--dump-dom 'file://" + copy.string() + "'", scratch);
   const std::size_t close = ran.out.rfind("@@"), open = ran.out.rfind("@@{", close);
   if (open == std::string::npos) return {};
   return nlohmann::json::parse(ran.out.substr(open + 2, close - open - 2), nullptr, false);

@@ -138,8 +138,8 @@ TEST(PageWords, AFarFromSymmetricIntervalStandsInTheCell) {
   estimate.identifiable.assign(6, true);
   estimate.compliance[2] = -0.25;
   const double inf = std::numeric_limits<double>::infinity();
-  estimate.stated = {{1.0 / 17.3, 1.0 / 4.08}, {-0.1, 0.2},           {-0.6, 0.2},
-                     {-inf, inf},              {1 / 6.11, 1.0 / 5.9}, {1.0 / 6.0, 1.0 / 6.0}};
+  estimate.stated = {{1.0 / 17.3, 1.0 / 4.08}, {-0.1, 0.2},           {-0.6, 0.2}, {-inf, inf},
+                     {1 / 6.11, 1.0 / 5.9},    {1.0 / 6.0, 1.0 / 6.0}};
   EXPECT_EQ(reports::uncertainStiffness(estimate, 0, 1.0), "6.0 (4.1 to 17)");  // not 6 ± 11, which holds −5
   EXPECT_EQ(reports::uncertainStiffness(estimate, 1, 1.0), "6.0 (above 5.0)");
   EXPECT_EQ(reports::uncertainStiffness(estimate, 2, 1.0), "above 5.0 (fit −4.0)");
@@ -264,8 +264,8 @@ TEST(PageWords, LimitsOfTheAuditHaveADirection) {
   reports::ReportContent content = contentOf(small);
   content.campaigns[0].audit = &audited;
   const std::string page = page::reportPage(content);
-  for (const char* limit : {"at least 19.1\u00a0mm", "at least 6\u00a0readings", "at least 5\u00a0N/mm",
-                            "at most 20\u00a0mm"})
+  for (const char* limit :
+       {"at least 19.1\u00a0mm", "at least 6\u00a0readings", "at least 5\u00a0N/mm", "at most 20\u00a0mm"})
     EXPECT_TRUE(says(page, limit)) << limit;
 }
 
@@ -308,8 +308,7 @@ TEST(PageWords, CompliancesThatWouldBeNegativeAreOneNote) {
   calibration.models[0].notes.emplace_back(calibration::RemarkId::no_masses);
   const std::vector<std::string> notes = reports::modelNotes(calibration);
   ASSERT_EQ(notes.size(), 2u);
-  EXPECT_EQ(notes[0],
-            "gravity: joint compliance of joints 4 to 6 would be negative, which no spring is: left at zero");
+  EXPECT_EQ(notes[0], "gravity: joint compliance of joints 4 to 6 would be negative, which no spring is: left at zero");
 }
 
 TEST(PageWords, EffectsHaveNamesAndNoIds) {
