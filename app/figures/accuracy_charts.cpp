@@ -243,8 +243,7 @@ reports::Figure describeAccuracyMap(const reports::ReportCampaign& one) {
   figure.title = "Position error over the workspace";
   figure.caption = fmt::format(
       "Every reflector where it stood, coloured by the error; one scale for all models. The largest that is left is "
-      "{}, "
-      "of {} in posture {}. Errors that stay together in one region are the machine's; noise is spread evenly.",
+      "{}, of {} in posture {}. Errors that stay together in one region are the machine's; noise is spread evenly.",
       reports::millimetres(worst.of(best).norm()),
       reports::pointName(calibration.day.targets[static_cast<std::size_t>(worst.target)]),
       reports::asIs(calibration.day.pose_ids[static_cast<std::size_t>(pose)]));
@@ -324,8 +323,7 @@ reports::Figure describeResidualsOverDay(const reports::ReportCampaign& one) {
   figure.title = "What the models leave over the day";
   figure.caption = fmt::format(
       "Measured less modelled at each reflector{}. Means that wander are a station that drifts, an arm that warms up "
-      "or "
-      "something that moved at a time; points that scatter alike all day are of the postures themselves.",
+      "or something that moved at a time; points that scatter alike all day are of the postures themselves.",
       calibration.day.times_known ? "" : ", in the order of the postures: no times are stated");
   figure.alt = "Points over time, one panel a direction: what the calibrated geometry leaves, and what effects leave.";
   return figure;

@@ -90,8 +90,7 @@ reports::Figure describeAccuracyBefore(const reports::ReportCampaign& one, const
   figure.title = "What the calibrated geometry leaves, on the arm";
   figure.caption = fmt::format(
       "Arrows: measured less model at each reflector, magnified {} times; {}. Arrows that turn with a joint or with "
-      "the "
-      "posture are the machine's; noise would point anywhere.",
+      "the posture are the machine's; noise would point anywhere.",
       render::factorText(*scenes.before.magnification), longestWords(one, CalibratedModel::geometry));
   if (drawn < all)
     figure.caption += fmt::format(" The picture has {} of {} postures, evenly chosen, and the worst.", drawn, all);

@@ -410,11 +410,9 @@ reports::Figure describeGapBefore(const reports::ReportCampaign& one, const GapS
   figure.id = "gap-before";
   figure.title = "What joint stiffnesses alone leave, on the arm";
   figure.caption = fmt::format(
-      "Arrows: measured less model at each reflector, in the load state of each posture that leaves the "
-      "most, magnified "
-      "{} times; {}. Arrows that turn with the posture, alike at all reflectors, are the machine's; noise "
-      "would point "
-      "anywhere.",
+      "Arrows: measured less model at each reflector, in the load state of each posture that leaves the most, "
+      "magnified {} times; {}. Arrows that turn with the posture, alike at all reflectors, are the machine's; noise "
+      "would point anywhere.",
       render::factorText(*scenes.before.magnification), largestWords(one, &diagnosis::PointGap::before));
   const std::size_t drawn = scenes.before.poses.size(), all = one.identification.cases.size();
   if (drawn < all) {
@@ -430,8 +428,7 @@ reports::Figure describeGapAfter(const reports::ReportCampaign& one, const GapSc
   figure.id = "gap-after";
   figure.title = "What is left with the verdict's effects in the model";
   figure.caption = fmt::format(
-      "The same as the figure before, to the same scale ({} times), with {} in the model; {}. Where long "
-      "arrows stay, "
+      "The same as the figure before, to the same scale ({} times), with {} in the model; {}. Where long arrows stay, "
       "the verdict does not hold.",
       render::factorText(*scenes.after.magnification), reports::asIs(reports::namedWords(one.diagnosis->verdict)),
       largestWords(one, &diagnosis::PointGap::after));

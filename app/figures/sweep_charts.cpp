@@ -250,10 +250,8 @@ reports::Figure describeWristSphere(const reports::ReportCampaign& one) {
   figure.id = "wrist-sphere";
   figure.title = "Residuals of the wrist's spheres";
   figure.caption = fmt::format(
-      "{} readings of {} about one centre; rms {}. A line of means that stays at zero says that the wrist's "
-      "axes "
-      "meet in one point; one wave over the turn would be a wrong centre, waves that differ by reflector axes that "
-      "miss.",
+      "{} readings of {} about one centre; rms {}. A line of means that stays at zero says that the wrist's axes meet "
+      "in one point; one wave over the turn would be a wrong centre, waves that differ by reflector axes that miss.",
       one.campaign.wrist_sweep->rows.size(),
       wrist.table.size() == 1 ? "one reflector" : fmt::format("{} reflectors", wrist.table.size()),
       reports::shownLength(wrist.spheres.rms, 2));

@@ -30,6 +30,7 @@ AuditInput auditInput(const preparation::PreparedCampaign& prepared) {
   numerics::onAllCores(2, [&](std::size_t part) {
     if (part == 0) return solve();
     input.model = mistakes::findMistakes(input.campaign);
+    if (input.campaign.load_cell && input.campaign.states) input.zero = mistakes::cellZero(input.campaign);
     input.controller = mistakes::controllerAgreement(input.campaign, kControllerDigits);
   });
   return input;

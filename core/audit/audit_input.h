@@ -8,6 +8,7 @@
 #include "core/frames/arm_geometry.h"
 #include "core/frames/frames.h"
 #include "core/identification/loaded_arm.h"
+#include "core/mistakes/cell_zero.h"
 #include "core/mistakes/controller_agreement.h"
 #include "core/mistakes/find_mistakes.h"
 #include "core/preparation/prepare.h"
@@ -80,6 +81,7 @@ struct AuditInput {
   identification::LoadedArm arm = {};   ///< in the swept geometry, under `step`; no cases where there are none
   AbsoluteFit absolute = {};            ///< unloaded positions against forward kinematics
   mistakes::ModelAgreement model = {};  ///< of the day as a whole, and what would mend it
+  mistakes::CellZero zero = {};         ///< of the load cell, where there is one with states
   mistakes::ControllerAgreement controller = {};  ///< the controller's own poses against the URDF
 };
 

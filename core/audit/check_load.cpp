@@ -15,7 +15,6 @@
 #include "core/identification/identifiability.h"
 #include "core/identification/load_point.h"
 #include "core/identification/warnings.h"
-#include "core/mistakes/cell_zero.h"
 #include "core/mistakes/load_search.h"
 #include "core/numerics/distributions.h"
 #include "core/preparation/finding.h"
@@ -58,7 +57,7 @@ preparation::AuditCheck tareCheck(const AuditInput& input) {
   if (*check.value <= *check.limit && !one_off) return check;
   check.verdict = preparation::AuditVerdict::warn;
   check.where = preparation::atRow(input.campaign.states->file, worst_state->line);
-  const mistakes::CellZero zero = mistakes::cellZero(input.campaign);
+  const mistakes::CellZero& zero = input.zero;
   check.message = says({zero.drifts ? Remark(RemarkId::zero_drifts, zero.drift_force, zero.drift_moment, zero.hours)
                         : *check.value > *check.limit
                             ? Remark(RemarkId::not_tared)

@@ -8,7 +8,6 @@
 #include "core/audit/checks.h"
 #include "core/audit/limits.h"
 #include "core/audit/remarks.h"
-#include "core/mistakes/cell_zero.h"
 #include "core/mistakes/remarks.h"
 #include "core/numerics/distributions.h"
 #include "core/preparation/remarks.h"
@@ -189,8 +188,7 @@ DeclaredNoise judgeLoadCell(const AuditInput& input) {
     return judged;
   }
   const LoadPointFit lever = fitLoadPoint(campaign);
-  const mistakes::CellZero zero = mistakes::cellZero(campaign);
-  const NoiseSum unloaded{zero.chi2, zero.dof};
+  const NoiseSum unloaded{input.zero.chi2, input.zero.dof};
   NoiseSources at_once, day;
   at_once.add(unloaded, 0, Remark(RemarkId::unloaded_cell_shows), judged.evidence);
   if (lever.done) day.add({lever.chi2, lever.dof}, 0, Remark(RemarkId::lever_shows), judged.evidence);
@@ -257,7 +255,7 @@ std::vector<mistakes::Suspected> suspectedZero(const AuditInput& input) {
   std::vector<mistakes::Suspected> found;
   const campaign::Campaign& campaign = input.campaign;
   if (!campaign.load_cell || !campaign.states) return found;
-  const mistakes::CellZero zero = mistakes::cellZero(campaign);
+  const mistakes::CellZero& zero = input.zero;
   const auto add = [&](Remark remedy) {
     found.push_back({"not_tared",
                      Remark(mistakes::RemarkId::in_columns, std::string("fx_n to mz_nm"),

@@ -9,6 +9,7 @@
 #include "core/numerics/distributions.h"
 #include "core/preparation/finding.h"
 #include "core/robot/kinematics.h"
+#include "metrology/rigid_motion.h"
 
 namespace stiffscope::mistakes {
 
@@ -57,12 +58,6 @@ class Fit {
   double chi2_ = 0.0;
 };
 
-Eigen::Matrix3d cross(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
-  return m;
-}
-
 }  // namespace
 
 Eigen::Vector3d gravityInCell(const campaign::Campaign& campaign, const robot::Robot& robot,
@@ -105,7 +100,7 @@ CellZero cellZero(const campaign::Campaign& campaign) {
     if (timed) design.middleCols<kLine>(kConstant).diagonal().setConstant((state.time_s - (*first)->time_s) / span);
     const Eigen::Vector3d gravity = gravityInCell(campaign, campaign.robot, campaign.gravity_in_base, state.q);
     design.block<3, 1>(0, kConstant + kLine) = gravity;
-    design.block<3, 3>(3, kConstant + kLine + 1) = -cross(gravity);
+    design.block<3, 3>(3, kConstant + kLine + 1) = -metrology::crossMatrix(gravity);
     design = sigma.cwiseInverse().asDiagonal() * design;
     rows[i].shown = state.wrench_in_cell.cwiseQuotient(sigma);
     forces += state.wrench_in_cell.head<3>().squaredNorm();

@@ -128,8 +128,7 @@ std::string noiseWords(const reports::ReportCampaign& one) {
   }
   return fmt::format(
       "The tracker's noise alone keeps about {} of the deflection at P_{{wrist}}, and {} of that at the reflectors, "
-      "from "
-      "being compensated, by whatever model.",
+      "from being compensated, by whatever model.",
       reports::percent(*result.noise->at_wrist), at_targets);
 }
 
@@ -202,8 +201,7 @@ void writeTaken(Html& html, const reports::ReportContent& content, const reports
   if (!avoided.residual_is_noise) {
     words +=
         " What joint springs leave is more than noise, or not known to be noise: shares are of the apparent "
-        "compliance, "
-        "which holds what else gives as the joint does.";
+        "compliance, which holds what else gives as the joint does.";
   }
   html.paragraph(words, "faint");
 }

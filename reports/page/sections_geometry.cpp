@@ -49,8 +49,7 @@ std::string deflectionWords(const identification::Identification& result) {
   if (!result.finite_deflection) return "small deflections: K_{c} neglected, Jacobians at the unloaded posture";
   return fmt::format(
       "finite: K_{{c}} of the paper's (4) included (it changes the joint torques by {}), Jacobians at the middle of "
-      "the "
-      "displacement",
+      "the displacement",
       reports::percent(result.geometric_stiffness_share, 2));
 }
 

@@ -49,9 +49,8 @@ std::string figuresOf(const diagnosis::Diagnosis& diagnosis) {
   const auto entries = std::count_if(diagnosis.verdict.entries.begin(), diagnosis.verdict.entries.end(),
                                      [](const diagnosis::VerdictEntry& entry) { return !entry.effects.empty(); });
   return fmt::format(
-      "With {} in the model the gap falls from {} to {} rms per coordinate, {}; on postures that "
-      "took no part "
-      "it shrinks by {}\u00a0% (95\u00a0%: {}\u00a0%).",
+      "With {} in the model the gap falls from {} to {} rms per coordinate, {}; on postures that took no part it "
+      "shrinks by {}\u00a0% (95\u00a0%: {}\u00a0%).",
       entries > 1 ? "them" : "it", shown(diagnosis.gap.before), shown(diagnosis.gap.after), noise,
       reports::fixed(100.0 * diagnosis.shrink_together.value, placesOf(diagnosis.shrink_together)),
       interval(diagnosis.shrink_together));
@@ -325,11 +324,9 @@ void writeHidden(Html& html, const extended_model::ExtendedModel& model) {
   html.paragraph(
       "As fitted: of an effect's size in the model. Could hide: of all sizes that the data leave possible. Effects in "
       "common: negative where effects are known better together than one by one. U is taken from the interval that "
-      "holds "
-      "95\u00a0% of what the data leave possible: what could hide has longer tails than a normal distribution, not "
-      "alike "
-      "on both sides, so that U over u need not be 1.96. Where the interval itself stands for U there is none here "
-      "(–).",
+      "holds 95\u00a0% of what the data leave possible: what could hide has longer tails than a normal distribution, "
+      "not alike on both sides, so that U over u need not be 1.96. Where the interval itself stands for U there is "
+      "none here (–).",
       "faint");
   const identification::Method which = identification::bestMethod(model.with);
   std::vector<std::string> combinations;
@@ -388,11 +385,9 @@ void writeModel(Html& html, const extended_model::ExtendedModel& model, const di
   writeTable(html, residualTable(model));
   html.paragraph(
       "Every other number and picture of this page, diagnosis and audit aside, is of the model with the effects: what "
-      "they do is taken off the readings, "
-      "and stiffnesses are those of the joint springs beside them. Their own uncertainty is in every ±. Shares are of "
-      "the "
-      "machine's deflection, effects of the machine in it; the effects were fitted anew on the postures of every "
-      "subset.",
+      "they do is taken off the readings, and stiffnesses are those of the joint springs beside them. Their own "
+      "uncertainty is in every ±. Shares are of the machine's deflection, effects of the machine in it; the effects "
+      "were fitted anew on the postures of every subset.",
       "faint");
   writeHidden(html, model);
 }

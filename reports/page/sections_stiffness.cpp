@@ -208,8 +208,7 @@ std::string uncertaintyWords(const identification::Identification& result) {
   if (reports::hiddenIsHeld(result)) {
     return "± is the expanded uncertainty U, coverage about 95\u00a0%: the farther end of the interval that holds the "
            "scatter between postures, what they all share (frames, wrist radii, calibrated geometry), and what effects "
-           "in "
-           "the model or beside it could still do to each joint.";
+           "in the model or beside it could still do to each joint.";
   }
   std::vector<std::string> factors;
   for (const identification::Method method : identification::kMethods) {
@@ -230,10 +229,8 @@ std::string uncertaintyWords(const identification::Identification& result) {
   if (factors.empty()) return "Too few postures for an uncertainty.";
   return fmt::format(
       "± is the expanded uncertainty U = k u, coverage about 95\u00a0%, with the coverage factor k from Student's t, "
-      "joint by "
-      "joint: {}. The standard uncertainty u is from the scatter between postures and from what they all share: "
-      "frames, "
-      "wrist radii, calibrated geometry.",
+      "joint by joint: {}. The standard uncertainty u is from the scatter between postures and from what they all "
+      "share: frames, wrist radii, calibrated geometry.",
       fmt::join(factors, ", "));
 }
 

@@ -53,14 +53,10 @@ std::string wideIntervals(const identification::Identification& result,
                           const std::vector<identification::Method>& methods) {
   std::string text;
   const StiffnessUnit unit = stiffnessUnit(result);
-  constexpr double kWide =
-      0.2;  // relative half width: beyond it the two sides differ by a tenth of a standard deviation
   forEachSeen(
       result, methods, [&](identification::Method which, const identification::MethodResult& method, int joint) {
+        if (!farFromSymmetric(method.estimate, joint)) return;
         const identification::CoverageInterval compliance = identification::complianceInterval(method.estimate, joint);
-        if (!std::isfinite(compliance.low)) return;
-        const double c = method.estimate.compliance[joint];
-        if (compliance.high - c < kWide * std::abs(c)) return;
         const bool open = compliance.low <= 0.0 && compliance.high >= 0.0;
         text += fmt::format("  {} k{}: 95 % interval {}{}\n", namesOf(which).brief, joint + 1,
                             bounds(identification::stiffnessInterval(compliance), unit),
@@ -121,8 +117,7 @@ std::string stepsText(const identification::StepStudy& study, const identificati
   if (!text.empty()) {
     text += fmt::format(
         "  p: how often steps of equal stiffness would differ as much by chance; below 0.05 / {} the stiffness depends "
-        "on "
-        "the load\n",
+        "on the load\n",
         result.identifiability.joints.size());
   }
   return text;

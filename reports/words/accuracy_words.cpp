@@ -58,8 +58,12 @@ std::string errorWords(const calibration::ModelResult& model) {
   return fmt::format("{} rms ({} at most)", millimetres(errors.rms), millimetres(errors.largest));
 }
 
-std::string auditSentence(const ReportCampaign& one) {
-  return one.audit == nullptr ? std::string() : " " + auditMeaning(*one.audit, kindOf(one));
+/// With the audit's sentence: behind what was found, or before it where the audit refuses the day.
+std::string withAudit(const ReportCampaign& one, const std::string& found) {
+  if (one.audit == nullptr) return found;
+  const std::string meaning = auditMeaning(*one.audit, kindOf(one));
+  const bool refused = one.audit->verdict == preparation::AuditVerdict::fail;
+  return refused ? meaning + " " + found : found + " " + meaning;
 }
 
 /// What the verdict names, a geometry that is not the URDF's said for itself: it is nothing besides the geometry.
@@ -87,7 +91,7 @@ std::string causeSentence(const accuracy::AccuracyDiagnosis& accuracy) {
 std::string accuracyVerdict(const ReportCampaign& one) {
   const calibration::Calibration& calibration = one.accuracy->calibration;
   if (!calibration.reason.empty()) {
-    return fmt::format("The day could not be calibrated: {}.{}", asIs(words(calibration.reason)), auditSentence(one));
+    return withAudit(one, fmt::format("The day could not be calibrated: {}.", asIs(words(calibration.reason))));
   }
   const bool held_out = calibration.geometry().held_out.readings > 0;
   std::string text = fmt::format("In postures {} the nominal arm of the URDF misses the tracker by {}, ",
@@ -95,7 +99,7 @@ std::string accuracyVerdict(const ReportCampaign& one) {
                                  errorWords(calibration.of(CalibratedModel::nominal)));
   text += fmt::format("the calibrated geometry by {}", errorWords(calibration.geometry()));
   if (!calibration.best().fit.parts.empty()) text += fmt::format(", with effects {}", errorWords(calibration.best()));
-  return text + ". " + causeSentence(*one.accuracy) + auditSentence(one);
+  return withAudit(one, text + ". " + causeSentence(*one.accuracy));
 }
 
 double largestLinkDifference(const frames::Frames& frames) {
@@ -122,7 +126,7 @@ std::string sweepsVerdict(const ReportCampaign& one) {
     text += frames.wrist.measured ? "The wrist centre is found from its sweep."
                                   : fmt::format("The wrist centre is not found: {}.", words(frames.wrist.reason));
   }
-  return text + auditSentence(one);
+  return withAudit(one, text);
 }
 
 std::string accuracyFinding(const accuracy::AccuracyDiagnosis& accuracy) {
@@ -140,8 +144,7 @@ std::string accuracyFinding(const accuracy::AccuracyDiagnosis& accuracy) {
 
 std::string asReadWords() {
   return "The cause is looked for in the readings as they were read; accuracy, axes and places are of the readings "
-         "with "
-         "the station's motion taken off.";
+         "with the station's motion taken off.";
 }
 
 std::vector<std::string> accuracyMeanings(const accuracy::AccuracyDiagnosis& accuracy) {
@@ -201,8 +204,7 @@ std::vector<std::string> accuracyActions(const accuracy::AccuracyDiagnosis& accu
       const bool alone = effectIdsOf(calibration.best().fit).empty();
       add(fmt::format(
           "Put the calibrated geometry into the controller or the off-line program: `stiffscope calibrate` writes it "
-          "as "
-          "a URDF (`--urdf`) and as a table of axes (`--csv`){}.",
+          "as a URDF (`--urdf`) and as a table of axes (`--csv`){}.",
           alone ? ""
                 : ", for one that corrects for nothing else; one that corrects for the effects takes the axes fitted "
                   "with them, from the JSON"));

@@ -122,10 +122,9 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
       return "whether displacements are of the size that forces make (load size): measure `loading` or "
              "`displacements` under a known force";
     case audit::RemarkId::unknown_worth_of_readings:
-      return "what a reading under load is worth (one of repeatability, rigid tool, unloaded positions, "
-             "return to zero): read each state of `loading` twice or more, or several reflectors in each, and add a "
-             "last "
-             "step without load, which `displacements` may have, too";
+      return "what a reading under load is worth (one of repeatability, rigid tool, unloaded positions, return to "
+             "zero): read each state of `loading` twice or more, or several reflectors in each, and add a last step "
+             "without load, which `displacements` may have, too";
     case audit::RemarkId::unknown_load_cell:
       return "whether the load cell shows the load (one of tare, gravity direction, moment lever): state "
              "force_sigma_n and moment_sigma_nm, and write what the cell shows unloaded and its moments as they were "
@@ -195,8 +194,7 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
     case audit::RemarkId::noise_too_small:
       return fmt::format(
           "declared about {:.1f} times too small: of the declared noise show {}; every uncertainty stated from it is "
-          "too "
-          "small by as much",
+          "too small by as much",
           values.number(0), joined(values, 1, ", "));
     case audit::RemarkId::noise_explained:
       return fmt::format(
@@ -280,14 +278,12 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
                          more(values, 1));
     case audit::RemarkId::station_at_arm:
       return fmt::format(
-          "{}, by {} nests in common: where the arm was read its frame is known to {} and {:.1f} urad (one "
-          "sigma, "
-          "the largest of all directions), common to all that was read from it",
+          "{}, by {} nests in common: where the arm was read its frame is known to {} and {:.1f} urad (one sigma, the "
+          "largest of all directions), common to all that was read from it",
           values.name(0), values.count(1), lengthWords(values.number(2), 1), 1e6 * values.number(3));
     case audit::RemarkId::nest_read_apart:
       return fmt::format(
-          "; nest {} as {} read it stands {} from where the others put it, and is left out: it moved between "
-          "the "
+          "; nest {} as {} read it stands {} from where the others put it, and is left out: it moved between the "
           "stations",
           values.name(0), values.name(1), lengthWords(values.number(2), 0));
     case audit::RemarkId::reading_read_apart:
@@ -295,8 +291,7 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
                          values.name(1), values.name(2), values.count(0), lengthWords(values.number(3), 0));
     case audit::RemarkId::stations_not_mended:
       return "; leaving out single nests does not mend it: several moved between the stations, or a station drifted "
-             "while "
-             "its nests were read";
+             "while its nests were read";
     case audit::RemarkId::arc_known:
       return fmt::format(
           "axis {}: arc of {:.1f} deg; known to {:.1f} urad in direction and {} in place (one sigma), "
@@ -501,8 +496,7 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
     case audit::RemarkId::controller_states:
       return fmt::format(
           "the poses that the controller states in {} postures miss the URDF's by {:.3f} mm rms, at most {:.3f} mm, "
-          "its "
-          "tool and base frame fitted{}",
+          "its tool and base frame fitted{}",
           values.count(0), 1e3 * values.number(1), 1e3 * values.number(2), more(values, 3));
     case audit::RemarkId::poses_mended:
       return ": " + (values.count(0) == 1
@@ -511,8 +505,7 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
     case audit::RemarkId::turns_otherwise:
       return fmt::format(
           ": their points agree to {:.3f} mm, so pw_deg, pp_deg and pr_deg are no turns about the fixed x, y and z "
-          "axes "
-          "in this order",
+          "axes in this order",
           1e3 * values.number(0));
     case audit::RemarkId::poses_of_other_geometry:
       return fmt::format(

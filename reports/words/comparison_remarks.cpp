@@ -56,22 +56,18 @@ std::string comparisonWords(comparison::RemarkId id, const RemarkValues& values)
     case other_postures:
       return fmt::format(
           "only {} postures correspond, too few to solve both states from: the differences are of all postures of "
-          "each, "
-          "and what the model misses does not cancel in them but as far as the postures are the same; the "
-          "uncertainties "
-          "hold it as far as it scatters between postures",
+          "each, and what the model misses does not cancel in them but as far as the postures are the same; the "
+          "uncertainties hold it as far as it scatters between postures",
           values.count(0));
     case difference_above_noise:
       return fmt::format(
-          "changes of joint compliances leave {} per coordinate of the difference between the states, {:.0f} "
-          "times "
-          "the tracker's noise: something else changed too, and does not cancel",
+          "changes of joint compliances leave {} per coordinate of the difference between the states, {:.0f} times the "
+          "tracker's noise: something else changed too, and does not cancel",
           withMicro(lengthWords(values.number(0), 0)), values.number(0) / values.number(1));
     case geometry_of_other_postures:
       return fmt::format(
           "{} postures correspond, too few to compare on these alone: what the model misses does not cancel, and "
-          "counts "
-          "as scatter between postures in the uncertainties",
+          "counts as scatter between postures in the uncertainties",
           values.count(0));
     case effects_changed:
       return fmt::format(

@@ -131,10 +131,8 @@ std::string verdictWords(const Decision& one) {
 
 std::string decisionRuleWords() {
   return "Decision rule: guarded acceptance with a guard band of U (JCGM 106:2012, ISO 14253-1). A limit passes where "
-         "the "
-         "whole 95\u00a0% interval of the quantity, value\u00a0−\u00a0U to value\u00a0+\u00a0U, keeps it; so what lies "
-         "at its "
-         "limit passes in 2.5\u00a0% of such measurements at most. Everything else fails.";
+         "the whole 95\u00a0% interval of the quantity, value\u00a0−\u00a0U to value\u00a0+\u00a0U, keeps it; so what "
+         "lies at its limit passes in 2.5\u00a0% of such measurements at most. Everything else fails.";
 }
 
 std::string acceptanceSentence(const std::vector<std::vector<Decision>>& by_day) {

@@ -148,11 +148,9 @@ std::vector<std::string> scopeWords(DayKind kind, bool limits, bool hidden) {
           "noise and what the model leaves beyond it, readings of one posture erring together. The tracker's own "
           "scale, of which no reading tells, is not in it.",
           rule +
-              "An effect is in the model where it "
-              "predicts postures that took no part better than the model without it; errors that are named held out "
-              "are "
-              "of postures by which nothing was fitted or chosen. The errors are of these postures and reflectors: "
-              "elsewhere in the workspace they can be larger."};
+              "An effect is in the model where it predicts postures that took no part better than the model without "
+              "it; errors that are named held out are of postures by which nothing was fitted or chosen. The errors "
+              "are of these postures and reflectors: elsewhere in the workspace they can be larger."};
     case DayKind::sweeps:
       return {
           "Uncertainty: that of an axis is from the scatter of its reflectors about their circles, and where they "

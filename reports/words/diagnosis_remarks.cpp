@@ -89,9 +89,8 @@ std::string diagnosisWords(diagnosis::RemarkId id, const RemarkValues& values) {
              "body.";
     case moves_while_load_stands:
       return fmt::format(
-          "While a load stood the readings moved on by {} rms (t = {:.0f}): {} does not do that, and what "
-          "creeps "
-          "looks like it.",
+          "While a load stood the readings moved on by {} rms (t = {:.0f}): {} does not do that, and what creeps looks "
+          "like it.",
           lengthWords(values.number(1), 1), values.number(2), nameOfId(values.name(0)));
     case chi_square_significant:
       return fmt::format(
@@ -100,8 +99,7 @@ std::string diagnosisWords(diagnosis::RemarkId id, const RemarkValues& values) {
     case positions_scatter:
       return fmt::format(
           "Unloaded positions scatter little and yet more than noise: {:.2f} times its variance, by chance no more "
-          "than "
-          "{:.2f}.",
+          "than {:.2f}.",
           values.number(0), values.number(1));
     case floor_nests:
       return fmt::format("Floor nests: {}.", words(values.remark(0)));

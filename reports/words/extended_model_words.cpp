@@ -26,11 +26,9 @@ std::string explainedWords(const extended_model::EffectFit& effects) {
   const diagnosis::Gap& gap = effects.gap;
   const diagnosis::Shrink& shrink = effects.shrink;
   return fmt::format(
-      "Stiffnesses alone leave {0} rms per coordinate of the deflection in all load steps, {1} {2}; noise "
-      "alone "
-      "{3}. On postures held out the rms shrinks by {4:.{8}f} % ({5:.{8}f} to {6:.{8}f} %), and {7} % of what is above "
-      "the noise "
-      "is explained.",
+      "Stiffnesses alone leave {0} rms per coordinate of the deflection in all load steps, {1} {2}; noise alone {3}. "
+      "On postures held out the rms shrinks by {4:.{8}f} % ({5:.{8}f} to {6:.{8}f} %), and {7} % of what is above the "
+      "noise is explained.",
       withMicro(lengthWords(gap.before, 1)), "with the effects", withMicro(lengthWords(gap.after, 1)),
       withMicro(lengthWords(gap.noise, 1)), 100.0 * shrink.value, 100.0 * shrink.low, 100.0 * shrink.high,
       percentNumber(effects.explained, 0), placesThatTell(100.0 * shrink.low, 100.0 * shrink.high));

@@ -4,6 +4,8 @@
 #include <fmt/ranges.h>
 #include <algorithm>
 
+#include <cmath>
+
 #include "reports/words/fleet_words.h"
 #include "reports/words/numbers.h"
 #include "reports/words/remarks.h"
@@ -82,9 +84,12 @@ std::string fleetWords(fleet::RemarkId id, const RemarkValues& values) {
       return fmt::format("{} on {}, the last date, alone", idWords(values.names(0), " or "), values.name(1));
     case compliance_changed: {
       const double share = values.number(1);
-      return fmt::format("joint {} {} from {} on: compliance {}{} ± {} ({} after Holm, {} date{} from then on)",
-                         values.count(0), share > 0.0 ? "softer" : "stiffer", values.name(3), share > 0.0 ? "+" : "−",
-                         percent(std::abs(share)), percent(values.number(2)), holmWords(values.number(4)),
+      // Of a compliance that is not above its own U no share is known, only which way it went.
+      const std::string size = std::isfinite(share) ? fmt::format("compliance {}{} ± {}", share > 0.0 ? "+" : "−",
+                                                                  percent(std::abs(share)), percent(values.number(2)))
+                                                    : std::string("share not known");
+      return fmt::format("joint {} {} from {} on: {} ({} after Holm, {} date{} from then on)", values.count(0),
+                         share > 0.0 ? "softer" : "stiffer", values.name(3), size, holmWords(values.number(4)),
                          values.count(5), values.count(5) == 1 ? "" : "s");
     }
     case geometry_changed:

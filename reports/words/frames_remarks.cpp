@@ -26,14 +26,12 @@ std::string framesWords(frames::RemarkId id, const RemarkValues& values) {
              "postures, or turns about one direction only";
     case RemarkId::coupled_axes_not_settling:
       return "joints are coupled ('mimic' in the URDF), and the fit of all axes to the sweeps does not settle: "
-             "readings "
-             "and URDF contradict each other";
+             "readings and URDF contradict each other";
     case RemarkId::earlier_axis_not_known:
       return fmt::format("axis {} stood away from zero during its sweep and is not measured itself", values.count(0));
     case RemarkId::wrist_turns_arm:
       return "joints are coupled ('mimic' in the URDF), and one of the wrist's turns axes before the wrist, so that no "
-             "point "
-             "stands apart from it";
+             "point stands apart from it";
     case RemarkId::no_wrist_sweep:
       return "the campaign has no wrist sweep";
     case RemarkId::r0_not_in_frame_of_readings:
@@ -55,8 +53,10 @@ std::string framesWords(frames::RemarkId id, const RemarkValues& values) {
              "masses";
     case RemarkId::sag_allowed_for:
       return fmt::format(
-          "no stiffness is known of some joints, so the arm's own sag is left in; the uncertainties have what it does "
-          "where such a joint turns by {:.0f} mrad (one standard uncertainty) under the largest torque of the own "
+          "of some joints no stiffness is known, so the sag by them is left in; the uncertainties have what it does "
+          "where "
+          "such a joint turns by {:.0f} mrad (one standard uncertainty, a judgement) under the largest torque of the "
+          "own "
           "weight in the sweeps",
           1e3 * values.number(0));
     case RemarkId::no_unloaded_positions:

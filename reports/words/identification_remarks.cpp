@@ -55,8 +55,7 @@ std::string wristAxesApart(const RemarkValues& values) {
   }
   return fmt::format(
       "the wrist's axes do not meet in one point ({}): turning in joints {}-{} moves P_wrist by {:.1f} % of its "
-      "displacement, more "
-      "than the {:.0f} % that decoupling bears",
+      "displacement, more than the {:.0f} % that decoupling bears",
       apart, first, first + static_cast<std::int64_t>(misses.size()), 100.0 * values.number(1),
       100.0 * values.number(2));
 }
@@ -199,8 +198,7 @@ std::string identificationWords(identification::RemarkId id, const RemarkValues&
     case RemarkId::geometry_missed:
       return fmt::format(
           "the unloaded reflectors stand {:.0f} mm rms from where sweeps and joint angles put them: units, angles or "
-          "the "
-          "tracker's place are wrong in one of the tables",
+          "the tracker's place are wrong in one of the tables",
           values.number(0) / io::kMillimetre);
     case RemarkId::implausible_load:
       return implausibleWords({values.number(0), values.number(1)});
@@ -279,8 +277,7 @@ std::string identificationWords(identification::RemarkId id, const RemarkValues&
       const double low = values.number(5) / 1e6, high = values.number(6) / 1e6;
       return fmt::format(
           "k{} is known from {} as {:.4f} +- {:.4f} (standard uncertainty), but this day says {:.4f}, with 95 % {}; "
-          "all "
-          "in 1e6 Nm/rad: one of the two is wrong, or the machine changed. The day's own is used",
+          "all in 1e6 Nm/rad: one of the two is wrong, or the machine changed. The day's own is used",
           values.count(0), values.name(3), values.number(1) / 1e6, values.number(2) / 1e6, values.number(4) / 1e6,
           std::isfinite(low) && std::isfinite(high) ? fmt::format("from {:.4f} to {:.4f}", low, high)
                                                     : fmt::format("above {:.4f}", low));

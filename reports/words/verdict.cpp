@@ -162,14 +162,6 @@ std::vector<std::string> stiffnessVerdict(const std::vector<ReportCampaign>& cam
   return items;
 }
 
-/// Of a day that the audit refuses that is said before what was found, as of days with a load.
-std::string failureFirst(const ReportCampaign& one, const std::string& verdict) {
-  if (one.audit == nullptr || one.audit->verdict != preparation::AuditVerdict::fail) return verdict;
-  const std::string failure = auditMeaning(*one.audit, kindOf(one));
-  if (!verdict.ends_with(" " + failure)) return verdict;
-  return fmt::format("{} {}", failure, verdict.substr(0, verdict.size() - failure.size() - 1));
-}
-
 }  // namespace
 
 std::string diagnosisVerdict(const std::vector<ReportCampaign>& campaigns) {
@@ -186,14 +178,13 @@ std::vector<std::string> verdictItems(const std::vector<ReportCampaign>& campaig
     return (campaigns.size() > 1 ? asIs(one.campaign.name) + ": " : std::string()) + words;
   };
   for (const ReportCampaign& one : ofKind(campaigns, DayKind::unloaded))
-    items.push_back(named(one, failureFirst(one, accuracyVerdict(one))));
+    items.push_back(named(one, accuracyVerdict(one)));
   if (const std::vector<ReportCampaign> loaded = ofKind(campaigns, DayKind::loaded); !loaded.empty()) {
     std::vector<std::string> own = stiffnessVerdict(loaded, avoided);
     if (loaded.size() == 1) own.front() = named(loaded.front(), own.front());
     items.insert(items.end(), own.begin(), own.end());
   }
-  for (const ReportCampaign& one : ofKind(campaigns, DayKind::sweeps))
-    items.push_back(named(one, failureFirst(one, sweepsVerdict(one))));
+  for (const ReportCampaign& one : ofKind(campaigns, DayKind::sweeps)) items.push_back(named(one, sweepsVerdict(one)));
   return items;
 }
 

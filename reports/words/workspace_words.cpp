@@ -40,13 +40,11 @@ std::vector<std::string> workspaceNotes(const workspace::WorkspaceStiffness& fou
   if (found.held.empty()) {
     notes.emplace_back(
         "The model has nothing but joint springs, so what else gives (bearings across their axes, links, base) is in "
-        "no "
-        "number here, and intervals hold it only as far as those of the stiffnesses do.");
+        "no number here, and intervals hold it only as far as those of the stiffnesses do.");
   } else {
     notes.push_back(
         fmt::format("The whole model holds, besides the springs of the joints, what the day shows of {}. K_x is "
-                    "without that, and too "
-                    "stiff where it gives.",
+                    "without that, and too stiff where it gives.",
                     effectNames(found.held, ", ")));
   }
   if (!found.unknown.empty()) {

@@ -20,24 +20,25 @@ inline Ran runShell(const std::string& line, const std::filesystem::path& scratc
   return {WIFEXITED(raw) ? WEXITSTATUS(raw) : -1, contentsOf(out), contentsOf(err)};
 }
 
-/// Chromium without a window, with a profile of its own in `scratch`; its console goes to standard error.
-inline Ran runBrowser(const std::string& words, const std::filesystem::path& scratch) {
-  return runShell(
-      "timeout 60 chromium --headless --no-sandbox --disable-gpu --enable-unsafe-swiftshader --no-first-run "
-      "--hide-scrollbars "
-      "--disable-background-networking --enable-logging=stderr --user-data-dir='" +
-          (scratch / "profile").string() + "' " + words,
-      scratch);
+/// Chromium without a window, with a profile of its own in `scratch`.
+inline Ran runChromium(const std::string& options, const std::string& words, const std::filesystem::path& scratch) {
+  return runShell("timeout 100 chromium --headless --no-sandbox --enable-unsafe-swiftshader --no-first-run " + options +
+                      " --user-data-dir='" + (scratch / "profile").string() + "' " + words,
+                  scratch);
 }
 
-/// The same with WebGL by software, as long as a scene takes to come.
+/// Without WebGL where the machine has none for it; its console goes to standard error.
+inline Ran runBrowser(const std::string& words, const std::filesystem::path& scratch) {
+  return runChromium("--disable-gpu --hide-scrollbars --disable-background-networking --enable-logging=stderr", words,
+                     scratch);
+}
+
+/// With WebGL by software, as long as a scene takes to come.
 inline Ran runBrowserWithWebGl(const std::string& words, const std::filesystem::path& scratch) {
-  return runShell(
-      "timeout 100 chromium --headless --no-sandbox --no-first-run --use-gl=angle --use-angle=swiftshader "
-      "--enable-unsafe-swiftshader --ignore-gpu-blocklist --window-size=1400,1000 --virtual-time-budget=10000 "
-      "--user-data-dir='" +
-          (scratch / "profile-webgl").string() + "' " + words,
-      scratch);
+  return runChromium(
+      "--use-gl=angle --use-angle=swiftshader --ignore-gpu-blocklist --window-size=1400,1000 "
+      "--virtual-time-budget=10000",
+      words, scratch);
 }
 
 /// What a page wrote to the console, out of what the browser logs. The graphics driver says there what it did slowly,

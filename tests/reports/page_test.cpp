@@ -297,8 +297,7 @@ TEST(Page, TheTileCountsOnlyTrustedStiffnesses) {
   const std::string page = page::reportPage(contentOf(small));
   EXPECT_TRUE(has(page,
                   "<b>4 of 6</b><span>joint stiffnesses found by DPP, double encoders active; k<sub>4</sub> is not to "
-                  "be trusted and not "
-                  "counted</span>"));
+                  "be trusted and not counted</span>"));
   EXPECT_TRUE(has(page, "k<sub>4</sub> is not to be trusted."));  // the verdict's words
   small.method(identification::Method::decoupled_partial_pose).estimate.compliance[5] = -4e-6;
   EXPECT_TRUE(has(page::reportPage(contentOf(small)), "k<sub>4</sub>, k<sub>6</sub> are not to be trusted."));

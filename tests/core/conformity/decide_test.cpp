@@ -153,6 +153,12 @@ TEST(Decide, TheLargestDifferenceOfLinksIsNotThatOfTheLeastCertainOne) {
   EXPECT_NEAR(one.measured->value, 0.5e-3, 1e-12);
   EXPECT_NEAR(one.measured->interval.low, 0.5e-3 - 1.96 * 0.01e-3, 1e-8);
   EXPECT_NEAR(one.measured->interval.high, 0.1e-3 + 1.96 * 0.4e-3, 1e-7);
+  // Of sweeps whose uncertainties know nothing of the arm's own sag nothing is decided.
+  swept.sag_removed = false;
+  EXPECT_EQ(conformity::decide(limitsOn({Quantity::link_difference}), day).front().missing,
+            conformity::Missing::sag_left_in);
+  swept.sag_in_uncertainty = true;
+  EXPECT_TRUE(conformity::decide(limitsOn({Quantity::link_difference}), day).front().measured);
 }
 
 TEST(Decide, ErrorsOfPositionByTheTrackersNoise) {
