@@ -70,10 +70,14 @@ void drawSpikes(const std::string& file, const campaign::Campaign& campaign, con
   io::writeFileWhole(file, std::string_view(reinterpret_cast<const char*>(png.data()), png.size()));
 }
 
-/// The diagnosis with the stiffnesses that identify states: its subsets decide which method's are shown.
+/// The diagnosis with the stiffnesses that identify states: its subsets decide which method's are shown. Of a day that
+/// has nothing to identify from: what it lacks.
 diagnosis::Diagnosis diagnosed(const preparation::PreparedCampaign& prepared) {
-  if (!identification::whatLoadsLack(prepared.campaign).empty()) return diagnosis::diagnose(prepared);
-  return diagnosisOf(prepared, modelOf(prepared, {}, {}));
+  const Remark lacking = identification::whatLoadsLack(prepared.campaign);
+  if (lacking.empty()) return diagnosisOf(prepared, modelOf(prepared, {}, {}));
+  diagnosis::Diagnosis none(prepared.campaign.robot.joints());
+  none.unusable_reason = lacking;
+  return none;
 }
 
 int diagnoseWithSpikes(DiagnoseArguments& arguments) {

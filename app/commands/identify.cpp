@@ -8,10 +8,12 @@
 #include "app/options.h"
 #include "app/output.h"
 #include "app/prepared.h"
+#include "core/campaign/state_points.h"
 #include "core/extended_model/extended_model.h"
 #include "core/identification/geometric_stiffness_cost.h"
 #include "core/identification/held_out_loads.h"
 #include "core/identification/identify.h"
+#include "core/identification/load_case.h"
 #include "core/identification/load_dependence.h"
 #include "core/identification/posture_stiffness.h"
 #include "core/identification/remarks.h"
@@ -25,6 +27,7 @@
 #include "reports/json/json_document.h"
 #include "reports/text/text.h"
 #include "reports/words/preparation_words.h"
+#include "reports/words/remark_words.h"
 
 namespace stiffscope::app {
 
@@ -70,6 +73,24 @@ int identifyEncodersAlone(const preparation::PreparedCampaign& prepared, const O
   return result.transmission->measured() ? kDone : kNotUsable;
 }
 
+/// A day that has nothing to identify from: what is missing; in JSON method by method and joint by joint.
+int identifyNothing(const preparation::PreparedCampaign& prepared, const std::vector<identification::Method>& methods,
+                    const std::string& name, const Outlet& outlet) {
+  const campaign::Campaign& campaign = prepared.campaign;
+  const std::string lacking = reports::words(identification::whatLoadsLack(campaign));
+  outlet.deliver(
+      [&] {
+        const identification::Identification result = identification::framesAlone(campaign);
+        reports::JsonDocument document = reports::identificationJson(campaign, result, methods);
+        document.json = reports::withPreparation(std::move(document.json), prepared.preparation);
+        return document;
+      },
+      [&] { return campaign.name + ": no joint stiffness: " + lacking + "\n"; });
+  outlet.explain(name + ": " + lacking +
+                 (campaign::isUnloadedDay(campaign) ? "; `stiffscope calibrate` fits unloaded postures" : ""));
+  return kNotUsable;
+}
+
 }  // namespace
 
 int identifyCampaign(const IdentifyRequest& request, const CampaignSource& source, bool steps_shown,
@@ -79,7 +100,8 @@ int identifyCampaign(const IdentifyRequest& request, const CampaignSource& sourc
   const auto opened = source.open();
   const preparation::PreparedCampaign& prepared = *opened;
   if (encodersAlone(prepared.campaign)) return identifyEncodersAlone(prepared, outlet);
-  requireLoad(prepared.campaign);
+  if (!identification::whatLoadsLack(prepared.campaign).empty())
+    return identifyNothing(prepared, methods, source.name, outlet);
   mistakes::ModelAgreement agreement;
   std::optional<extended_model::ExtendedModel> improved;
   identification::Identification springs;
@@ -139,8 +161,9 @@ void addIdentify(CLI::App& app, Run& run) {
   const auto arguments = std::make_shared<IdentifyArguments>();
   CLI::App* command = app.add_subcommand("identify", "Joint stiffness by Complete, Partial and Decoupled Partial Pose");
   command->footer(
-      "Status 1 where no method gives a positive stiffness, or where the day contradicts the model so far that no "
-      "number\nserves: what would mend it is named, as audit has it.");
+      "Status 1 where no method gives a positive stiffness, as of a day without a load, or where the day contradicts "
+      "the\n"
+      "model so far that no number serves: what would mend it is named, as audit has it.");
   command->add_option("CAMPAIGN", arguments->campaign, "campaign folder or its campaign.xml")->required();
   command->add_option("--method", arguments->request.method, "cp, pp, dpp or all")->capture_default_str();
   command->add_option(

@@ -91,6 +91,41 @@ std::string classWords(const std::array<double, 3>& bounds, std::size_t k, const
   return fmt::format("{} to {} {}", number(bounds[k - 1]), number(bounds[k]), unit.name);
 }
 
+/// The places that are drawn: of many every second, third.. each way, so that an outline is as large as can be read.
+struct DrawnPlaces {
+  std::vector<const workspace::SlicePlace*> places;
+  double apart = 0.0;  ///< m
+};
+
+DrawnPlaces drawnPlaces(const workspace::StiffnessSlice& slice) {
+  constexpr std::size_t kMost = 64;  // half a centimetre each on paper
+  for (int every = 1;; ++every) {
+    // Of the grids so far apart the one with most places.
+    DrawnPlaces best;
+    for (int phase = 0; phase < every * every; ++phase) {
+      DrawnPlaces own{{}, every * slice.spacing};
+      for (const workspace::SlicePlace& one : slice.places) {
+        const long across = std::lround(one.radius / slice.spacing), up = std::lround(one.height / slice.spacing);
+        if ((across - phase % every) % every == 0 && (up - phase / every) % every == 0) own.places.push_back(&one);
+      }
+      if (phase == 0 || own.places.size() > best.places.size()) best = std::move(own);
+    }
+    if (best.places.size() <= kMost) return best;
+  }
+}
+
+/// How large compliances are drawn, metres of the plane by m/N: outlines do not touch, but where a few are more than
+/// twice as large as most, which would leave these too small to read.
+double outlineScale(const workspace::StiffnessSlice& slice, double apart) {
+  std::vector<double> sizes;
+  for (const workspace::SlicePlace& one : slice.places)
+    sizes.push_back(softestIn(inPlane(one.at.model, slice.outward)));
+  std::sort(sizes.begin(), sizes.end());
+  if (sizes.empty() || !(sizes.back() > 0.0)) return 0.0;
+  const double median = sizes[sizes.size() / 2], largest = sizes.back();
+  return 0.48 * apart / (median > 0.0 ? std::min(largest, 2.0 * median) : largest);
+}
+
 }  // namespace
 
 render::PointChart stiffnessSliceChart(const campaign::Campaign& campaign, const frames::Frames& frames,
@@ -103,24 +138,23 @@ render::PointChart stiffnessSliceChart(const campaign::Campaign& campaign, const
       fmt::format("{}; tool turned as in posture {}; {} from x_{{0}}", reports::asIs(campaign.name),
                   reports::asIs(slice.pose), fmt::format("{}°", reports::fixed(slice.azimuth / io::kDegree, 1)));
   render::ShapePanel panel;
-  double largest = 0.0;
   std::vector<double> stiffness;
   for (const workspace::SlicePlace& one : slice.places) {
     const double softest = softestIn(inPlane(one.at.model, slice.outward));
-    largest = std::max(largest, softest);
     if (softest > 0.0) stiffness.push_back(1.0 / (unit.size * softest));
   }
-  const double scale = largest > 0.0 ? 0.48 * slice.spacing / largest : 0.0;  // ellipses do not touch
+  const DrawnPlaces drawn = drawnPlaces(slice);
+  const double scale = outlineScale(slice, drawn.apart);
   render::PointSeries springs = outline("by joint springs alone (K_{x})", render::colours::kNone);
   std::vector<render::PointSeries> classes;
   const std::array<double, 3> bounds = stiffness.empty() ? std::array<double, 3>{} : classBounds(stiffness);
   for (std::size_t k = 0; k < kStiffnessColours.size(); ++k)
     classes.push_back(outline("softest " + classWords(bounds, k, unit), kStiffnessColours[k]));
-  for (const workspace::SlicePlace& one : slice.places) {
-    const Eigen::Matrix2d model = inPlane(one.at.model, slice.outward);
+  for (const workspace::SlicePlace* one : drawn.places) {
+    const Eigen::Matrix2d model = inPlane(one->at.model, slice.outward);
     const double softest = softestIn(model);
-    const render::PlotPoint centre{one.radius, one.height};
-    if (!found.held.empty()) addEllipse(inPlane(one.at.springs, slice.outward), centre, scale, springs.points);
+    const render::PlotPoint centre{one->radius, one->height};
+    if (!found.held.empty()) addEllipse(inPlane(one->at.springs, slice.outward), centre, scale, springs.points);
     const double own = softest > 0.0 ? 1.0 / (unit.size * softest) : 0.0;
     const auto k =
         static_cast<std::size_t>(std::count_if(bounds.begin(), bounds.end(), [&](double b) { return own >= b; }));
@@ -139,13 +173,13 @@ render::PointChart stiffnessSliceChart(const campaign::Campaign& campaign, const
     if (!one.points.empty()) panel.series.push_back(std::move(one));
   }
   centreInPicture(panel.series);
-  panel.scale_bar = slice.spacing;
-  const double move = scale > 0.0 ? slice.spacing / scale * 1000.0 : 0.0;  // by 1 kN, m
+  panel.scale_bar = drawn.apart;
+  const double move = scale > 0.0 ? drawn.apart / scale * 1000.0 : 0.0;  // by 1 kN, m
   // Of a soft arm a kilonewton is too much: the same by a tenth of it.
   const std::string words = unit.size < 1e6 ? fmt::format("{} by 100 N", reports::shownLength(0.1 * move, 3))
                                             : fmt::format("{} by 1 kN", reports::shownLength(move, 3));
   panel.scale_name =
-      fmt::format("{} mm; as a move of P_{{TCP}}: {}", reports::fixed(slice.spacing / io::kMillimetre, 0), words);
+      fmt::format("{} mm; as a move of P_{{TCP}}: {}", reports::fixed(drawn.apart / io::kMillimetre, 0), words);
   chart.shapes.push_back(std::move(panel));
   chart.note =
       "Each outline is where P_{TCP} moves under a force of one size in all directions of the plane. Places are within "
@@ -174,6 +208,7 @@ reports::Figure describeStiffnessSlice(const reports::ReportCampaign& one) {
       "Large outlines give much. In its softest direction of the plane P_{{TCP}} is between {} and {}\u00a0{} stiff "
       "over these {} places.",
       reports::significant(least, 2), reports::significant(most, 2), unit.name, found.slice.places.size());
+  figure.caption += drawnWords(found.slice.places.size(), drawnPlaces(found.slice).places.size(), "places");
   if (!found.held.empty())
     figure.caption += " Grey outlines are of the joint springs alone: what lies outside them is what else gives.";
   // What joint 1 moves is at right angles to the plane.

@@ -1,6 +1,7 @@
 #include "core/audit/audit_input.h"
 
 #include "core/audit/limits.h"
+#include "core/frames/geometry_calibration.h"
 #include "core/identification/method_solution.h"
 #include "core/numerics/parallel.h"
 #include "core/preparation/repeatability.h"
@@ -25,6 +26,11 @@ AuditInput auditInput(const preparation::PreparedCampaign& prepared) {
         input.frames.sag_removed ? frames::sagOf(input.frames, input.arm.geometry.compliance) : frames::SagModel();
     input.rigid = frames::rigidPoints(input.campaign, sag);
     input.absolute = fitAbsolutePositions(input.campaign, input.frames, input.arm.geometry, input.states, input.noise);
+    if (!input.step || !input.campaign.loading || input.arm.geometry.r0_from_loading) return;
+    const frames::GeometryCalibration found = frames::calibrateGeometry(input.campaign, input.arm.geometry);
+    input.not_calibrated = found.reason;
+    if (found.done)
+      input.arm = identification::loadedArm(input.campaign, found.geometry, input.frames.wrist, {*input.step});
   };
   // Neither asks what the other finds.
   numerics::onAllCores(2, [&](std::size_t part) {

@@ -78,10 +78,13 @@ struct AuditInput {
   std::optional<int> step = {};                    ///< heaviest load step
   frames::Frames frames = {};                      ///< corrected for the sag where possible
   frames::RigidPoints rigid = {};                  ///< the sweeps' readings, corrected for the sag where possible
-  identification::LoadedArm arm = {};   ///< in the swept geometry, under `step`; no cases where there are none
-  AbsoluteFit absolute = {};            ///< unloaded positions against forward kinematics
-  mistakes::ModelAgreement model = {};  ///< of the day as a whole, and what would mend it
-  mistakes::CellZero zero = {};         ///< of the load cell, where there is one with states
+  /// In the swept geometry, under `step`; where no sweep places the loading in Partial Pose's, which the unloaded
+  /// postures give; no cases where there are none.
+  identification::LoadedArm arm = {};
+  Remark not_calibrated = {};                     ///< why those do not either; empty where they were not asked
+  AbsoluteFit absolute = {};                      ///< unloaded positions against forward kinematics
+  mistakes::ModelAgreement model = {};            ///< of the day as a whole, and what would mend it
+  mistakes::CellZero zero = {};                   ///< of the load cell, where there is one with states
   mistakes::ControllerAgreement controller = {};  ///< the controller's own poses against the URDF
 };
 

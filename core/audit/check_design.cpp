@@ -10,6 +10,7 @@
 #include "core/identification/identifiability.h"
 #include "core/identification/load_case.h"
 #include "core/identification/partial_pose.h"
+#include "core/identification/remarks.h"
 
 namespace stiffscope::audit {
 
@@ -32,15 +33,17 @@ preparation::AuditCheck withoutCases(const AuditInput& input) {
   const campaign::Campaign& campaign = input.campaign;
   if (!everLoaded(campaign)) return preparation::notTestable("posture_set", Remark(MissingId::no_loads));
   const Remark lacking = identification::whatLoadsLack(campaign);
-  if (lacking.empty() && input.step && !input.frames.arm.points_placed) {
+  if (lacking.empty() && input.step && input.not_calibrated.empty() && !input.frames.arm.points_placed) {
     return preparation::notTestable("posture_set", Remark(MissingId::loading_not_in_r0));
   }
   preparation::AuditCheck check;
   check.id = "posture_set";
   check.verdict = preparation::AuditVerdict::fail;
   check.message = !lacking.empty() ? lacking
-                  : !input.step    ? Remark(MissingId::no_step_with_force)
-                                   : Remark(MissingId::no_posture_to_identify_from);
+                  : !input.not_calibrated.empty()
+                      ? Remark(identification::RemarkId::geometry_not_calibrated, input.not_calibrated)
+                  : !input.step ? Remark(MissingId::no_step_with_force)
+                                : Remark(MissingId::no_posture_to_identify_from);
   return check;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/campaign/columns.h"
+#include "core/campaign/iso_date.h"
 #include "core/campaign/joint_reading.h"
 #include "core/io/input_error.h"
 #include "core/io/units.h"
@@ -381,6 +382,10 @@ CampaignXml readCampaignElements(const io::XmlNode& root, const std::vector<std:
   CampaignXml xml;
   xml.campaign.name = root.requiredAttribute("name");
   xml.campaign.date = root.requiredAttribute("date");
+  if (!xml.campaign.date.empty() && !beginsWithIsoDate(xml.campaign.date))
+    warnings.push_back(root.warning("date", xml.campaign.date,
+                                    "expected a date such as 2026-11-21; kept as text: `fleet` cannot put it in order, "
+                                    "and no certificate takes it"));
   readSections(root, xml, warnings);
   return xml;
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <sstream>
 
+#include "core/campaign/iso_date.h"
 #include "core/io/input_error.h"
 #include "core/io/read_file.h"
 #include "core/io/xml.h"
@@ -18,15 +19,6 @@ bool isCode(const std::string& text, char first, char last) {
   return text.size() == 2 && std::all_of(text.begin(), text.end(), [&](char c) { return c >= first && c <= last; });
 }
 
-/// YYYY-MM-DD with a month and a day that there are.
-bool isDate(const std::string& text) {
-  if (text.size() != 10 || text[4] != '-' || text[7] != '-') return false;
-  for (const std::size_t i : {0, 1, 2, 3, 5, 6, 8, 9})
-    if (text[i] < '0' || text[i] > '9') return false;
-  const int month = std::stoi(text.substr(5, 2)), day = std::stoi(text.substr(8, 2));
-  return month >= 1 && month <= 12 && day >= 1 && day <= 31;
-}
-
 std::string textOf(const io::XmlNode& node, const char* attribute) { return node.attribute(attribute).value_or(""); }
 
 std::string countryOf(const io::XmlNode& node) {
@@ -38,7 +30,7 @@ std::string countryOf(const io::XmlNode& node) {
 
 std::string dateOf(const io::XmlNode& node, const char* attribute) {
   const std::string date = textOf(node, attribute);
-  if (!date.empty() && !isDate(date)) node.refuse(attribute, date, "expected a date such as 2026-11-21");
+  if (!date.empty() && !isIsoDate(date)) node.refuse(attribute, date, "expected a date such as 2026-11-21");
   return date;
 }
 
@@ -79,6 +71,10 @@ void readElement(const io::XmlNode& node, Certificate& certificate, std::vector<
   if (node.has("begin")) certificate.begin = dateOf(node, "begin");
   if (node.has("end")) certificate.end = dateOf(node, "end");
   certificate.issued = dateOf(node, "issued");
+  if (!certificate.begin.empty() && !certificate.end.empty() && certificate.end < certificate.begin)
+    node.refuse(node.has("end") ? "end" : "begin", node.has("end") ? certificate.end : certificate.begin,
+                "expected the end of the calibration on its beginning or after it; it is from " + certificate.begin +
+                    " to " + certificate.end);
   certificate.place = textOf(node, "place");
   const std::vector<std::string> places(kPlaces.begin(), kPlaces.end());
   if (!certificate.place.empty() && std::find(places.begin(), places.end(), certificate.place) == places.end())
@@ -125,7 +121,7 @@ Certificate readCertificate(const Campaign& campaign, std::vector<std::string>& 
   certificate.laboratory.name = campaign.texts.laboratory;
   certificate.customer.name = campaign.texts.customer;
   certificate.item = campaign.texts.item.empty() ? campaign.robot.name : campaign.texts.item;
-  if (isDate(campaign.date)) certificate.begin = certificate.end = campaign.date;
+  if (isIsoDate(campaign.date)) certificate.begin = certificate.end = campaign.date;
   const std::filesystem::path file = campaign.folder / campaign.inputs.front().name;
   const std::string bytes = io::readTextFile(file);
   const io::XmlFile xml(file.string(), bytes);

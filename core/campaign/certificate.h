@@ -31,8 +31,8 @@ struct Certificate {
   std::vector<std::string> missing() const;
 };
 
-/// Reads it from the campaign's XML file. Throws InputError for a country, language, date or place that is none;
-/// unknown attributes go to `warnings`.
+/// Reads it from the campaign's XML file. Throws InputError for a country, language, date or place that is none, and
+/// for an end before the beginning; unknown attributes go to `warnings`.
 Certificate readCertificate(const Campaign& campaign, std::vector<std::string>& warnings);
 
 }  // namespace stiffscope::campaign

@@ -180,7 +180,7 @@ class Diagnoser {
     result_.noise_factor_across = start_.noise.across_factor;
     result_.significance_limit = fit_.rules.detect;
     result_.size_limit = sizeOfDrop(fit_, fit_.rules.least_drop);
-    result_.lack_of_fit = (alone_.projection.chi2_none - fit_.rules.other_rows) / fit_.rules.loading_rows;
+    result_.lack_of_fit = alone_.left_before.perEquation();
     result_.left_over = leftPerEquation(fit_);
     result_.left_over_limit = fit_.left_limit;
     result_.model_error = fit_.model_error;
@@ -215,7 +215,7 @@ class Diagnoser {
 
   void stiffnesses() {
     Eigen::VectorXd variance = complianceVariance(fit_, input_);
-    const double scale = std::max(1.0, result_.left_over);
+    const double scale = varianceFactor(fit_);
     for (Eigen::Index j = 0; j < variance.size(); ++j) {
       const double before = before_.for_deflection[j], after = fit_.nuisances[j];
       const double sd = std::sqrt(scale * std::max(0.0, variance[j]));

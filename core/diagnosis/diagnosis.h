@@ -148,7 +148,7 @@ struct Diagnosis {
   double noise_factor_along = 1.0, noise_factor_across = 1.0;  ///< found against declared
   double significance_limit = 0.0;  ///< least fall of BIC that counts: 20, or more where chance reaches more in 1 %
   double size_limit = 0.0;          ///< below it an effect is too small to matter, m
-  double lack_of_fit = 0.0;         ///< chi2 per equation of the loading without any effect
+  double lack_of_fit = 0.0;         ///< chi2 per degree of freedom of the loading without any effect
   double left_over = 0.0;           ///< the same with the effects that the fit chose
   double left_over_limit = 0.0;     ///< what chance makes of it
   double model_error = 0.0;         ///< rms per coordinate that no effect explains, at the largest load, m; 0: none

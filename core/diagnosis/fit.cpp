@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/diagnosis/geometry_columns.h"
 #include "core/diagnosis/projection.h"
 #include "core/diagnosis/selection.h"
 #include "metrology/linear_algebra.h"
@@ -69,14 +70,43 @@ JointVector complianceVariance(const GapFit& fit, const SystemInput& input) {
   return variance;
 }
 
+double varianceFactor(const GapFit& fit) {
+  return std::max(1.0, (fit.set.chi2 - fit.rules.other_rows) / fit.rules.loading_rows);
+}
+
 Selector selectorOf(const SystemInput& input, const GapFit& fit, const Projection& projection, double postures,
                     const std::vector<bool>& allowed) {
   return Selector(input.models, fit.data.layout, projection, postures, fit.rules, allowed);
 }
 
-double leftPerEquation(const GapFit& fit) { return (fit.set.chi2 - fit.rules.other_rows) / fit.rules.loading_rows; }
-
 namespace {
+
+/// `normal`: all normal equations; effects that are zero take no degree of freedom.
+LoadingResidual residualOfLoading(const SystemInput& input, const LinearSystem& data, const Eigen::MatrixXd& normal,
+                                  const Eigen::VectorXd& nuisances, const Eigen::VectorXd& effects) {
+  const GapLayout& layout = data.layout;
+  const Eigen::MatrixXd loading = normal - data.sweeps;
+  Eigen::VectorXd both(layout.end + 1);
+  both << nuisances, effects, -1.0;
+  Eigen::VectorXd prior = Eigen::VectorXd::Zero(layout.end);
+  for (std::size_t m = 0; m < input.models.size(); ++m) {
+    Eigen::Index at = layout.model_at[m];
+    for (const effects::EffectPart& part : input.models[m].parts) {
+      for (const double most : part.most) prior[at++] = 1.0 / (most * most);
+    }
+  }
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index i = 0; i < layout.end; ++i) {
+    if (normal(i, i) > 0.0 && (i < layout.effects || effects[i - layout.effects] != 0.0)) free.push_back(i);
+  }
+  Eigen::MatrixXd matrix = normal(free, free);
+  matrix.diagonal() += prior(free);
+  const Eigen::VectorXd scale = matrix.diagonal().cwiseSqrt().cwiseInverse();
+  matrix = scale.asDiagonal() * matrix * scale.asDiagonal();
+  matrix.diagonal().setConstant(1.0 + 1e-12);
+  const Eigen::MatrixXd taken = solveSymmetric(matrix, scale.asDiagonal() * loading(free, free) * scale.asDiagonal());
+  return {both.dot(loading * both), std::max(1.0, static_cast<double>(data.loading_rows) - taken.trace())};
+}
 
 using ModelsAndParts = std::vector<std::pair<std::size_t, std::vector<std::size_t>>>;
 
@@ -90,33 +120,68 @@ ModelsAndParts namesOf(const FittedSet& set) {
 void fitOnce(const SystemInput& input, const std::vector<bool>& allowed, const FitRules& rules, GapFit& fit) {
   fit.rules = rulesFor(fit.data, rules);
   fit.rules.given = rules.given;
+  fit.rules.loaded = input.expected.known;
   // A large effect bends what the others are judged by: it is settled before a second one is looked for.
   if (fit.rounds <= kAlone) fit.rules.most_effects = 1;
-  fit.projection = project(sumOf(fit.data, ones(fit.data)), fit.data.layout);
+  const Eigen::MatrixXd normal = sumOf(fit.data, ones(fit.data));
+  fit.projection = project(normal, fit.data.layout);
   const double postures = static_cast<double>(fit.data.postures.size());
   const Selector selector = selectorOf(input, fit, fit.projection, postures, allowed);
   fit.set = rules.fixed ? selector.fit(*rules.fixed) : selector.select();
   fit.nuisances_before = fit.projection.by_nothing;
   fit.nuisances = fit.projection.by_nothing - fit.projection.by_effects * fit.set.effects;
+  fit.left = residualOfLoading(input, fit.data, normal, fit.nuisances, fit.set.effects);
+  fit.left_before =
+      residualOfLoading(input, fit.data, normal, fit.nuisances_before, Eigen::VectorXd::Zero(fit.set.effects.size()));
+}
+
+/// How far the shapes in the set are from where its equations were made, and where that is: logarithms.
+struct Shapes {
+  double farthest = 0.0, at = 0.0;
+
+  /// chi2 says late that they stand: a long step fits the readings as well, and no other load. One that is held at its
+  /// bound stands, too.
+  bool stand(const Shapes& before) const {
+    constexpr double kShort = 0.05;
+    return farthest < kShort || std::abs(at - before.at) < kShort;
+  }
+};
+
+Shapes shapesOf(const SystemInput& input, const GapFit& fit) {
+  Shapes shapes;
+  for (const ChosenModel& one : fit.set.models) {
+    const effects::EffectModel& model = input.models[one.model];
+    Eigen::Index at = fit.data.layout.model_at[one.model] - fit.data.layout.effects;
+    for (const effects::EffectPart& part : model.parts) {
+      if (part.is_shape) {
+        shapes.farthest = std::max(shapes.farthest, std::abs(fit.set.effects[at]));
+        shapes.at += std::log(model.shapeAt(fit.state.at));
+      }
+      at += static_cast<Eigen::Index>(part.most.size());
+    }
+  }
+  return shapes;
 }
 
 /// The equations where the fit stands, the ones it had let go first.
-void remake(const SystemInput& input, const ContainedEffects& contained, GapFit& fit, Weighed weighed = Weighed::once) {
+void remake(const SystemInput& input, const ContainedEffects& contained, GeometryColumns& by_geometry, GapFit& fit,
+            Weighed weighed = Weighed::once) {
   fit.data = {};
-  fit.data = linearSystem(input, fit.state, contained, weighed);
+  fit.data = linearSystem(input, fit.state, contained, by_geometry, weighed);
 }
 
 GapFit settle(const SystemInput& input, const SystemState& start, const std::vector<bool>& allowed,
-              const FitRules& rules) {
+              const FitRules& rules, GeometryColumns& by_geometry) {
   GapFit fit, best;  // the best without its equations, of which a long day has many: they can be made again
   fit.state = start;
   ContainedEffects contained, best_contained;
   ModelsAndParts last;
   double last_chi2 = 0.0;
+  Shapes last_shapes;
   constexpr int kMostRounds = 9;
   for (fit.rounds = 1; fit.rounds <= kMostRounds; ++fit.rounds) {
     const bool inflates = input.absolute && fit.rounds > kAlone;
-    remake(input, contained, fit, inflates ? Weighed::again : Weighed::once);
+    remake(input, contained, by_geometry, fit, inflates ? Weighed::again : Weighed::once);
     if (inflates) {
       const SystemState before = fit.state;
       estimateInflation(input, fit.data, fit.state);
@@ -128,11 +193,17 @@ GapFit settle(const SystemInput& input, const SystemState& start, const std::vec
     fitOnce(input, allowed, rules, fit);
     const ModelsAndParts now = namesOf(fit.set);
     constexpr double kSettled = 0.003;  // of chi2: far below what a verdict turns on
-    const bool settled = now == last && std::abs(fit.set.chi2 - last_chi2) < kSettled * fit.set.chi2;
-    if (fit.rounds >= kAlone + 2 && settled) return fit;
+    const Shapes shapes = shapesOf(input, fit);
+    const bool stand = !rules.fixed || (fit.rounds > kAlone && shapes.stand(last_shapes));
+    const bool settled = now == last && std::abs(fit.set.chi2 - last_chi2) < kSettled * fit.set.chi2 && stand;
     last = now;
     last_chi2 = fit.set.chi2;
-    if (best.rounds == 0 || fit.set.score() < best.set.score()) {
+    last_shapes = shapes;
+    // Where sets are chosen, rounds may settle at one where a round before had seen more.
+    const bool as_good = rules.fixed || best.rounds == 0 || fit.set.score() < (1.0 + kSettled) * best.set.score();
+    if (fit.rounds >= kAlone + 2 && settled && as_good) return fit;
+    // Of the first ones the equations do not yet contain what they find.
+    if (fit.rounds > kAlone && (best.rounds == 0 || !stand || fit.set.score() < best.set.score())) {
       LinearSystem data = std::move(fit.data);
       best = fit;
       best_contained = contained;
@@ -142,21 +213,22 @@ GapFit settle(const SystemInput& input, const SystemState& start, const std::vec
     contained = correct(input, fit.data.layout, fit.set, fit.nuisances, fit.state);
   }
   fit.data = {};
-  remake(input, best_contained, best);
+  remake(input, best_contained, by_geometry, best);
   return best;
 }
 
 /// The chosen set at the minimum of the nonlinear problem, where that is lower than what relinearising came
 /// to.
-void polish(const SystemInput& input, const std::vector<bool>& allowed, const FitRules& rules, GapFit& fit) {
-  const auto fitted = fitJointly(input, fit.state, fit.data.layout, fit.set, fit.nuisances);
+void polish(const SystemInput& input, const std::vector<bool>& allowed, const FitRules& rules,
+            GeometryColumns& by_geometry, GapFit& fit) {
+  const auto fitted = fitJointly(input, fit.state, fit.data.layout, fit.set, fit.nuisances, by_geometry);
   if (!fitted) return;
   FitRules same = rules;
   same.fixed = fit.set.models;
   GapFit finer;
   finer.state = fitted->state;
   finer.rounds = fit.rounds + 1;
-  remake(input, fitted->contained, finer);
+  remake(input, fitted->contained, by_geometry, finer);
   fitOnce(input, allowed, same, finer);
   if (finer.set.chi2 >= fit.set.chi2 || !finer.set.plausible) return;
   finer.model_error = fit.model_error;
@@ -174,33 +246,33 @@ GapFit withoutEffects(const SystemInput& input, const SystemState& start, const 
   alone.state.position_inflation = fit.state.position_inflation;
   alone.state.sweep_inflation = fit.state.sweep_inflation;
   alone.state.model_error = fit.state.model_error;
-  alone.data = linearSystem(bare, alone.state, {});
-  alone.projection = project(sumOf(alone.data, ones(alone.data)), alone.data.layout);
+  GeometryColumns own;
+  alone.data = linearSystem(bare, alone.state, {}, fit.by_geometry ? *fit.by_geometry : own);
+  const Eigen::MatrixXd normal = sumOf(alone.data, ones(alone.data));
+  alone.projection = project(normal, alone.data.layout);
   alone.nuisances = alone.nuisances_before = alone.projection.by_nothing;
+  alone.left = alone.left_before = residualOfLoading(bare, alone.data, normal, alone.nuisances, Eigen::VectorXd());
   return alone;
 }
 
 GapFit fitGap(const SystemInput& input, const SystemState& start, const std::vector<bool>& allowed,
               const FitRules& rules) {
-  GapFit fit = settle(input, start, allowed, rules);
-  if (!rules.error_of_model) {
-    polish(input, allowed, rules, fit);
-    fit.left_limit = limitOfLeft(fit, rules);
-    return fit;
-  }
+  const auto by_geometry = std::make_shared<GeometryColumns>();
+  GapFit fit = settle(input, start, allowed, rules, *by_geometry);
   SystemState with_error = start;
   constexpr int kRounds = 3;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kRounds && rules.error_of_model; ++round) {
     fit.model_error = modelError(fit, rules);
     // What no effect explains is noise to every effect from here on, and stays the same however often it is
     // measured.
     if (std::abs(fit.model_error - with_error.model_error) < 0.02 * fit.model_error || fit.model_error == 0.0) break;
     with_error.model_error = fit.model_error;
     fit = {};
-    fit = settle(input, with_error, allowed, rules);
+    fit = settle(input, with_error, allowed, rules, *by_geometry);
   }
-  polish(input, allowed, rules, fit);
-  fit.model_error = modelError(fit, rules);
+  polish(input, allowed, rules, *by_geometry, fit);
+  if (rules.error_of_model) fit.model_error = modelError(fit, rules);
+  fit.by_geometry = by_geometry;
   fit.left_limit = limitOfLeft(fit, rules);
   return fit;
 }
@@ -228,8 +300,8 @@ double leftAtLargestLoad(const GapFit& fit) {
 
 double limitOfLeft(const GapFit& fit, const FitRules& rules) {
   constexpr double kSigmas = 4.0;
-  return 1.0 + kSigmas * std::sqrt(2.0 / fit.rules.loading_rows +
-                                   (rules.noise_degrees > 0.0 ? 2.0 / rules.noise_degrees : 0.0));
+  return 1.0 +
+         kSigmas * std::sqrt(2.0 / fit.left.freedom + (rules.noise_degrees > 0.0 ? 2.0 / rules.noise_degrees : 0.0));
 }
 
 double modelError(const GapFit& fit, const FitRules& rules) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "core/diagnosis/linear_system.h"
@@ -10,6 +11,15 @@ namespace stiffscope::diagnosis {
 /// Variance factors of the absolute positions (`state.position_inflation`, `sweep_inflation`), from what the largest
 /// model, all effects at once within their bounds, leaves of them. Never below 1.
 void estimateInflation(const SystemInput& input, const LinearSystem& data, SystemState& state);
+
+/// What a fit leaves of the loading's equations, in parts of their noise. Sweeps and what is known beforehand are
+/// fitted together with them: of the parameters the loading pays for the share that it determines itself.
+struct LoadingResidual {
+  double chi2 = 0.0;
+  double freedom = 1.0;  ///< equations less that share, tr N_L N^-1 with N_L of all normal equations N; one at least
+
+  double perEquation() const { return chi2 / freedom; }
+};
 
 /// The gap with its effects, linearised where the best set of them stands.
 struct GapFit {
@@ -22,8 +32,11 @@ struct GapFit {
   Eigen::VectorXd nuisances_before;  ///< without any effect
   double model_error =
       0.0;  ///< rms per coordinate that the set leaves at the largest load beyond noise, m; 0: within it
+  LoadingResidual left, left_before;  ///< with the set in the model; without any effect
   double left_limit = 0.0;  ///< of chi2 per equation (leftPerEquation): beyond it four standard deviations of chance
   int rounds = 0;
+  /// Of the places where the fit began and where it ended, for those who make equations there again; may be null.
+  std::shared_ptr<GeometryColumns> by_geometry;
 };
 
 struct FitRules {
@@ -50,8 +63,16 @@ GapFit fitGap(const SystemInput& input, const SystemState& start, const std::vec
 /// not a machine without the effect. Weighted as `fit` is.
 GapFit withoutEffects(const SystemInput& input, const SystemState& start, const GapFit& fit);
 
-/// chi2 of the loading per equation that the set leaves.
-double leftPerEquation(const GapFit& fit);
+/// chi2 of the loading per degree of freedom that the set leaves: 1 where it is noise.
+inline double leftPerEquation(const GapFit& fit) { return fit.left.perEquation(); }
+
+/// By what variances are widened where more than noise is left: chi2 per equation of the loading, at least 1, with the
+/// sweeps' deviation from theirs in it and no parameters taken off, as the selection has it (Selector::misfit).
+double varianceFactor(const GapFit& fit);
+
+/// Whether deflections stay that no effect explains: beyond chance (left_limit), and large enough to matter. A verdict
+/// then says `unknown`, and identification that its values are apparent ones.
+inline bool leavesUnexplained(const GapFit& fit) { return fit.model_error > 0.0; }
 
 /// Variances of the compliances with the set in the model, by the noise alone.
 JointVector complianceVariance(const GapFit& fit, const SystemInput& input);
@@ -87,6 +108,7 @@ struct JointlyFitted {
 /// only where it really lowers chi2; their columns are the Jacobian. Empty where no effect of the set is
 /// bilinear, where friction or play is in it, or where nothing better was found.
 std::optional<JointlyFitted> fitJointly(const SystemInput& input, const SystemState& from, const GapLayout& layout,
-                                        const FittedSet& set, const Eigen::VectorXd& nuisances);
+                                        const FittedSet& set, const Eigen::VectorXd& nuisances,
+                                        GeometryColumns& by_geometry);
 
 }  // namespace stiffscope::diagnosis

@@ -103,8 +103,14 @@ Eigen::MatrixXd rootOf(const Eigen::MatrixXd& normal) {
 
 class GapCost : public ceres::CostFunction {
  public:
-  GapCost(const SystemInput& input, const SystemState& from, const GapLayout& layout, const FittedSet& set)
-      : input_(input), from_(from), layout_(layout), set_(set), unknowns_(unknownsOf(input, layout, set)) {
+  GapCost(const SystemInput& input, const SystemState& from, const GapLayout& layout, const FittedSet& set,
+          GeometryColumns& by_geometry)
+      : input_(input),
+        from_(from),
+        layout_(layout),
+        set_(set),
+        by_geometry_(by_geometry),
+        unknowns_(unknownsOf(input, layout, set)) {
     mutable_parameter_block_sizes()->push_back(static_cast<int>(unknowns_.at.size()));
     set_num_residuals(static_cast<int>(unknowns_.at.size()) + 1);
   }
@@ -151,7 +157,7 @@ class GapCost : public ceres::CostFunction {
   bool makeAt(const double* x) const {
     Eigen::VectorXd there;
     const JointlyFitted moved = moveTo(x, there);
-    const LinearSystem data = linearSystem(input_, moved.state, moved.contained);
+    const LinearSystem data = linearSystem(input_, moved.state, moved.contained, by_geometry_);
     std::vector<Index> kept = unknowns_.at;
     kept.push_back(layout_.end);
     Eigen::MatrixXd normal = sumOf(data, std::vector<double>(data.postures.size(), 1.0))(kept, kept);
@@ -167,6 +173,7 @@ class GapCost : public ceres::CostFunction {
   const SystemState& from_;
   const GapLayout& layout_;
   const FittedSet& set_;
+  GeometryColumns& by_geometry_;
   Unknowns unknowns_;
   mutable Eigen::VectorXd last_x_, residual_;
   mutable Eigen::MatrixXd jacobian_;
@@ -175,7 +182,8 @@ class GapCost : public ceres::CostFunction {
 }  // namespace
 
 std::optional<JointlyFitted> fitJointly(const SystemInput& input, const SystemState& from, const GapLayout& layout,
-                                        const FittedSet& set, const Eigen::VectorXd& nuisances) {
+                                        const FittedSet& set, const Eigen::VectorXd& nuisances,
+                                        GeometryColumns& by_geometry) {
   bool bilinear = false;
   for (const ChosenModel& one : set.models) {
     // Friction and play bend in corners, where a trust region shrinks to nothing.
@@ -183,7 +191,7 @@ std::optional<JointlyFitted> fitJointly(const SystemInput& input, const SystemSt
     bilinear = bilinear || isBilinear(input.models[one.model]);
   }
   if (!bilinear) return std::nullopt;
-  GapCost cost(input, from, layout, set);
+  GapCost cost(input, from, layout, set, by_geometry);
   const Unknowns& unknowns = cost.unknowns();
   Eigen::VectorXd all(layout.end);
   all << nuisances, set.effects;

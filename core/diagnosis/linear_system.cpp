@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "core/diagnosis/geometry_columns.h"
 #include "core/effects/gravity_equilibrium.h"
 #include "core/frames/arm_parameters.h"
 #include "core/identification/load_case.h"
@@ -35,8 +36,9 @@ void addPriors(const SystemInput& input, LinearSystem& data);
 
 /// Adds the equations of every posture of the loading to `data`: y = A c + geometry + own weights + effects +
 /// noise for the unloaded absolute positions (where they take part) and the displacements, unwhitened. Fills
-/// `loading_rows`.
+/// `loading_rows`. `by_geometry`: columns of the geometry, of each posture.
 void addPostureEquations(const SystemInput& input, const SystemState& state, const ContainedEffects& effects_now,
+                         std::vector<SystemRows> rows, const std::vector<Eigen::MatrixXd>& by_geometry,
                          LinearSystem& data);
 
 /// Whitens each posture by its own covariance: fills `normal` and what else follows from that, and `state_noise`.
@@ -45,6 +47,7 @@ void whitenPostures(const SystemInput& input, const SystemState& state, LinearSy
 /// Fills `data.as_read` with the equations of circle and wrist sweeps: absolute positions of unloaded postures,
 /// y = sag + geometry + own weights + effects + noise.
 void addSweepEquations(const SystemInput& input, const SystemState& state, const ContainedEffects& effects_now,
+                       const std::vector<SweepRows>& rows, const std::vector<Eigen::MatrixXd>& by_geometry,
                        LinearSystem& data);
 
 /// Their normal equations, whitened reading by reading.
@@ -185,10 +188,11 @@ ComplianceExpected complianceExpected(const JointVector& identified) {
   constexpr double kNothing = 0.05;  // of the neighbours': not identified
   constexpr double kHalf = 0.5, kThrice = 3.0;
   const Eigen::Index joints = identified.size();
-  ComplianceExpected expected{JointVector::Zero(joints), JointVector::Zero(joints)};
+  ComplianceExpected expected{JointVector::Zero(joints), JointVector::Zero(joints), {}};
   for (Eigen::Index j = 0; j < joints; ++j) {
     const double neighbour = std::max(j > 0 ? identified[j - 1] : 0.0, j + 1 < joints ? identified[j + 1] : 0.0);
     const bool known = identified[j] > kNothing * neighbour;
+    expected.known.push_back(known);
     expected.value[j] = known ? identified[j] : kHalf * neighbour;
     expected.sd[j] = known ? kThrice * identified[j] : kHalf * neighbour;
   }
@@ -210,15 +214,26 @@ GapLayout gapLayout(const std::vector<effects::EffectModel>& models, const robot
 
 LinearSystem linearSystem(const SystemInput& input, const SystemState& state, const ContainedEffects& effects_now,
                           Weighed weighed) {
+  GeometryColumns by_geometry;
+  return linearSystem(input, state, effects_now, by_geometry, weighed);
+}
+
+LinearSystem linearSystem(const SystemInput& input, const SystemState& state, const ContainedEffects& effects_now,
+                          GeometryColumns& by_geometry, Weighed weighed) {
   LinearSystem data;
   data.layout = gapLayout(input.models, input.campaign.robot, input.campaign.targets.size());
-  addPostureEquations(input, state, effects_now, data);
+  const LoadingRows maker(input.campaign);
+  std::vector<SystemRows> loading = maker.rows(state.geometry, state.at, state.corrections);
+  std::vector<SweepRows> sweeps;
+  if (input.sweeps) sweeps = sweepRows(input.campaign, state.geometry, state.r0_from_sweeps, state.at);
+  const GeometryColumns::Columns& columns = by_geometry.of(state, input.absolute, maker, loading, sweeps);
+  addPostureEquations(input, state, effects_now, std::move(loading), columns.loading, data);
   whitenPostures(input, state, data);
   data.beforehand.setZero(data.layout.end + 1, data.layout.end + 1);
   addPriors(input, data);
   data.sweeps = data.beforehand;
   if (!input.sweeps) return data;
-  addSweepEquations(input, state, effects_now, data);
+  addSweepEquations(input, state, effects_now, sweeps, columns.sweeps, data);
   data.sweeps += sweepNormal(input, state, weighed == Weighed::again ? data.as_read : std::move(data.as_read));
   return data;
 }
@@ -293,7 +308,7 @@ void addPriors(const SystemInput& input, LinearSystem& data) {
 
 namespace {
 
-/// Columns and right side of one posture but for the geometry's steps, unwhitened.
+/// Columns and right side of one posture but for the columns of the geometry, unwhitened.
 GapPosture unwhitened(const SystemInput& input, const SystemState& state, const ContainedEffects& now,
                       const GapLayout& layout, const SystemRows& rows) {
   GapPosture posture;
@@ -330,28 +345,6 @@ GapPosture unwhitened(const SystemInput& input, const SystemState& state, const 
   return posture;
 }
 
-/// Derivatives of measured less modelled by the geometry's steps: differences of the rows themselves.
-void addGeometry(const SystemState& state, const LoadingRows& maker, const std::vector<SystemRows>& rows,
-                 LinearSystem& data) {
-  const Eigen::Index steps = data.layout.weights - data.layout.geometry;
-  numerics::onAllCores(static_cast<std::size_t>(steps), [&](std::size_t step) {
-    const auto k = static_cast<Eigen::Index>(step);
-    const frames::LoadingGeometry there = frames::moved(
-        state.geometry, frames::ArmParameters::kSmall * Eigen::VectorXd::Unit(steps, k), state.at.epoch_centre);
-    const auto other = maker.rows(there, state.at, state.corrections);
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      GapPosture& posture = data.postures[i];
-      auto column = posture.columns.col(data.layout.geometry + k);
-      if (posture.position_rows > 0)
-        column.head(posture.position_rows) = (rows[i].position - other[i].position) / frames::ArmParameters::kSmall;
-      const JointVector& c = state.at.compliance;
-      column.tail(rows[i].displacement.size()) =
-          ((rows[i].displacement - rows[i].by_compliance * c) - (other[i].displacement - other[i].by_compliance * c)) /
-          frames::ArmParameters::kSmall;
-    }
-  });
-}
-
 StiffnessNormal stiffnessNormalOf(const GapPosture& posture, const Eigen::MatrixXd& covariance) {
   const Eigen::Index rows = posture.right.size() - posture.position_rows;
   const Eigen::Index joints = posture.states.front().joints();
@@ -386,17 +379,16 @@ void whiten(const GapCovariance& covariance, GapPosture& posture) {
 }  // namespace
 
 void addPostureEquations(const SystemInput& input, const SystemState& state, const ContainedEffects& effects_now,
+                         std::vector<SystemRows> rows, const std::vector<Eigen::MatrixXd>& by_geometry,
                          LinearSystem& data) {
-  const LoadingRows maker(input.campaign);
-  std::vector<SystemRows> rows = maker.rows(state.geometry, state.at, state.corrections);
   data.postures.resize(rows.size());
   numerics::onAllCores(rows.size(), [&](std::size_t i) {
     data.postures[i] = unwhitened(input, state, effects_now, data.layout, rows[i]);
+    data.postures[i].columns.middleCols(data.layout.geometry, by_geometry[i].cols()) = by_geometry[i];
     data.postures[i].states = std::move(rows[i].states);
     data.postures[i].by_wrench = std::move(rows[i].by_wrench);
     data.postures[i].read_from = std::move(rows[i].read_from);
   });
-  addGeometry(state, maker, rows, data);
   for (const GapPosture& posture : data.postures) data.loading_rows += posture.right.size();
 }
 
@@ -418,9 +410,9 @@ namespace {
 /// [A y] of one posture, unwhitened.
 template <class Rows>
 void fill(const SystemInput& input, const SystemState& state, const ContainedEffects& now, const GapLayout& layout,
-          const PositionByGeometry& by_geometry, const SweepRows& one, Rows both) {
+          const Eigen::MatrixXd& by_geometry, const SweepRows& one, Rows both) {
   both.leftCols(layout.joints()) = one.sag_by_compliance;
-  both.middleCols(layout.geometry, layout.weights - layout.geometry) = by_geometry.of(one.state);
+  both.middleCols(layout.geometry, by_geometry.cols()) = by_geometry;
   both.middleCols(layout.weights, layout.bodies()) = effects::gravityDeflectionByBody(state.at, one.state);
   const effects::PostureStates alone{one.state};
   for (std::size_t m = 0; m < input.models.size(); ++m) {
@@ -435,9 +427,8 @@ void fill(const SystemInput& input, const SystemState& state, const ContainedEff
 }  // namespace
 
 void addSweepEquations(const SystemInput& input, const SystemState& state, const ContainedEffects& effects_now,
+                       const std::vector<SweepRows>& rows, const std::vector<Eigen::MatrixXd>& by_geometry,
                        LinearSystem& data) {
-  const auto rows = sweepRows(input.campaign, state.geometry, state.r0_from_sweeps, state.at);
-  const PositionByGeometry by_geometry(state.geometry, state.at, state.at.epoch_centre);
   Eigen::Index total = 0;
   std::vector<Eigen::Index> first;
   for (const SweepRows& one : rows) {
@@ -448,7 +439,7 @@ void addSweepEquations(const SystemInput& input, const SystemState& state, const
   }
   data.as_read.rows.setZero(total, data.layout.end + 1);
   numerics::onAllCores(rows.size(), [&](std::size_t i) {
-    fill(input, state, effects_now, data.layout, by_geometry, rows[i],
+    fill(input, state, effects_now, data.layout, by_geometry[i], rows[i],
          data.as_read.rows.middleRows(first[i], rows[i].position.size()));
   });
   data.sweep_rows += total;
@@ -470,21 +461,28 @@ void freeOneShift(const Eigen::MatrixXd& whitened, const Eigen::MatrixXd& whiten
 }  // namespace
 
 Eigen::MatrixXd sweepNormal(const SystemInput& input, const SystemState& state, SweepEquations equations) {
-  const bool on_rail = !input.carriage.isZero(0.0);
-  Eigen::MatrixXd shift(on_rail ? equations.rows.rows() : 0, 3);
-  Eigen::Index row = 0;
+  std::vector<Eigen::Matrix3d> roots;
+  roots.reserve(equations.points.size());
   for (std::size_t i = 0; i < equations.points.size(); ++i) {
     const ReadFrom station = readFrom(equations.read_from, i);
     const Eigen::Matrix3d covariance = state.sweep_inflation * readingCovariance(input.noise, state.r0_from_sweeps,
                                                                                  equations.points[i], station.from) +
                                        station.pose_covariance;
-    const Eigen::LLT<Eigen::Matrix3d> root(covariance);
-    equations.rows.middleRows<3>(row) = root.matrixL().solve(equations.rows.middleRows<3>(row)).eval();
-    if (on_rail) shift.middleRows<3>(row) = root.matrixL().solve(Eigen::Matrix3d::Identity());
-    row += 3;
+    roots.emplace_back(covariance.llt().matrixL());
   }
+  // Column by column, as they lie in memory.
+  const auto whiten = [&](auto column) {
+    for (std::size_t i = 0; i < roots.size(); ++i) {
+      auto reading = column.template segment<3>(3 * static_cast<Eigen::Index>(i));
+      roots[i].triangularView<Eigen::Lower>().solveInPlace(reading);
+    }
+  };
+  numerics::onAllCores(static_cast<std::size_t>(equations.rows.cols()),
+                       [&](std::size_t k) { whiten(equations.rows.col(static_cast<Eigen::Index>(k))); });
   Eigen::MatrixXd normal = numerics::normalMatrix(equations.rows);
-  if (on_rail) {
+  if (!input.carriage.isZero(0.0)) {
+    Eigen::MatrixXd shift = Eigen::Matrix3d::Identity().replicate(static_cast<Eigen::Index>(roots.size()), 1);
+    for (int k = 0; k < 3; ++k) whiten(shift.col(k));
     const Eigen::Matrix3d turn = state.r0_from_sweeps.linear();
     freeOneShift(equations.rows, shift, turn * input.carriage * turn.transpose(), normal);
   }

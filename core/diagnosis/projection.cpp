@@ -32,13 +32,26 @@ Eigen::MatrixXd sumOf(const LinearSystem& data, const std::vector<double>& weigh
 std::vector<Eigen::MatrixXd> sumsOf(const LinearSystem& data, std::span<const std::vector<double>> weights) {
   // So few columns of all sums stay in the cache while the postures, tens of megabytes, pass.
   constexpr Eigen::Index kColumns = 8;
-  std::vector<Eigen::MatrixXd> sums(weights.size(), data.sweeps);
+  // A posture that has the same weight in all sums is added once: where one is left out after another, nearly all are.
+  std::vector<char> common(data.postures.size(), 0);
+  for (std::size_t p = 0; p < common.size(); ++p) {
+    common[p] = std::all_of(weights.begin(), weights.end(),
+                            [&](const std::vector<double>& one) { return one[p] == weights.front()[p]; });
+  }
+  std::vector<Eigen::MatrixXd> sums(weights.size(), Eigen::MatrixXd(data.sweeps.rows(), data.sweeps.cols()));
+  sums.front() = data.sweeps;
   for (Eigen::Index first = 0; first < data.sweeps.cols(); first += kColumns) {
     const Eigen::Index count = std::min(kColumns, data.sweeps.cols() - first);
-    for (std::size_t p = 0; p < data.postures.size(); ++p) {
-      for (std::size_t k = 0; k < weights.size(); ++k) {
-        if (weights[k][p] != 0.0) data.postures[p].normal.addTo(weights[k][p], sums[k], first, count);
-      }
+    const auto add = [&](std::size_t p, std::size_t k) {
+      if (weights[k][p] != 0.0) data.postures[p].normal.addTo(weights[k][p], sums[k], first, count);
+    };
+    for (std::size_t p = 0; p < common.size(); ++p) {
+      if (common[p]) add(p, 0);
+    }
+    for (std::size_t k = 1; k < sums.size(); ++k)
+      sums[k].middleCols(first, count) = sums.front().middleCols(first, count);
+    for (std::size_t p = 0; p < common.size(); ++p) {
+      for (std::size_t k = 0; k < sums.size() && !common[p]; ++k) add(p, k);
     }
   }
   for (Eigen::MatrixXd& sum : sums) sum.triangularView<Eigen::StrictlyUpper>() = sum.transpose();
@@ -64,7 +77,9 @@ Projection project(const Eigen::MatrixXd& normal, const GapLayout& layout) {
   result.by_effects = solved.leftCols(effects);
   result.by_nothing = solved.col(effects);
   const Eigen::MatrixXd transposed = across.leftCols(effects).transpose();
-  result.matrix = normal.block(effects_at, effects_at, effects, effects) - transposed * result.by_effects;
+  result.matrix = normal.block(effects_at, effects_at, effects, effects);
+  result.matrix.triangularView<Eigen::Lower>() -= transposed * result.by_effects;
+  result.matrix.triangularView<Eigen::StrictlyUpper>() = result.matrix.transpose();
   result.right = normal.col(end).segment(effects_at, effects) - transposed * result.by_nothing;
   result.before = normal.diagonal().segment(effects_at, effects);
   const Eigen::MatrixXd inverse = factor.solve(Eigen::MatrixXd::Identity(effects_at, joints));

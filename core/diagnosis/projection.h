@@ -24,8 +24,8 @@ struct Projection {
 /// Sum of the postures' normal equations, each times its weight, plus the sweeps'.
 Eigen::MatrixXd sumOf(const LinearSystem& data, const std::vector<double>& weights);
 
-/// The same for each of several sets of weights, value by value what sumOf gives: the equations are gone through once
-/// for all of them.
+/// The same for each of several sets of weights, to within rounding: the equations are gone through once for all of
+/// them.
 std::vector<Eigen::MatrixXd> sumsOf(const LinearSystem& data, std::span<const std::vector<double>> weights);
 
 /// What the model of stiffnesses alone is, a parameter vector for each of the two gaps.

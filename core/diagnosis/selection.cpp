@@ -53,7 +53,7 @@ FittedSet Selector::fit(const std::vector<ChosenModel>& models) const {
   FittedSet set = nothing();
   set.models = models;
   std::vector<Eigen::Index> indices;
-  std::vector<bool> positive;
+  std::vector<bool> positive, is_shape;
   for (const ChosenModel& one : models) {
     const effects::EffectModel& model = models_[one.model];
     set.penalty += penaltyOfModel();
@@ -63,6 +63,7 @@ FittedSet Selector::fit(const std::vector<ChosenModel>& models) const {
       for (std::size_t k = 0; k < part.most.size(); ++k) {
         indices.push_back(part_at_[one.model][p] + static_cast<Eigen::Index>(k));
         positive.push_back(part.positive);
+        is_shape.push_back(part.is_shape);
       }
     }
   }
@@ -71,7 +72,8 @@ FittedSet Selector::fit(const std::vector<ChosenModel>& models) const {
   for (std::size_t i = 0; i < indices.size(); ++i) {
     const double value = fitted.value[static_cast<Eigen::Index>(i)];
     set.effects[indices[i]] = value;
-    if (value * value * prior_[indices[i]] > 1.0) set.plausible = false;
+    // A long step of a shape is taken in strides (EffectModel::settle).
+    if (!is_shape[i] && value * value * prior_[indices[i]] > 1.0) set.plausible = false;
   }
   if (negativeCompliance(set, indices)) set.plausible = false;
   return set;
@@ -87,6 +89,7 @@ bool Selector::negativeCompliance(const FittedSet& set, const std::vector<Eigen:
     if (set.effects[i] != 0.0) present.push_back(i);
   }
   for (Eigen::Index j = 0; j < layout_.joints(); ++j) {
+    if (!rules_.loaded.empty() && !rules_.loaded[static_cast<std::size_t>(j)]) continue;
     const double compliance = projection_.by_nothing[j] - projection_.by_effects.row(j).dot(set.effects);
     if (compliance >= 0.0) continue;
     const double sd = std::sqrt(misfit(set)) * complianceSd(projection_, present, prior_, j);

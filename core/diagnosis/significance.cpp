@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "core/diagnosis/geometry_columns.h"
 #include "core/diagnosis/geometry_error.h"
 #include "core/numerics/resampling.h"
 #include "metrology/linear_algebra.h"
@@ -57,7 +58,8 @@ Eigen::VectorXd weighedByMeasuring(const SystemInput& input, const GapFit& fit) 
     return fit.projection.before;
   state.model_error = 0.0;
   state.position_inflation = state.sweep_inflation = 1.0;
-  const LinearSystem data = linearSystem(input, state, {});
+  GeometryColumns own;
+  const LinearSystem data = linearSystem(input, state, {}, fit.by_geometry ? *fit.by_geometry : own);
   const Eigen::MatrixXd normal = sumOf(data, std::vector<double>(data.postures.size(), 1.0));
   return normal.diagonal().segment(data.layout.effects, data.layout.end - data.layout.effects);
 }

@@ -74,11 +74,9 @@ std::vector<SpikedDay::Part> SpikedDay::seenParts(effects::Effect effect) const 
     Eigen::Index at = data_.layout.model_at[m] - data_.layout.effects;
     for (std::size_t p = 0; p < model.parts.size(); ++p) {
       const auto size = static_cast<Eigen::Index>(model.parts[p].most.size());
-      // Of an equation that bends, parameters of either sign that every joint shares are its shape.
-      const bool shape = model.settle != nullptr && p >= static_cast<std::size_t>(data_.layout.joints());
       const Eigen::ArrayXd before = projection_.before.segment(at, size).array();
       const Eigen::ArrayXd kept = projection_.matrix.diagonal().segment(at, size).array();
-      if (!shape && ((before > 0.0) && (kept > kKept * before)).any()) parts.push_back({m, p, at});
+      if (!model.parts[p].is_shape && ((before > 0.0) && (kept > kKept * before)).any()) parts.push_back({m, p, at});
       at += size;
     }
   }

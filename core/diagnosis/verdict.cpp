@@ -16,21 +16,24 @@ std::string detailOf(const effects::EffectModel& model, const std::vector<std::s
   std::string detail;
   for (const std::size_t p : sorted) {
     const std::string& name = model.parts[p].detail;
-    if (name.empty()) continue;
+    if (name.empty() || model.parts[p].is_shape) continue;
     detail += (detail.empty() ? "" : ", ") + name;
   }
   return detail;
 }
 
-Remark parametersOf(const effects::EffectModel& model, const std::vector<std::size_t>& parts,
-                    const Eigen::VectorXd& own) {
+/// `at_point`: the working point that a step of a shape starts from.
+Remark parametersOf(const effects::EffectModel& model, const effects::LinearizationPoint& at_point,
+                    const std::vector<std::size_t>& parts, const Eigen::VectorXd& own) {
   std::vector<Remark> fitted;
   Eigen::Index at = 0;
   for (std::size_t p = 0; p < model.parts.size(); ++p) {
     const effects::EffectPart& part = model.parts[p];
     if (std::find(parts.begin(), parts.end(), p) != parts.end()) {
-      const auto its = own.segment(at, static_cast<Eigen::Index>(part.most.size()));
-      fitted.emplace_back(RemarkId::fitted_part, part.detail, part.unit, std::vector<double>(its.begin(), its.end()));
+      const auto size = static_cast<Eigen::Index>(part.most.size());
+      std::vector<double> its(own.begin() + at, own.begin() + at + size);
+      if (part.is_shape) its.front() = model.shapeAt(at_point) * std::exp(its.front());
+      fitted.emplace_back(RemarkId::fitted_part, part.detail, part.unit, std::move(its));
     }
     at += static_cast<Eigen::Index>(part.most.size());
   }
@@ -112,7 +115,7 @@ class Decider {
         continue;
       if (followsFromGeometry(model.effect, parameters)) {
         besides_.emplace_back(RemarkId::follows_from_geometry, std::string(effects::idOf(model.effect)),
-                              parametersOf(model, chosen.parts, parameters));
+                              parametersOf(model, from_.fit.state.at, chosen.parts, parameters));
         continue;
       }
       EffectClass one;
@@ -123,7 +126,7 @@ class Decider {
       one.detail = detailOf(model, chosen.parts) + (by_nests ? "" : otherParts(i));
       one.score = -change;
       one.in_verdict = true;
-      one.parameters = parametersOf(model, chosen.parts, parameters);
+      one.parameters = parametersOf(model, from_.fit.state.at, chosen.parts, parameters);
       decision_.verdict.entries.push_back({one.effects, one.detail});
       decision_.classes.push_back(one);
       decision_.recipes.push_back({chosen});
@@ -182,7 +185,7 @@ class Decider {
 
   void nameUnknown() {
     nameUnknownPositions();
-    if (from_.fit.model_error == 0.0) return;
+    if (!leavesUnexplained(from_.fit)) return;
     nameUnknownOnce();
     besides_.emplace_back(RemarkId::deflection_not_explained, from_.fit.model_error);
   }
@@ -204,7 +207,7 @@ class Decider {
   /// whose own rows keep more than `kMostLeft` of their gap's squares beyond noise is only a candidate; so is what
   /// other readings speak against.
   void withdrawNames() {
-    const double deflection = from_.fit.model_error > 0.0 ? shareLeft(from_.gap) : 0.0;
+    const double deflection = leavesUnexplained(from_.fit) ? shareLeft(from_.gap) : 0.0;
     const double positions = unknown_positions_ ? shareLeft(from_.positions) : 0.0;
     constexpr double kMostLeft = 0.1;
     std::vector<effects::Effect> candidates;
@@ -334,7 +337,7 @@ class Decider {
       one.effects = {model.effect};
       one.detail = detailOf(model, chosen.parts);
       one.score = base.score() - single.score();
-      one.parameters = parametersOf(model, chosen.parts, own(single.effects, chosen.model));
+      one.parameters = parametersOf(model, from_.fit.state.at, chosen.parts, own(single.effects, chosen.model));
       decision_.classes.push_back(one);
       decision_.recipes.push_back(single.models);
       named_.push_back(model.effect);
@@ -344,8 +347,8 @@ class Decider {
   void explain() {
     std::vector<Remark>& reasons = decision_.verdict.reasons;
     const auto& rules = from_.fit.rules;
-    const double lack = (from_.fit.projection.chi2_none - rules.other_rows) / rules.loading_rows;
-    reasons.emplace_back(RemarkId::left_by_stiffnesses, from_.gap.before, from_.gap.noise, lack);
+    reasons.emplace_back(RemarkId::left_by_stiffnesses, from_.gap.before, from_.gap.noise,
+                         from_.fit.left_before.perEquation());
     if (decision_.verdict.entries.empty()) {
       reasons.emplace_back(RemarkId::no_effect_passes, rules.detect,
                            std::sqrt(rules.least_drop / rules.loading_rows) * from_.fit.data.state_noise);
@@ -359,14 +362,14 @@ class Decider {
   /// Whatever is too small to matter: what chance does not explain is said.
   void sayChiSquare() {
     const double left = leftPerEquation(from_.fit), limit = from_.fit.left_limit;
-    if (from_.fit.model_error == 0.0 && left > limit)
+    if (!leavesUnexplained(from_.fit) && left > limit)
       decision_.verdict.reasons.emplace_back(RemarkId::chi_square_significant, left, limit);
     if (unknown_positions_ || !from_.input.absolute) return;
     Eigen::Index rows = 0;
     for (const GapPosture& posture : from_.fit.data.postures) rows += posture.position_rows;
     const double inflation = from_.fit.state.position_inflation;
     const double by_chance =
-        1.0 + (limit - 1.0) * std::sqrt(from_.fit.rules.loading_rows / std::max(1.0, static_cast<double>(rows)));
+        1.0 + (limit - 1.0) * std::sqrt(from_.fit.left.freedom / std::max(1.0, static_cast<double>(rows)));
     if (inflation > by_chance)
       decision_.verdict.reasons.emplace_back(RemarkId::positions_scatter, inflation, by_chance);
   }

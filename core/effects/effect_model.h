@@ -102,6 +102,10 @@ struct EffectPart {
   /// Parameters of one model with the same number are large or small together, as shares of their bounds, by the
   /// physics of what they belong to; those with 0 are not.
   int alike = 0;
+  /// How the effect's equation bends and not how large it is (the width of a passage). Its one parameter is a step of
+  /// the logarithm of what the working point has (EffectModel::shapeAt): a fit of sizes without it is a fit at whatever
+  /// shape it began with. `unit` is that of the shape itself.
+  bool is_shape = false;
 };
 
 /// Beyond the arm's bodies, one an axis: what the plate between flange and reflectors carries.
@@ -137,6 +141,8 @@ struct EffectModel {
   /// Where its equations bend with their own parameters: moves the working point to these, and leaves in
   /// `own` those that are sizes of the effect (not shapes). Null: they do not bend.
   void (*settle)(LinearizationPoint& at, Eigen::VectorXd& own) = nullptr;
+  /// What the working point has of the part that is a shape. Null: no part is.
+  double (*shapeAt)(const LinearizationPoint& at) = nullptr;
   /// Where its parameters multiply other unknowns: once estimated, it is put into what the equations are made
   /// with, and `own` becomes what they then contain. `compliance` is that of the equations it was found in.
   void (*correct)(const JointVector& compliance, LinearizationPoint& at, Corrections& corrections,

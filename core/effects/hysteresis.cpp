@@ -117,14 +117,21 @@ void settleSoft(LinearizationPoint& at, Eigen::VectorXd& own) {
   own[last] = 0.0;
 }
 
+double firmnessAt(const LinearizationPoint& at) { return at.sticking; }
+
 EffectModel softModel(const ModelScope& scope, const char* shape, decltype(EffectModel::angles) angles) {
   EffectModel model{.shape = shape,
                     .parts = jointParts(scope, 20e-3, true, "rad"),
                     .most_parts = static_cast<std::size_t>(scope.joints) + 1,
                     .angles = angles,
-                    .settle = &settleSoft};
+                    .settle = &settleSoft,
+                    .shapeAt = &firmnessAt};
   constexpr double kMost = 5.0;
-  model.parts.push_back({"firmness of the grip", {kMost}, false, "of its logarithm"});
+  model.parts.push_back({.detail = "firmness of the grip",
+                         .most = {kMost},
+                         .positive = false,
+                         .unit = "of the joint's stiffness",
+                         .is_shape = true});
   return model;
 }
 

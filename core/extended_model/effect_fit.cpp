@@ -90,6 +90,20 @@ std::optional<std::vector<diagnosis::ChosenModel>> withoutChoice(const std::vect
   return chosen;
 }
 
+/// With the shapes of what is to be fitted: who names a joint means the effect there and not a shape that it began
+/// with.
+std::vector<diagnosis::ChosenModel> withShapes(std::vector<diagnosis::ChosenModel> chosen,
+                                               const std::vector<effects::EffectModel>& models) {
+  for (diagnosis::ChosenModel& one : chosen) {
+    const std::vector<effects::EffectPart>& parts = models[one.model].parts;
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+      const bool there = std::find(one.parts.begin(), one.parts.end(), p) != one.parts.end();
+      if (parts[p].is_shape && !there) one.parts.push_back(p);
+    }
+  }
+  return chosen;
+}
+
 /// An effect of which stiffnesses and geometry leave nothing in these postures has no size.
 void requireSeen(const diagnosis::GapFit& fit, const diagnosis::SystemInput& input) {
   for (const diagnosis::ChosenModel& one : fit.set.models) {
@@ -200,7 +214,7 @@ Eigen::MatrixXd covarianceOfFree(const EffectFit& effects) {
   matrix.diagonal().setConstant(1.0 + 1e-12);
   const Eigen::MatrixXd inverse = solveSymmetric(matrix, Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols()));
   Eigen::MatrixXd covariance =
-      std::max(1.0, diagnosis::leftPerEquation(effects.fit)) * (scale.asDiagonal() * inverse * scale.asDiagonal());
+      diagnosis::varianceFactor(effects.fit) * (scale.asDiagonal() * inverse * scale.asDiagonal());
   for (const diagnosis::ChosenModel& one : effects.fit.set.models) {
     const effects::EffectModel& model = effects.input->models[one.model];
     if (effects::natureOf(model.effect) != effects::EffectNature::machine) continue;
@@ -231,14 +245,19 @@ void describe(EffectFit& effects, const std::vector<bool>& allowed) {
     for (std::size_t p = 0; p < model.parts.size(); ++p) {
       const effects::EffectPart& part = model.parts[p];
       const bool there = std::find(chosen.parts.begin(), chosen.parts.end(), p) != chosen.parts.end();
-      if (there && !part.detail.empty()) details.push_back(part.detail);
+      if (there && !part.detail.empty() && !part.is_shape) details.push_back(part.detail);
       for (std::size_t k = 0; k < part.most.size(); ++k, ++at) {
         if (!there) continue;
         EffectParameter parameter{effects::parameterName(part, k), effects::parameterUnit(part, k), fit.set.effects[at],
                                   0.0};
         const auto free = std::find(effects.free.begin(), effects.free.end(), at) - effects.free.begin();
         if (free < effects.covariance.rows()) parameter.sd = std::sqrt(effects.covariance(free, free));
-        if (std::abs(parameter.value) > part.most[k]) one.plausible = false;
+        if (part.is_shape) {
+          parameter.value = model.shapeAt(fit.state.at) * std::exp(parameter.value);
+          parameter.sd *= parameter.value;
+        } else if (std::abs(parameter.value) > part.most[k]) {
+          one.plausible = false;
+        }
         one.parameters.push_back(parameter);
       }
     }
@@ -287,6 +306,7 @@ EffectFit fitToAll(const preparation::PreparedCampaign& prepared, const Requeste
     const diagnosis::GapFit free = diagnosis::fitGap(*input, start->state, allowed, rules);
     rules.fixed = Chooser(*input, free, allowed).run(wanted);
   }
+  rules.fixed = withShapes(std::move(*rules.fixed), input->models);
   effects.fit = diagnosis::fitGap(*input, start->state, allowed, rules);
   requireSeen(effects.fit, *input);
   for (std::size_t i = 0; i < effects.fit.data.postures.size(); ++i)

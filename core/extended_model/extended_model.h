@@ -40,9 +40,10 @@ struct ExtendedModel {
   std::optional<HiddenEffects> hidden;               ///< of the model that the data support: what could still hide
   std::unique_ptr<const diagnosis::GapStudy> study;  ///< the equations that `hidden` was weighed in; null without it
 
-  /// Chi2 per equation that the model leaves, of `hidden`; and whether that is at most a quarter above noise's.
+  /// Chi2 per degree of freedom that the model leaves, of `hidden`; and whether chance makes as much and the diagnosis
+  /// does not say otherwise.
   double leftOver() const { return effects.added.empty() ? hidden->lack_of_fit : hidden->left_over; }
-  bool residualIsNoise() const { return leftOver() <= 1.25; }
+  bool residualIsNoise() const { return !hidden->unexplained && leftOver() <= hidden->left_limit; }
 };
 
 }  // namespace stiffscope::extended_model

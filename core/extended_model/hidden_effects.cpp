@@ -176,7 +176,7 @@ HiddenDraws hiddenDraws(const diagnosis::GapStudy& study, const EffectFit& fitte
   const Eigen::VectorXd scale = Eigen::VectorXd::Map(bound.data(), static_cast<Eigen::Index>(bound.size()));
   const Eigen::VectorXd from = Eigen::VectorXd::Map(at_fit.data(), scale.size());
   // What no effect explains counts as noise.
-  const double noise = std::max(1.0, diagnosis::leftPerEquation(study.fit));
+  const double noise = diagnosis::varianceFactor(study.fit);
   const std::vector<Eigen::Index>& kept = hidden.columns.parameters;
   evidence.normal = scale.asDiagonal() * projection.matrix(kept, kept) * scale.asDiagonal() / noise;
   evidence.right = scale.cwiseProduct(projection.right(kept).eval()) / noise;
@@ -379,14 +379,18 @@ HiddenEffects weighHiddenEffects(const diagnosis::GapStudy& study, const EffectF
                                  identification::Identification& with) {
   HiddenEffects result;
   const diagnosis::GapFit& fit = study.fit;
-  result.lack_of_fit = (fit.projection.chi2_none - fit.rules.other_rows) / fit.rules.loading_rows;
+  result.lack_of_fit = fit.left_before.perEquation();
   result.left_over = diagnosis::leftPerEquation(fit);
+  result.left_limit = fit.left_limit;
   const double gap = result.lack_of_fit - 1.0, left = result.left_over - 1.0;
   result.unexplained_share = gap > 0.0 ? std::clamp(left / gap, 0.0, 1.0) : 0.0;
-  // A tenth more than noise is what linearisation leaves of large effects; a model that explains seven eighths of the
-  // gap is the better one wherever that was tried.
-  constexpr double kMuch = 1.1, kShare = 0.15;
-  result.unexplained = (result.left_over > kMuch || fit.model_error > 0.0) && left > kShare * gap;
+  // A model that explains seven eighths of the gap is the better one wherever that was tried. Where it has no effect it
+  // explains nothing.
+  constexpr double kShare = 0.15;
+  if (diagnosis::leavesUnexplained(fit)) {
+    if (fit.set.models.empty()) result.unexplained_share = 1.0;
+    result.unexplained = result.unexplained_share > kShare;
+  }
   result.draws = hiddenDraws(study, fitted, declared);
   const HiddenDraws& hidden = result.draws;
   result.gain_sd = declared.gain_sd;

@@ -107,10 +107,12 @@ struct HiddenDraws {
 
 /// How far the data let anything besides the fitted model move the stiffnesses.
 struct HiddenEffects {
-  double lack_of_fit = 0.0;  ///< chi2 per equation of the loading that joint springs alone leave
+  double lack_of_fit = 0.0;  ///< chi2 per degree of freedom of the loading that joint springs alone leave
   double left_over = 0.0;    ///< that of the model
+  double left_limit = 0.0;   ///< what chance makes of that, by which the diagnosis judges it, too
   /// Share of the gap beyond noise that the model leaves, and whether that is too much to call the model an
-  /// explanation: then the intervals hold what joint springs alone say, too.
+  /// explanation: where the diagnosis says `unknown` and it is more than a few per cent. Then the intervals hold what
+  /// joint springs alone say, too.
   double unexplained_share = 0.0;
   bool unexplained = false;
   std::array<std::vector<BudgetLine>, 3> budget;  ///< by Method; empty where that is not available

@@ -249,6 +249,10 @@ CoupledAxes fitCoupledAxes(const campaign::Campaign& campaign, const RigidPoints
     none.reason = Remark(RemarkId::coupled_axes_not_placed);
     return none;
   }
+  if (start->open) {
+    none.reason = Remark(RemarkId::coupled_flange_level);
+    return none;
+  }
   return CoupledFit(campaign.robot, std::move(readings), *start).run();
 }
 

@@ -26,7 +26,8 @@ struct CoupledAxes {
 /// level) are one hinge of the machine and stay one line: without that no motion of the flange shows where axis 2
 /// stands. Covariance of each line: by the inverse normal matrix, times chi^2 over degrees of freedom where that is
 /// above one; what the lines have in common is not kept. Not found, with the reason: without sweeps, without three
-/// reflectors in three postures, or where the steps do not settle.
+/// reflectors in three postures, where the flange turns about one direction only (its reflectors then show offsets of
+/// axes and of themselves in sum, and what tells them apart is the sag), or where the steps do not settle.
 CoupledAxes fitCoupledAxes(const campaign::Campaign& campaign, const RigidPoints& points);
 
 }  // namespace stiffscope::frames

@@ -10,6 +10,9 @@
 #include "core/frames/remarks.h"
 #include "core/numerics/normal_equations.h"
 #include "core/numerics/parallel.h"
+#include "core/robot/inverse_kinematics.h"
+#include "core/robot/kinematics.h"
+#include "metrology/linear_algebra.h"
 
 namespace stiffscope::frames {
 
@@ -166,14 +169,18 @@ class Calibration {
     }
     build();
     result.rms_before = cost_->rms(steps_);
-    const std::vector<int> unseen = unseenOfAxes();
+    const std::vector<int> unseen = unseenParameters();
     const std::vector<int> free = freeParameters(unseen);
     result.parameters = static_cast<int>(free.size());
     if (3 * result.positions <= result.parameters) {
       result.reason = Remark(RemarkId::too_few_positions, result.positions, result.parameters);
       return result;
     }
-    for (const int k : unseen) result.fixed.push_back(Remark(RemarkId::axis_parameter, k / 4 + 1, k % 4));
+    const auto of_axes = std::lower_bound(unseen.begin(), unseen.end(), static_cast<int>(places_.axes()));
+    for (auto k = unseen.begin(); k != of_axes; ++k)
+      result.fixed.push_back(Remark(RemarkId::axis_parameter, *k / 4 + 1, *k % 4));
+    if (of_axes != unseen.end())
+      result.fixed.push_back(Remark(RemarkId::base_against_reflectors, unseen.end() - of_axes));
     holdAllBut(free);
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
@@ -205,11 +212,30 @@ class Calibration {
     if (placed) return true;
     std::vector<UnloadedPosition> standing = positions_;
     for (UnloadedPosition& position : standing) position.q = start_.sagged(position.q);
-    const auto found = baseFromPostures(start_.arm, standing, campaign_.targets.size());
-    if (!found) return false;
+    auto found = baseFromPostures(start_.arm, standing, campaign_.targets.size());
+    if (!found) return start_.r0_from_loading && placeReflectors(standing);
+    std::optional<Eigen::Isometry3d> stated;
+    if (start_.r0_from_loading) stated = start_.r0_from_loading->inverse();
+    slideToStated(start_.targets_at_zero, stated, *found);
     start_.r0_from_loading = found->points_from_base.inverse();
     for (std::size_t t = 0; t < found->targets_at_zero.size(); ++t) {
       if (found->targets_at_zero[t]) start_.targets_at_zero[t] = found->targets_at_zero[t];
+    }
+    return true;
+  }
+
+  /// Those that nothing places, by the base as it is stated: the mean of where the postures show them.
+  bool placeReflectors(const std::vector<UnloadedPosition>& standing) {
+    std::vector<Eigen::Vector3d> sums(start_.targets_at_zero.size(), Eigen::Vector3d::Zero());
+    std::vector<int> counts(sums.size(), 0);
+    for (const UnloadedPosition& position : standing) {
+      const auto target = static_cast<std::size_t>(position.target);
+      sums[target] +=
+          robot::postureAt(start_.arm, position.q).motion.back().inverse() * (*start_.r0_from_loading * position.point);
+      ++counts[target];
+    }
+    for (std::size_t t = 0; t < sums.size(); ++t) {
+      if (counts[t] > 0 && !start_.targets_at_zero[t]) start_.targets_at_zero[t] = sums[t] / counts[t];
     }
     return true;
   }
@@ -236,9 +262,34 @@ class Calibration {
     });
     std::sort(used_targets_.begin(), used_targets_.end());
     steps_ = Eigen::VectorXd::Zero(places_.count(start_.targets_at_zero.size()));
+    if (turnsAboutOneDirection(postures)) ideal_ = postures;
     cost_ =
         new PositionsCost(axesAtStart(start_.arm.axes_in_base_at_zero), centre_, std::move(postures), steps_.size());
     problem_.AddResidualBlock(cost_, nullptr, steps_.data());
+  }
+
+  /// The URDF's axes in R0.
+  robot::ArmAxes drawnAxes() const {
+    robot::ArmAxes axes = campaign_.robot.axes_in_base_at_zero;
+    for (metrology::Line& axis : axes)
+      axis = {start_.r0_from_base_link * axis.point, start_.r0_from_base_link.linear() * axis.direction};
+    return axes;
+  }
+
+  /// Whether the arm of the URDF turns its flange about one direction only in these postures.
+  bool turnsAboutOneDirection(const std::vector<UnloadedPosture>& postures) const {
+    const robot::ArmAxes axes = drawnAxes();
+    std::optional<Eigen::Matrix3d> first;
+    Eigen::Matrix3d turns = Eigen::Matrix3d::Zero();
+    for (const UnloadedPosture& one : postures) {
+      const Eigen::Matrix3d now = robot::postureAt(axes, one.q, Eigen::Isometry3d::Identity()).motion.back().linear();
+      if (!first) first = now;
+      const Eigen::Vector3d turn = robot::rotationVector(now * first->transpose());
+      turns += turn * turn.transpose();
+    }
+    constexpr double kOther = 1e-6;  // a thousandth of the angle: what the sag makes of it
+    const Eigen::VectorXd values = symmetricEigenvalues(turns);
+    return values[1] <= kOther * values[2];
   }
 
   Eigen::Matrix3d whitening(const UnloadedPosition& position) const {
@@ -250,33 +301,33 @@ class Calibration {
     return in_loading * start_.r0_from_loading->linear().transpose();
   }
 
-  /// In the order in which fits would rather determine them: base, reflectors, then of the axes those that are not
-  /// `unseen`.
+  /// In the order in which fits would rather determine them: base, reflectors, then of the axes; none that is `unseen`.
   std::vector<int> freeParameters(const std::vector<int>& unseen) const {
     std::vector<int> free;
     for (int k = 0; k < ArmParameters::kBase; ++k) free.push_back(static_cast<int>(places_.baseAt()) + k);
     for (const std::size_t t : used_targets_) {
       for (int k = 0; k < 3; ++k) free.push_back(static_cast<int>(places_.targetAt(t)) + k);
     }
-    for (int k = 0; k < places_.axes(); ++k) {
-      if (std::find(unseen.begin(), unseen.end(), k) == unseen.end()) free.push_back(k);
-    }
+    for (int k = 0; k < places_.axes(); ++k) free.push_back(k);
+    std::erase_if(free, [&](int k) { return std::binary_search(unseen.begin(), unseen.end(), k); });
     return free;
   }
 
-  /// Axis parameters whose column of the Jacobian lies in the span of those before it. Base and reflectors
+  /// Parameters whose column of the Jacobian lies in the span of those before it, ascending. Base and reflectors
   /// come first and the axes from the tip inwards, so that what is free by choice of frame is fixed in axes 1
-  /// and 2, which define R0.
-  std::vector<int> unseenOfAxes() const {
+  /// and 2, which define R0. Of base and reflectors it is what no posture tells apart: where the flange turns about one
+  /// direction only, how far along it they stand. Of such an arm it is judged by the arm as drawn: the little that its
+  /// errors tilt the flange would leave what then is seen a thousand times less certain than the rest.
+  std::vector<int> unseenParameters() const {
     std::vector<int> order = freeParameters({});
     auto axes = order.end() - places_.axes();
     for (int axis = start_.arm.axes() - 1; axis >= 0; --axis) {
       for (int k = 0; k < 4; ++k) *axes++ = 4 * axis + k;
     }
-    std::vector<int> unseen;
-    for (const int column : numerics::columnsInSpanOfEarlier(cost_->jacobian(steps_), order)) {
-      if (column < places_.axes()) unseen.push_back(column);
-    }
+    const Eigen::MatrixXd jacobian =
+        ideal_ ? PositionsCost(axesAtStart(drawnAxes()), centre_, *ideal_, steps_.size()).jacobian(steps_)
+               : cost_->jacobian(steps_);
+    std::vector<int> unseen = numerics::columnsInSpanOfEarlier(jacobian, order);
     std::sort(unseen.begin(), unseen.end());
     return unseen;
   }
@@ -312,9 +363,10 @@ class Calibration {
   ArmParameters places_;
   std::vector<UnloadedPosition> positions_;
   std::vector<std::size_t> used_targets_;
-  Eigen::Vector3d centre_ = Eigen::Vector3d::Zero();  ///< mean of the measured points, in R0
-  Eigen::VectorXd steps_;                             ///< ArmParameters; the solver holds its address
-  PositionsCost* cost_ = nullptr;                     ///< owned by the problem
+  std::optional<std::vector<UnloadedPosture>> ideal_;  ///< where the drawn arm says what is seen
+  Eigen::Vector3d centre_ = Eigen::Vector3d::Zero();   ///< mean of the measured points, in R0
+  Eigen::VectorXd steps_;                              ///< ArmParameters; the solver holds its address
+  PositionsCost* cost_ = nullptr;                      ///< owned by the problem
   ceres::Problem problem_;
 };
 

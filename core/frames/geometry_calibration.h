@@ -35,7 +35,10 @@ struct GeometryCalibration {
 /// model; weighted by the tracker's covariance where it is declared. Solved by Ceres (Levenberg-Marquardt). Parameters
 /// that the positions do not see (the axes can be shifted against base and tool) are found from the rank of the
 /// Jacobian, fixed and named. Not done, with the reason: without absolute unloaded points, with fewer positions than
-/// parameters, or where the base's place can neither be taken from the sweeps nor from three or more reflectors.
+/// parameters, or where the base's place can neither be taken from the sweeps, from a table in base_link, nor from
+/// three or more reflectors. Of a flange that turns about one direction only, as a palletiser's, how high the base
+/// stands and how high the reflectors on the flange is told in sum: held as stated or as BaseFromPostures has it, and
+/// named.
 GeometryCalibration calibrateGeometry(const campaign::Campaign& campaign, const LoadingGeometry& start);
 
 }  // namespace stiffscope::frames

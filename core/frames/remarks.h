@@ -10,6 +10,7 @@ enum class RemarkId {
   other_joints_moved,  ///< during its sweep
   coupled_joints,      ///< of the whole arm: a joint turns several axes, its sweep shows none of them by itself
   coupled_axes_not_placed,
+  coupled_flange_level,
   coupled_axes_not_settling,
   earlier_axis_not_known,  ///< number of an axis that stood away from zero and is not measured
   // the wrist centre
@@ -31,6 +32,7 @@ enum class RemarkId {
   too_few_positions,         ///< positions, parameters
   calibration_not_settling,  ///< what the solver says
   axis_parameter,            ///< axis number, which of it: 0, 1 place along u, v; 2, 3 direction along u, v
+  base_against_reflectors,   ///< how many combinations of their places
   // equations of absolute unloaded positions
   no_absolute_readings,
   tracker_noise_not_declared,

@@ -42,6 +42,7 @@ ArmSearch searchArm(const campaign::Campaign& campaign, const ReadingsOfDay& day
     arm.mistakes = armMistakes(day, namesOf(campaign));
     searchReadTwice(arm);
     if (labelled && found.cures.empty()) searchExchangedSweeps(arm);
+    if (found.cures.empty()) searchRenumbered(arm);
     if (found.cures.empty()) searchTables(arm);
     if (found.cures.empty()) searchGroups(arm);
     if (found.cures.empty()) searchZeros(arm);

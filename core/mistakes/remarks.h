@@ -31,6 +31,11 @@ enum class RemarkId {
   angles_exchanged,    ///< both postures
   readings_exchanged,  ///< both postures, of the loading
   angles_repeated,     ///< posture, the one whose angles it has
+  angles_renumbered,   ///< in pairs: posture, the one in whose row its angles are; remark: in which order, or none
+  rows_renumbered,     ///< the same of whole rows, wrenches and all
+  order_reversed,      ///< nothing else
+  order_moved_on,      ///< by how many rows, below zero: back
+  order_as_texts,      ///< nothing else
   rows_lost,           ///< first posture of those whose angles are of another row, whether of the next posture's
   angles_backwards,    ///< axis
   sweeps_exchanged,    ///< both axes

@@ -78,6 +78,9 @@ void searchGroups(SearchedArm& arm);
 bool searchExchangedAngles(SearchedArm& arm, const std::vector<int>& apart);
 bool searchRepeatedAngles(SearchedArm& arm, int group);
 bool searchLostRow(SearchedArm& arm);
+/// Three postures or more whose angles stand in each other's rows: numbered anew, in whatever order. Returns whether it
+/// found some.
+bool searchRenumbered(SearchedArm& arm);
 
 /// Readings of the sweeps of two axes exchanged, each under the other's angles.
 void searchExchangedSweeps(SearchedArm& arm);

@@ -12,6 +12,8 @@ namespace stiffscope::page {
 
 namespace {
 
+constexpr const char* kUnmatched = "Postures that are not compared";
+
 const char* headingOf(const std::string& table) {
   if (table == "stiffness") return "Stiffness";
   if (table == "postures") return "Deflection and residuals";
@@ -43,6 +45,10 @@ std::string comparisonPage(const reports::StatedComparison& comparison, const st
     writeComparisonHead(html, "Two results of " + comparison.before.robot);
     const auto body = html.element("body");
     html.leaf("a", "To the results", {{"class", "skip"}, {"href", "#results"}});
+    std::vector<Html::Section> sections;
+    for (const reports::Table& table : tables) sections.push_back({table.id, headingOf(table.id)});
+    if (!comparison.unmatched.empty()) sections.push_back({"unmatched", kUnmatched});
+    writeContents(html, sections);
     {
       const auto header = html.element("header");
       html.leaf("h1", "Two results of " + reports::asIs(comparison.before.robot));
@@ -56,14 +62,6 @@ std::string comparisonPage(const reports::StatedComparison& comparison, const st
         html.list(rich);
       }
     }
-    {
-      const auto nav = html.element("nav", {{"aria-label", "Contents"}});
-      const auto list = html.element("ul");
-      for (const reports::Table& table : tables) {
-        const auto item = html.element("li");
-        html.leaf("a", headingOf(table.id), {{"href", "#" + table.id}});
-      }
-    }
     const auto main = html.element("main", {{"id", "results"}, {"tabindex", "-1"}});
     for (const reports::Table& table : tables) {
       const auto section = html.element("section", {{"id", table.id}});
@@ -73,7 +71,7 @@ std::string comparisonPage(const reports::StatedComparison& comparison, const st
     }
     if (!comparison.unmatched.empty()) {
       const auto section = html.element("section", {{"id", "unmatched"}});
-      html.leaf("h2", "Postures that are not compared");
+      html.leaf("h2", kUnmatched);
       std::vector<std::string> all;
       for (const std::string& one : comparison.unmatched) all.push_back(reports::asIs(one));
       html.list(all);

@@ -32,8 +32,9 @@ void writeFacts(Html& html, const std::string& caption, const std::vector<std::s
                 const std::vector<Fact>& facts) {
   if (facts.empty()) return;
   const auto scroll = html.element(
-      "div", {{"class", "scroll"}, {"role", "region"}, {"aria-label", reports::plain(caption)}, {"tabindex", "0"}});
-  const auto table = html.element("table", {{"class", facts.size() > 10 ? "words facts long" : "words facts"}});
+      "div",
+      {{"class", "scroll of-facts"}, {"role", "region"}, {"aria-label", reports::plain(caption)}, {"tabindex", "0"}});
+  const auto table = html.element("table", {{"class", "words facts long"}});
   html.leaf("caption", caption);
   if (names.size() > 1) {
     const auto head = html.element("thead");

@@ -146,8 +146,22 @@ std::string withUnbrokenPercent(std::string text) {
 
 }  // namespace
 
+void Html::refer(const std::string& section) {
+  const auto found =
+      std::find_if(sections_.begin(), sections_.end(), [&](const Section& one) { return one.name == section; });
+  if (found == sections_.end()) return text(section);
+  open("a", {{"href", "#" + found->id}});
+  // On paper the number is what a reader finds it by.
+  text(fmt::format("section\u00a0{}, {}", found - sections_.begin() + 1, section));
+  printer_->CloseElement(true);
+}
+
 void Html::rich(const std::string& text) {
   for (const reports::RichStretch& stretch : reports::richStretches(text)) {
+    if (stretch.kind == reports::RichStretch::reference) {
+      refer(stretch.text);
+      continue;
+    }
     const bool marked = stretch.kind == reports::RichStretch::subscript || stretch.kind == reports::RichStretch::code;
     if (marked) open(stretch.kind == reports::RichStretch::subscript ? "sub" : "code", {});
     this->text(stretch.kind == reports::RichStretch::code ? stretch.text : withUnbrokenPercent(stretch.text));

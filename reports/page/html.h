@@ -51,7 +51,8 @@ class Html {
   [[nodiscard]] Element element(const char* name, const Attributes& attributes = {});
   void voidElement(const char* name, const Attributes& attributes = {});  ///< meta, img
   void text(const std::string& text);
-  /// `x_{abc}` sets abc as a subscript, a word between backticks is set as code; what asIs made stays.
+  /// `x_{abc}` sets abc as a subscript, a word between backticks is set as code; what asIs made stays. `@{Audit}`
+  /// becomes a link to the section of that name with its number; where the page has none, the name alone.
   void rich(const std::string& text);
   void leaf(const char* name, const std::string& rich_text, const Attributes& attributes = {});
   void paragraph(const std::string& rich_text, const char* css_class = "");
@@ -65,6 +66,12 @@ class Html {
 
   std::string bytes() const;
 
+  /// The sections of the page in their order, before anything that refers to them.
+  struct Section {
+    std::string id, name;
+  };
+  void setSections(std::vector<Section> sections) { sections_ = std::move(sections); }
+
   /// What tables written from now on are of, for the names of their files: "-2" for the second campaign.
   void setTableSuffix(const std::string& suffix) { table_suffix_ = suffix; }
   /// Keeps a table that is on the page as a file; `id` is letters, digits and hyphens, empty: by its number.
@@ -73,7 +80,9 @@ class Html {
 
  private:
   void open(const char* name, const Attributes& attributes);
+  void refer(const std::string& section);
   std::unique_ptr<tinyxml2::XMLPrinter> printer_;
+  std::vector<Section> sections_;
   std::string table_suffix_;
   std::vector<reports::TableFile> tables_;
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reports/page/facts.h"
 #include "reports/page/sections.h"
 #include "reports/words/accuracy_words.h"
 #include "reports/words/names.h"
@@ -29,24 +30,58 @@ const reports::ReportCampaign& leading(const reports::ReportContent& content) {
   return active == campaigns.end() ? *first : *active;
 }
 
-/// ", double encoders active", where that is declared.
-std::string stateOf(const reports::ReportCampaign& one) {
-  const std::string words = reports::encoderWords(one.campaign.double_encoder);
+/// What tells the day from the report's others: the state of its double encoders, else its name.
+std::string dayOf(const reports::ReportContent& content, const reports::ReportCampaign& one) {
+  const auto at = static_cast<std::size_t>(&one - content.campaigns.data());
+  const std::string name = columnNames(content)[at];
+  const std::string state = reports::encoderWords(one.campaign.double_encoder);
+  return name == reports::capitalised(state) ? state : name;
+}
+
+/// ", double encoders active", where that is declared; of several days which of them.
+std::string stateOf(const reports::ReportContent& content, const reports::ReportCampaign& one) {
+  const std::string words =
+      content.campaigns.size() > 1 ? dayOf(content, one) : reports::encoderWords(one.campaign.double_encoder);
   return words.empty() ? words : ", " + words;
 }
 
-KeyNumber deflection(const reports::ReportCampaign& one, const reports::JudgedPoint& point) {
+std::string meanDeflection(const reports::ReportCampaign& one, const reports::JudgedPoint& point) {
   const auto& displacement = reports::displacementAt(one.identification, point.at_wrist);
-  if (displacement.empty()) return {"–", "deflection: no posture could be used"};
-  return {fmt::format("{}\u00a0mm", reports::fixed(reports::kMmPerM * reports::mean(displacement), 2)),
-          fmt::format("mean deflection at {} under {}, {} postures{}", point.name,
-                      reports::forceWords(reports::meanForce(one.identification)), displacement.size(), stateOf(one))};
+  return reports::fixed(reports::kMmPerM * reports::mean(displacement), 2);
+}
+
+/// "mean deflection at P_{wrist} under 1.50 kN, 19 postures".
+std::string deflectionWords(const reports::ReportCampaign& one, const reports::JudgedPoint& point) {
+  return fmt::format("mean deflection at {} under {}, {} postures", point.name,
+                     reports::forceWords(reports::meanForce(one.identification)),
+                     reports::displacementAt(one.identification, point.at_wrist).size());
+}
+
+KeyNumber deflection(const reports::ReportContent& content, const reports::ReportCampaign& one) {
+  const reports::JudgedPoint point = reports::judgedPoint(one);
+  if (reports::displacementAt(one.identification, point.at_wrist).empty())
+    return {"–", "deflection: no posture could be used"};
+  // Of two days under the same load both are told: one alone would be taken for the report's.
+  std::vector<const reports::ReportCampaign*> loaded;
+  for (const reports::ReportCampaign& day : content.campaigns)
+    if (isLoaded(day)) loaded.push_back(&day);
+  const std::string words = deflectionWords(one, point);
+  const bool alike = loaded.size() == 2 && std::all_of(loaded.begin(), loaded.end(), [&](const auto* day) {
+                       const reports::JudgedPoint own = reports::judgedPoint(*day);
+                       return !reports::displacementAt(day->identification, own.at_wrist).empty() &&
+                              deflectionWords(*day, own) == words;
+                     });
+  if (!alike) return {fmt::format("{}\u00a0mm", meanDeflection(one, point)), words + stateOf(content, one)};
+  return {fmt::format("{} and {}\u00a0mm", meanDeflection(*loaded[0], reports::judgedPoint(*loaded[0])),
+                      meanDeflection(*loaded[1], reports::judgedPoint(*loaded[1]))),
+          fmt::format("{}: {}, and {}", words, dayOf(content, *loaded[0]), dayOf(content, *loaded[1]))};
 }
 
 /// At the reflectors, by which the method was chosen, and at P_wrist; beside the paper in the paper's order.
-KeyNumber compensated(const reports::ReportCampaign& one, bool paper) {
+KeyNumber compensated(const reports::ReportContent& content, const reports::ReportCampaign& one) {
+  const bool paper = content.compare_with_paper;
   const auto shown = reports::shownMethod(one.identification);
-  if (!shown) return {"–", "compensated: no method is available, see the stiffnesses"};
+  if (!shown) return {"–", "compensated: no method is available, see @{Stiffness}"};
   const identification::MethodResult& method = one.identification.of(*shown);
   const bool wrist = reports::compensationAt(method, true).has_value(), first_at_wrist = wrist && paper;
   const auto share = [&](bool at_wrist) {
@@ -59,18 +94,18 @@ KeyNumber compensated(const reports::ReportCampaign& one, bool paper) {
       fmt::format("of the deflection at {} compensated by {} in postures {}", point(first_at_wrist),
                   reports::shortName(*shown), reports::heldOut(method, first_at_wrist) ? "held out" : "used");
   if (wrist) words += fmt::format("; {} at {}", share(!first_at_wrist), point(!first_at_wrist));
-  words += stateOf(one);
+  words += stateOf(content, one);
   return {share(first_at_wrist), words};
 }
 
 /// The joints that the verdict does not doubt.
-KeyNumber trusted(const reports::ReportCampaign& one) {
+KeyNumber trusted(const reports::ReportContent& content, const reports::ReportCampaign& one) {
   const identification::Identification& identification = one.identification;
-  const std::string state = stateOf(one);
+  const std::string state = stateOf(content, one);
   const auto shown = reports::shownMethod(identification);
   if (!shown)
     return {fmt::format("0 of {}", identification.identifiability.joints.size()),
-            "joint stiffnesses: no method is available, see the stiffnesses"};
+            "joint stiffnesses: no method is available, see @{Stiffness}"};
   const identification::StiffnessEstimate& estimate = identification.of(*shown).estimate;
   int count = 0;
   std::vector<std::string> doubtful;
@@ -99,7 +134,7 @@ KeyNumber third(const reports::ReportContent& content, const reports::ReportCamp
       words += fmt::format("; joints without one differ as well ({}): not only the encoders changed", others);
     return {reports::percent(content.avoided->share, 0), words};
   }
-  return trusted(one);
+  return trusted(content, one);
 }
 
 /// What a day of sweeps alone gives: axes and the lengths between them.
@@ -135,12 +170,16 @@ std::vector<KeyNumber> accuracyNumbers(const reports::ReportCampaign& one) {
 
 std::vector<KeyNumber> keyNumbers(const reports::ReportContent& content) {
   const reports::ReportCampaign& one = leading(content);
-  if (one.accuracy != nullptr) return accuracyNumbers(one);
-  const reports::JudgedPoint point = reports::judgedPoint(one);
+  const auto ofDay = [&](std::vector<KeyNumber> numbers) {
+    for (KeyNumber& number : numbers)
+      if (content.campaigns.size() > 1) number.words += stateOf(content, one);
+    return numbers;
+  };
+  if (one.accuracy != nullptr) return ofDay(accuracyNumbers(one));
   const frames::MeasuredAxes& axes = one.identification.frames.axes;
   const bool sweeps_alone = one.identification.cases.empty() && !axes.empty() && axes.front().measured;
-  if (sweeps_alone) return sweepNumbers(one.identification.frames);
-  return {deflection(one, point), compensated(one, content.compare_with_paper), third(content, one)};
+  if (sweeps_alone) return ofDay(sweepNumbers(one.identification.frames));
+  return {deflection(content, one), compensated(content, one), third(content, one)};
 }
 
 }  // namespace stiffscope::page

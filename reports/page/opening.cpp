@@ -235,7 +235,7 @@ void writeNext(Html& html, const reports::ReportContent& content) {
   }
   if (steps.empty() && std::any_of(campaigns.begin(), campaigns.end(), auditFails)) {
     steps.emplace_back(
-        "See under Audit which readings fail and why; measure them again, or state why the result stands without "
+        "See which readings fail and why (@{Audit}); measure them again, or state why the result stands without "
         "them.");
   }
   for (const reports::ReportCampaign& one : campaigns) {
@@ -256,9 +256,9 @@ void writeNext(Html& html, const reports::ReportContent& content) {
   html.leaf("b", "Next:");
   html.rich(fmt::format(" {}", fmt::join(steps, " ")));
   if (more)
-    html.rich(fmt::format(" More under {}.", reports::anyOfKind(campaigns, reports::DayKind::loaded)
-                                                 ? "What the model misses"
-                                                 : "What to do next"));
+    html.rich(fmt::format(" More in @{{{}}}.", reports::anyOfKind(campaigns, reports::DayKind::loaded)
+                                                   ? "What the model misses"
+                                                   : "What to do next"));
 }
 
 /// The campaign, or of several the machine, and the dates, before the report's number.

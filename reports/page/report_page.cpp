@@ -65,14 +65,11 @@ std::vector<Section> sectionsOf(const reports::ReportContent& content) {
           {"versions", "How this page was made", writeVersions, hasVersions(content)}};
 }
 
-void writeContents(Html& html, const std::vector<Section>& sections) {
-  const auto nav = html.element("nav", {{"aria-label", "Contents"}});
-  const auto list = html.element("ul");
-  for (const Section& section : sections) {
-    if (!section.shown) continue;
-    const auto item = html.element("li");
-    html.leaf("a", section.entry, {{"href", std::string("#") + section.id}});
-  }
+std::vector<Html::Section> shownOf(const std::vector<Section>& sections) {
+  std::vector<Html::Section> shown;
+  for (const Section& section : sections)
+    if (section.shown) shown.push_back({section.id, section.entry});
+  return shown;
 }
 
 /// JSON in a script: nothing in it is markup to HTML or XML, and JSON reads the same.
@@ -164,9 +161,10 @@ ReportPage makeReportPage(const reports::ReportContent& content) {
     writeHead(html, content);
     const auto body = html.element("body");
     html.leaf("a", "To the results", {{"class", "skip"}, {"href", "#results"}});
-    writeOpening(html, content);
     const std::vector<Section> sections = sectionsOf(content);
-    writeContents(html, sections);
+    html.setSections(shownOf(sections));
+    writeContents(html, shownOf(sections));
+    writeOpening(html, content);
     const auto main = html.element("main", {{"id", "results"}, {"tabindex", "-1"}});
     for (const Section& section : sections) {
       if (section.shown) section.write(html, content);

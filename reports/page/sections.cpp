@@ -31,6 +31,17 @@ void writeFigure(Html& html, const reports::Figure& figure, int number, bool has
 
 }  // namespace
 
+void writeContents(Html& html, const std::vector<Html::Section>& sections) {
+  const auto nav = html.element("nav", {{"aria-label", "Contents"}});
+  const auto fold = html.element("details");
+  html.leaf("summary", "Contents");
+  const auto list = html.element("ul");
+  for (const Html::Section& section : sections) {
+    const auto item = html.element("li");
+    html.leaf("a", section.name, {{"href", "#" + section.id}});
+  }
+}
+
 bool hasFigures(const reports::ReportContent& content, const std::string& section) {
   return std::any_of(content.figures.begin(), content.figures.end(),
                      [&](const reports::Figure& figure) { return figure.section == section; });

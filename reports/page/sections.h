@@ -45,6 +45,10 @@ void writeProvenance(Html& html, const reports::ReportContent& content);  ///< f
 bool hasVersions(const reports::ReportContent& content);
 void writeVersions(Html& html, const reports::ReportContent& content);  ///< versions, settings
 
+/// The contents, before what they are of: on a wide screen a column, on a narrow one folded into a bar that stays in
+/// view.
+void writeContents(Html& html, const std::vector<Html::Section>& sections);
+
 /// What sorts tables and answers for the marks of figures: the page's scripts but for its scenes.
 void writeChartScripts(Html& html, const std::vector<reports::Figure>& figures);
 

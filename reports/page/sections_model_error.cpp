@@ -110,7 +110,7 @@ reports::Table stiffnessTable(const diagnosis::Diagnosis& diagnosis) {
       stated ? fmt::format("Joint stiffness by {}, by joint springs alone and with the effects in the model, k ± U, {}",
                            reports::namesOf(diagnosis.stated->method).full, unit.name)
              : fmt::format("Joint stiffness in the diagnosis, by joint springs alone and with the verdict's effects in "
-                           "the model, k ± u, {}",
+                           "the model, k ± U, {}",
                            unit.name),
       {"Joint", "Alone", "With the effects"},
       {},
@@ -122,11 +122,12 @@ reports::Table stiffnessTable(const diagnosis::Diagnosis& diagnosis) {
   reports::RowGroup group;
   for (int j = 0; j < static_cast<int>(diagnosis.identifiable.size()); ++j) {
     if (!diagnosis.identifiable[static_cast<std::size_t>(j)]) continue;
-    const double u = stated ? diagnosis.stated->expanded[j] : diagnosis.stiffness_after_sd[j];
+    const double sd = diagnosis.stiffness_after_sd[j];
+    const double u = stated ? diagnosis.stated->expanded[j] : reports::expanded(sd);
     group.rows.push_back({reports::jointName(j),
                           reports::toPlaceOf(diagnosis.stiffness_before[j] / unit.size, u / unit.size),
                           reports::withUncertainty(diagnosis.stiffness_after[j] / unit.size, u / unit.size)});
-    data.rows.push_back({j + 1.0, diagnosis.stiffness_before[j], diagnosis.stiffness_after[j], u});
+    data.rows.push_back({j + 1.0, diagnosis.stiffness_before[j], diagnosis.stiffness_after[j], stated ? u : sd});
   }
   table.groups.push_back(std::move(group));
   return table;
@@ -148,7 +149,7 @@ void writeDiagnosis(Html& html, const diagnosis::Diagnosis& diagnosis) {
     if (!diagnosis.stated) {
       html.paragraph(
           "No method of identification gives stiffnesses here: these are of the diagnosis's own fit of all load steps, "
-          "and u is one standard uncertainty by weights of the noise.",
+          "and U is 1.96 times the standard uncertainty by weights of the noise.",
           "faint");
     }
   }

@@ -10,6 +10,7 @@
 #include "reports/page/sections.h"
 #include "reports/words/accuracy_words.h"
 #include "reports/words/calibration_words.h"
+#include "reports/words/link_uncertainty.h"
 #include "reports/words/names.h"
 #include "reports/words/numbers.h"
 
@@ -35,7 +36,7 @@ std::string directionWords(const Eigen::Vector3d& direction) {
 reports::Table axesTable(const calibration::Calibration& calibration) {
   const calibration::ArmFit& fit = calibration.geometry().fit;
   reports::Table table{
-      "Axes against the URDF's, in base_link with all joints at zero: value ± standard uncertainty u, across the axis",
+      "Axes against the URDF's, in base_link with all joints at zero: value ± U (95\u00a0%), across the axis",
       {"Axis", "u along", "v along", "Moved along u (mm)", "Moved along v (mm)", "Tilted towards u (mdeg)",
        "Tilted towards v (mdeg)"},
       {{}},
@@ -66,7 +67,7 @@ reports::Table axesTable(const calibration::Calibration& calibration) {
     for (int k = 0; k < 4; ++k) {
       const int at = 4 * j + k;
       const double unit = k < 2 ? io::kMillimetre : kMillidegree, sd = fit.sd(at);
-      row.emplace_back(sd > 0.0 ? reports::withUncertainty(fit.steps[at] / unit, sd / unit) : "–");
+      row.emplace_back(sd > 0.0 ? reports::withUncertainty(fit.steps[at] / unit, reports::expanded(sd) / unit) : "–");
       cells.push_back(sd > 0.0 ? reports::DataCell(fit.steps[at] / unit) : reports::DataCell());
       cells.push_back(sd > 0.0 ? reports::DataCell(sd / unit) : reports::DataCell());
     }
@@ -81,14 +82,16 @@ reports::Table linksTable(const calibration::Calibration& calibration) {
   const calibration::DenavitHartenberg now =
       calibration::denavitHartenberg(calibration.geometry().fit.arm(nominal), nominal);
   const calibration::DenavitHartenberg built = calibration::denavitHartenberg(nominal, nominal);
-  reports::Table table{"Denavit and Hartenberg's parameters, calibrated, and the URDF's in small type",
+  const PerJoint<calibration::LinkParameters> sds = reports::linkUncertainties(calibration.geometry().fit, nominal);
+  reports::Table table{"Denavit and Hartenberg's parameters, calibrated ± U (95\u00a0%), and the URDF's in small type",
                        {"Axes", "θ (°)", "d (mm), or β (°)", "a (mm)", "α (°)"},
                        {{}},
                        false,
                        "denavit-hartenberg"};
   reports::DataTable& data = table.data.emplace();
-  data.columns = {"axis_from", "axis_to",        "theta_deg", "d_mm",      "a_mm",           "alpha_deg",
-                  "beta_deg",  "urdf_theta_deg", "urdf_d_mm", "urdf_a_mm", "urdf_alpha_deg", "urdf_beta_deg"};
+  data.columns = {"axis_from",    "axis_to",        "theta_deg", "d_mm",         "a_mm",           "alpha_deg",
+                  "beta_deg",     "urdf_theta_deg", "urdf_d_mm", "urdf_a_mm",    "urdf_alpha_deg", "urdf_beta_deg",
+                  "sd_theta_deg", "sd_d_mm",        "sd_a_mm",   "sd_alpha_deg", "sd_beta_deg"};
   // Of nearly parallel axes there is no d but Hayati's beta.
   const auto addCells = [](const calibration::LinkParameters& link, bool hayati, std::vector<reports::DataCell>& row) {
     row.emplace_back(link.theta / io::kDegree);
@@ -97,24 +100,27 @@ reports::Table linksTable(const calibration::Calibration& calibration) {
     row.emplace_back(link.alpha / io::kDegree);
     row.push_back(hayati ? reports::DataCell(link.beta / io::kDegree) : reports::DataCell());
   };
-  const auto both = [](double value, double urdf) {
-    constexpr int kPlaces = 4, kOfUrdf = 3;
-    return reports::Cell(reports::fixed(reports::unsignedZero(value, kPlaces), kPlaces),
+  // A parameter that nothing fitted moves is the URDF's own.
+  const auto both = [](double value, double sd, double urdf) {
+    constexpr int kOfUrdf = 3;
+    return reports::Cell(sd > 0.0 ? reports::withUncertainty(value, reports::expanded(sd))
+                                  : reports::fixed(reports::unsignedZero(value, kOfUrdf), kOfUrdf),
                          reports::fixed(reports::unsignedZero(urdf, kOfUrdf), kOfUrdf));
   };
   for (std::size_t i = 0; i < now.links.size(); ++i) {
-    const calibration::LinkParameters &link = now.links[i], &as_built = built.links[i];
+    const calibration::LinkParameters &link = now.links[i], &as_built = built.links[i], &sd = sds[i];
     std::vector<reports::DataCell>& cells = data.rows.emplace_back();
     cells = {static_cast<double>(i + 1), static_cast<double>(i + 2)};
     addCells(link, link.hayati, cells);
     addCells(as_built, link.hayati, cells);
+    addCells(sd, link.hayati, cells);
     table.groups.front().rows.push_back(
         {reports::Cell(fmt::format("{} and {}", i + 1, i + 2), link.hayati ? "β: Hayati" : ""),
-         both(link.theta / io::kDegree, as_built.theta / io::kDegree),
-         link.hayati ? both(link.beta / io::kDegree, as_built.beta / io::kDegree)
-                     : both(link.d / io::kMillimetre, as_built.d / io::kMillimetre),
-         both(link.a / io::kMillimetre, as_built.a / io::kMillimetre),
-         both(link.alpha / io::kDegree, as_built.alpha / io::kDegree)});
+         both(link.theta / io::kDegree, sd.theta / io::kDegree, as_built.theta / io::kDegree),
+         link.hayati ? both(link.beta / io::kDegree, sd.beta / io::kDegree, as_built.beta / io::kDegree)
+                     : both(link.d / io::kMillimetre, sd.d / io::kMillimetre, as_built.d / io::kMillimetre),
+         both(link.a / io::kMillimetre, sd.a / io::kMillimetre, as_built.a / io::kMillimetre),
+         both(link.alpha / io::kDegree, sd.alpha / io::kDegree, as_built.alpha / io::kDegree)});
   }
   return table;
 }
@@ -123,7 +129,7 @@ reports::Row pointRow(const std::string& name, const calibration::UncertainPoint
   reports::Row row{name};
   for (int k = 0; k < 3; ++k) {
     const double sd = point.sd[k];
-    row.emplace_back(sd > 0.0 ? reports::withUncertainty(point.value[k] / unit, sd / unit)
+    row.emplace_back(sd > 0.0 ? reports::withUncertainty(point.value[k] / unit, reports::expanded(sd) / unit)
                               : reports::fixed(point.value[k] / unit, 3));
   }
   return row;
@@ -132,7 +138,7 @@ reports::Row pointRow(const std::string& name, const calibration::UncertainPoint
 /// The tracker against the base, and the reflectors on the flange.
 reports::Table placesTable(const calibration::Calibration& calibration) {
   const calibration::ArmFit& fit = calibration.geometry().fit;
-  reports::Table table{"Base and reflectors by the calibrated geometry: value ± standard uncertainty u",
+  reports::Table table{"Base and reflectors by the calibrated geometry: value ± U (95\u00a0%)",
                        {"What", "x", "y", "z"},
                        {{}},
                        false,
@@ -176,12 +182,11 @@ reports::Table stiffnessTable(const calibration::Calibration& calibration) {
   for (const reports::JointStiffness& joint : joints)
     if (joint.value > 0.0) stiffnesses.push_back(joint.value);
   const reports::StiffnessUnit unit = reports::stiffnessUnit(stiffnesses);
-  reports::Table table{
-      fmt::format("Joint stiffness by the arm's own weight, k ± standard uncertainty u, {}", unit.name),
-      {"Joint", "k"},
-      {{}},
-      false,
-      "own-weight-stiffness"};
+  reports::Table table{fmt::format("Joint stiffness by the arm's own weight, k ± U (95\u00a0%), {}", unit.name),
+                       {"Joint", "k"},
+                       {{}},
+                       false,
+                       "own-weight-stiffness"};
   reports::DataTable& data = table.data.emplace();
   data.columns = {"joint", "stiffness_nm_per_rad", "sd_nm_per_rad"};
   if (!calibration.day.masses_known) return table;
@@ -190,7 +195,7 @@ reports::Table stiffnessTable(const calibration::Calibration& calibration) {
       data.rows.push_back({static_cast<double>(j + 1), joints[j].value, joints[j].sd});
       table.groups.front().rows.push_back(
           {reports::jointName(static_cast<int>(j)),
-           reports::withUncertainty(joints[j].value / unit.size, joints[j].sd / unit.size)});
+           reports::withUncertainty(joints[j].value / unit.size, reports::expanded(joints[j].sd) / unit.size)});
     }
   }
   return table;

@@ -8,20 +8,26 @@ namespace {
 
 // Pictures are drawn on white paper; in the dark their lightness is turned over, hues stay.
 constexpr const char* kScreen =
-    ":root{--paper:#fff;--ink:#202024;--faint:#55575e;--line:#dcdfe4;--band:#f4f6f8;--accent:#1c4a96}"
+    ":root{--paper:#fff;--ink:#202024;--faint:#55575e;--line:#dcdfe4;--band:#f4f6f8;--accent:#1c4a96;--shade:#9098a6;"
+    "--lay:darken}"
     "@media (prefers-color-scheme:dark){:root{--paper:#17181b;--ink:#e6e7ea;--faint:#a9acb3;--line:#3a3d43;"
-    "--band:#212328;--accent:#8fb4f0}}"
+    "--band:#212328;--accent:#8fb4f0;--shade:#757d8c;--lay:lighten}}"
     "*{box-sizing:border-box}"
     "body{margin:0;background:var(--paper);color:var(--ink);font:16px/1.5 system-ui,sans-serif}"
     "main,header,nav{min-width:0;padding:0 1.25rem}main header{padding-left:0;padding-right:0}"
     "header{padding-top:1.2rem}main{padding-bottom:3rem}main:focus{outline:none}"
     ".skip{position:absolute;left:-99rem}.skip:focus{left:1rem;top:.5rem;background:var(--paper);padding:.4rem .8rem}"
     "a{color:var(--accent)}:focus-visible{outline:3px solid var(--accent);outline-offset:2px}"
-    // The contents stay in view: a line at the top of a narrow screen, a column at the left of a wide one. Sections and
-    // entries are counted alike, each section having one h2 and one entry.
-    "nav{position:sticky;top:0;z-index:5;background:var(--paper);border-bottom:1px solid var(--line)}"
-    "nav ul{display:flex;gap:.3rem 1.1rem;overflow-x:auto;list-style:none;padding:.45rem 0;margin:0;max-width:none;"
-    "font-size:.9rem;counter-reset:entry}nav li{counter-increment:entry;white-space:nowrap}"
+    // The contents stay in view: folded into a bar at the top of a narrow screen, a column at the left of a wide one.
+    // Sections and entries are counted alike, each section having one h2 and one entry.
+    "nav{position:sticky;top:0;z-index:5;background:var(--paper);border-bottom:1px solid var(--line);display:flex;"
+    "flex-wrap:wrap;gap:0 1.5rem;align-items:center;justify-content:space-between}"
+    "nav summary{padding:.5rem 0}"
+    // Opened it lies over the page, which stays where it is.
+    "nav ul{position:absolute;left:0;right:0;top:100%;max-height:calc(100vh - 6rem);overflow-y:auto;columns:16rem;"
+    "background:var(--paper);border-bottom:1px solid var(--line);box-shadow:0 .4rem .6rem #0003;list-style:none;"
+    "padding:.3rem 1.25rem .7rem;margin:0;max-width:none;font-size:.9rem;counter-reset:entry}"
+    "nav li{counter-increment:entry;break-inside:avoid;padding:.2rem 0 .2rem 1.6rem;text-indent:-1.6rem}"
     "nav li::before{content:counter(entry) '\\00a0';color:var(--faint)}nav a{text-decoration:none}nav a:hover{"
     "text-decoration:underline}"
     "main{counter-reset:section}section{scroll-margin-top:3rem}h2{counter-increment:section}"
@@ -29,9 +35,12 @@ constexpr const char* kScreen =
     "@media screen and (min-width:75rem){body:has(nav){display:grid;grid-template-columns:13.5rem "
     "minmax(0,1fr);max-width:118rem;"
     "margin:0 auto}header{grid-column:2;grid-row:1}main{grid-column:2;grid-row:2}"
-    "nav{grid-column:1;grid-row:1 / span 2;align-self:start;height:100vh;overflow-y:auto;border-bottom:0;"
-    "border-right:1px solid var(--line);padding:1.4rem .8rem 1rem 1.25rem}nav ul{display:block}"
-    "nav li{white-space:normal;padding:.2rem 0 .2rem 1.6rem;text-indent:-1.6rem}"
+    "nav{grid-column:1;grid-row:1 / span 2;align-self:start;height:100vh;overflow-y:auto;border-bottom:0;display:block;"
+    "border-right:1px solid var(--line);padding:1.4rem .8rem 1rem 1.25rem}"
+    "nav ul{position:static;max-height:none;columns:auto;border:0;box-shadow:none;padding:0}"
+    // There the list stands open; a browser that cannot force it is opened by the page's script.
+    "@supports selector(::details-content){nav summary{display:none}"
+    "nav details::details-content{content-visibility:visible;display:block}}"
     "section{scroll-margin-top:0}}"
     "h1{font-size:1.9rem;line-height:1.2;margin:0 0 .3rem}"
     "h2{font-size:1.3rem;margin:2.4rem 0 .6rem;padding-top:.7rem;border-top:1px solid var(--line)}"
@@ -73,6 +82,13 @@ constexpr const char* kScreen =
     "#versions h2{column-span:all}"
     ".each table{font-size:.84rem}.grouped tbody th{white-space:nowrap}"
     ".scroll{overflow-x:auto;margin:0 0 1.1rem;padding-top:.1rem}"
+    // A shade at an edge beyond which there is more. The paper before it moves with what is scrolled and covers it at
+    // the end; a picture, which has no gaps, lets it through.
+    ".scroll,.readable{background:linear-gradient(90deg,var(--paper) 60%,transparent) 0 0/2rem 100% no-repeat local,"
+    "linear-gradient(270deg,var(--paper) 60%,transparent) 100% 0/2rem 100% no-repeat local,"
+    "linear-gradient(90deg,var(--shade),transparent) 0 0/1.1rem 100% no-repeat scroll,"
+    "linear-gradient(270deg,var(--shade),transparent) 100% 0/1.1rem 100% no-repeat scroll}"
+    ".readable{isolation:isolate}.readable img{mix-blend-mode:var(--lay)}"
     "table{min-width:min(100%,30rem);border-collapse:collapse;font-size:.9rem;font-variant-numeric:tabular-nums}"
     "caption{text-align:left;font-weight:600;padding:0 0 .35rem;position:sticky;left:0;max-width:calc(100vw - 2.6rem)}"
     "th,td{padding:.28rem .42rem;text-align:right;vertical-align:baseline;border-bottom:1px solid var(--line)}"
@@ -85,13 +101,14 @@ constexpr const char* kScreen =
     ".words td:last-child{overflow-wrap:anywhere}.words td:nth-child(4):last-child,.words "
     "td:nth-child(5):last-child{width:55%}"
     // On a narrow screen a sentence of a table stands below its row.
-    "@media screen{.words td:nth-child(4):last-child,.words td:nth-child(5):last-child{min-width:17rem}}"
+    "@media screen{.words td:nth-child(4):last-child,.words td:nth-child(5):last-child{min-width:17rem}"
+    ".words:not(.facts) td:nth-child(3):last-child{min-width:7rem}}"
     "@media screen and "
     "(max-width:40rem){.words:has(td:nth-child(4)){&,caption,thead,tbody{display:block}tr{display:grid;"
     "grid-template-columns:1.3fr 1fr 1fr;border-bottom:1px solid var(--line)}th,td{border:0}"
     "td:nth-child(n+4):last-child,th:nth-child(n+4):last-child{grid-column:1/"
     "-1;width:auto;min-width:0;max-width:none;padding-left:0}}"
-    ".words:has(td:nth-child(5)) tr{grid-template-columns:1.3fr .8fr 1fr 1fr}}p:has(+ ul){break-after:avoid}"
+    ".words:has(td:nth-child(5)) tr{grid-template-columns:1.3fr .8fr 1fr 1fr}}"
     ".numeric tbody th{min-width:4.8rem}.scroll+.faint,.notes{break-before:avoid}"
     "th button{font:inherit;color:inherit;text-align:inherit;background:none;border:0;padding:0;cursor:pointer}"
     "th button:hover{text-decoration:underline}"
@@ -120,7 +137,7 @@ constexpr const char* kScripted =
     "solid "
     "var(--faint);padding:.3rem .5rem;font-size:.82rem;margin:.6rem;z-index:3;max-width:20rem;overflow:hidden}"
     ".csv,.offer{font:inherit;font-size:.85rem;color:var(--accent);background:var(--band);border:1px solid var(--line);"
-    "cursor:pointer;padding:.05rem .45rem}.filter{display:block;font-size:.85rem;color:var(--faint);margin:.4rem "
+    "cursor:pointer;padding:.05rem .45rem}.filter{font-size:.85rem;color:var(--faint);margin:.4rem "
     "0}.unknown{display:block;color:var(--ink);overflow-wrap:anywhere}.now{display:block;font-weight:600}"
     ".filter input{font:inherit;color:var(--ink);"
     "background:var(--band);border:1px solid var(--faint);padding:.05rem .3rem}"
@@ -143,19 +160,27 @@ constexpr const char* kScripted =
 
 constexpr const char* kPrint =
     "@media print{"
-    ":root{--paper:#fff;--ink:#000;--faint:#444;--line:#bbb;--band:#f4f6f8;--accent:#1c4a96}"
-    "body{font-size:9.5pt}nav,.skip,details,.scene-live,.csv,.offer,canvas.marks,.tip,.now{display:none}"
+    ":root{--paper:#fff;--ink:#000;--faint:#444;--line:#bbb;--band:#f4f6f8;--accent:#1c4a96;--lay:normal}"
+    "body{font-size:9.5pt}a{color:inherit;text-decoration:none}nav,.skip,details,.scene-live,.csv,.offer,canvas.marks,."
+    "tip,.now{display:none}"
     "figure.live .picture{display:block}.first{grid-template-columns:9fr 11fr;gap:0 6mm}.first "
     ".figures{display:block}.first table{font-size:7.5pt}.first .figures{grid-row:1}.first .told{grid-column:1 / span "
     "2}tr.filtered{display:table-row}"
     "main,header{max-width:none;padding:0}"
     "h1{font-size:18pt}h2{font-size:13pt;margin-top:5mm}h3{font-size:10.5pt;margin:3mm 0 1mm}"
     "h2,h3,caption,thead{break-after:avoid}"
-    "figure,table,tr,.numbers,.verdict,.notes li{break-inside:avoid}table.long{break-inside:auto}"
-    "p,li{orphans:3;widows:3}"
-    // A sentence goes with the table that it speaks of, and no row of a broken table stands alone.
-    // Rows of words are high and stand alone.
-    "p:has(+ .scroll){break-after:avoid}table:not(.words) tbody tr:nth-child(-n+2):not(:last-child){break-after:avoid}"
+    // A paragraph of a few lines that were broken would leave one of them under a heading.
+    "figure,table,tr,p,li,.numbers{break-inside:avoid}table.long{break-inside:auto}"
+    // A head that holds buttons is not repeated on the next page.
+    "th button{display:contents}"
+    // A sentence goes with the table or list that it speaks of, but one that stands below a table goes with that alone:
+    // bound to both it would keep two tables together, which are more than a page has left. Facts speak for themselves.
+    "p:not(.scroll + .faint):is(:has(+ .scroll:not(.of-facts)),:has(+ ul)){break-after:avoid}"
+    ".scroll + .faint{break-inside:auto;orphans:2;widows:2}"
+    // The rows of a group stay with its header, which is not repeated, where they are few.
+    ".grouped tbody:not(:has(tr:nth-child(9))){break-inside:avoid}"
+    // No row of a broken table stands alone. Rows of words are high and do.
+    "table:not(.words) tbody tr:nth-child(-n+2):not(:last-child){break-after:avoid}"
     "table:not(.words) tbody tr:nth-last-child(-n+2):not(:first-child){break-before:avoid}"
     ".several,.each,.figures,.each>.figures{display:block}header .cautions{columns:auto}.scroll{break-inside:auto}"
     "#versions,#versions table{break-inside:avoid}"
@@ -170,7 +195,7 @@ constexpr const char* kPrint =
     "figcaption{margin-top:1mm;font-size:7.5pt}"
     // Two pictures one above the other stand on the first page.
     ".first figure img{max-height:49mm;object-fit:contain;object-position:left top}.first figure{margin:1.5mm 0}"
-    ".scroll{overflow:visible;margin-bottom:3mm}caption{max-width:none}"
+    ".scroll,.readable{overflow:visible;background:none}.scroll{margin-bottom:3mm}caption{max-width:none}"
     "p,ul,ol,figcaption{max-width:none}"
     ".numbers{grid-template-columns:repeat(3,1fr)}.numbers b{font-size:16pt}"
     "}";

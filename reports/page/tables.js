@@ -2,7 +2,7 @@
 
 // Sorts the rows of a table of class `sorts` by the column whose header is clicked: numbers by the first number in them,
 // words by the alphabet, what has neither last; a second click turns the order. Headers become buttons here, so that
-// without script none promises what it cannot do. Groups of rows (tbody) stay together.
+// without script none promises what it cannot do. Groups of rows (tbody) stay together. The contents are folded here, too.
 (function () {
   function keyOf(row, column) {
     const text = row.cells[column].textContent.replace(/\u2212/g, '-').trim();
@@ -42,5 +42,16 @@
       head.appendChild(button);
       button.addEventListener('click', () => sort(table, heads, column));
     });
+  }
+
+  // The contents: open beside the page where there is room, closed again by a choice where they lie over it.
+  const fold = document.querySelector('nav details');
+  if (fold) {
+    const wide = window.matchMedia('(min-width:75rem)');
+    const follow = () => { fold.open = wide.matches; };
+    wide.addEventListener('change', follow);
+    follow();
+    fold.addEventListener('click', (event) => { if (event.target.closest('a') && !wide.matches) fold.open = false; });
+    document.addEventListener('keydown', (event) => { if (event.key === 'Escape' && !wide.matches) fold.open = false; });
   }
 })();

@@ -38,7 +38,8 @@ void writeTerms(const accuracy::AccuracyClass& one, Out out) {
   for (const calibration::EffectPart& part : one.parts) {
     for (const calibration::EffectTerm& term : part.terms) {
       if (k < kMostTerms)
-        fmt::format_to(out, "      {:<40}{:>12.4g} +- {:.2g} {}\n", term.name, one.sizes[k], one.sds[k], term.unit);
+        fmt::format_to(out, "      {:<40}{:>12.4g} +- {:.2g} {}\n", term.name, one.sizes[k], expanded(one.sds[k]),
+                       term.unit);
       ++k;
     }
   }
@@ -47,7 +48,8 @@ void writeTerms(const accuracy::AccuracyClass& one, Out out) {
 
 void writeClasses(const AccuracyDiagnosis& accuracy, Out out) {
   if (accuracy.classes.empty()) return;
-  fmt::format_to(out, "\nWhich: candidates (* in the verdict), and what each takes off the gap on postures held out\n");
+  fmt::format_to(
+      out, "\nWhich: candidates (* in the verdict), what each takes off the gap on postures held out; +- U, 95 %\n");
   fmt::format_to(out, "  {:<2}{:<44}{:>12}{:>9}  {:<17}{:>10}\n", "", "effect", "score", "shrink", "95 %", "explained");
   for (const accuracy::AccuracyClass& one : accuracy.classes) {
     fmt::format_to(out, "  {:<2}{:<44}{:>12.0f}{:>9.3f}  {:<17}{:>10.3f}\n", one.in_verdict ? "*" : "",

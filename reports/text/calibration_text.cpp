@@ -7,6 +7,7 @@
 #include "core/io/units.h"
 #include "reports/text/text.h"
 #include "reports/words/calibration_words.h"
+#include "reports/words/link_uncertainty.h"
 #include "reports/words/numbers.h"
 #include "reports/words/remark_words.h"
 
@@ -32,13 +33,14 @@ void writeModels(const calibration::Calibration& calibration, const calibration:
 
 void writeEffects(const calibration::Calibration& calibration, Out out) {
   const calibration::ArmFit& fit = calibration.best().fit;
-  if (!fit.parts.empty()) fmt::format_to(out, "\nEffects beside the geometry, in the order in which they were found\n");
+  if (!fit.parts.empty())
+    fmt::format_to(out, "\nEffects beside the geometry, in the order in which they were found (+- U, 95 %)\n");
   Eigen::Index k = 0;
   for (const calibration::EffectPart& part : fit.parts) {
     fmt::format_to(out, "  {}\n", partName(part));
     for (const calibration::EffectTerm& term : part.terms) {
       const double sd = fit.sd(static_cast<int>(fit.steps.size() + k));
-      fmt::format_to(out, "    {:<32}{:>14.4g} +- {:.2g} {}\n", term.name, fit.sizes[k], sd, term.unit);
+      fmt::format_to(out, "    {:<32}{:>14.4g} +- {:.2g} {}\n", term.name, fit.sizes[k], expanded(sd), term.unit);
       ++k;
     }
   }
@@ -49,8 +51,7 @@ void writeAxes(const calibration::Calibration& calibration, Out out) {
   const calibration::ArmFit& fit = calibration.geometry().fit;
   const robot::Robot arm = fit.arm(calibration.day.arm);
   fmt::format_to(out,
-                 "\nAxes of the geometry against the URDF's, in base_link at zero (u, v across the axis; +- standard "
-                 "uncertainty)\n"
+                 "\nAxes of the geometry against the URDF's, in base_link at zero (u, v across the axis; +- U, 95 %)\n"
                  "  {:<6}{:>38}{:>42}\n",
                  "axis", "moved, mm", "tilted, mdeg");
   constexpr double kMillidegree = 1e-3 * io::kDegree;
@@ -60,29 +61,37 @@ void writeAxes(const calibration::Calibration& calibration, Out out) {
       const int at = 4 * j + k;
       const double unit = k < 2 ? io::kMillimetre : kMillidegree;
       const double sd = fit.sd(at);
-      fmt::format_to(out, "{:>20}",
-                     sd > 0.0 ? fmt::format("{:.3f} +- {:.3f}", fit.steps[at] / unit, sd / unit) : std::string("-"));
+      fmt::format_to(
+          out, "{:>20}",
+          sd > 0.0 ? fmt::format("{:.3f} +- {:.3f}", fit.steps[at] / unit, expanded(sd) / unit) : std::string("-"));
     }
     fmt::format_to(out, "\n");
   }
   const calibration::DenavitHartenberg now = calibration::denavitHartenberg(arm, calibration.day.arm),
                                        before =
                                            calibration::denavitHartenberg(calibration.day.arm, calibration.day.arm);
+  const PerJoint<calibration::LinkParameters> sds = linkUncertainties(fit, calibration.day.arm);
   fmt::format_to(out,
-                 "\nDenavit and Hartenberg's parameters (Hayati's where axes are parallel), URDF's in brackets\n"
+                 "\nDenavit and Hartenberg's parameters (Hayati's where axes are parallel) to the second digit of U, "
+                 "URDF's in brackets\n"
                  "  {:<6}{:>22}{:>24}{:>24}{:>20}\n",
                  "axes", "theta, deg", "d, mm (H: beta, deg)", "a, mm", "alpha, deg");
   for (std::size_t i = 0; i < now.links.size(); ++i) {
-    const calibration::LinkParameters &link = now.links[i], &as_built = before.links[i];
+    const calibration::LinkParameters &link = now.links[i], &as_built = before.links[i], &sd = sds[i];
     const double second = link.hayati ? link.beta / io::kDegree : link.d / io::kMillimetre;
     const double second_built = as_built.hayati ? as_built.beta / io::kDegree : as_built.d / io::kMillimetre;
-    const auto both = [](double value, double nominal) {
-      return fmt::format("{:.4f} ({:.3f})", unsignedZero(value, 4), unsignedZero(nominal, 3));
+    const double second_sd = link.hayati ? sd.beta / io::kDegree : sd.d / io::kMillimetre;
+    const auto both = [](double value, double uncertainty, double nominal) {
+      constexpr int kOfUrdf = 3;
+      const int places = placesOf(expanded(uncertainty), kOfUrdf);
+      return fmt::format("{:.{}f} ({:.{}f})", unsignedZero(value, places), places, unsignedZero(nominal, kOfUrdf),
+                         kOfUrdf);
     };
     fmt::format_to(out, "  {}-{}{}{:>24}{:>24}{:>24}{:>20}\n", i + 1, i + 2, link.hayati ? "H" : " ",
-                   both(link.theta / io::kDegree, as_built.theta / io::kDegree), both(second, second_built),
-                   both(link.a / io::kMillimetre, as_built.a / io::kMillimetre),
-                   both(link.alpha / io::kDegree, as_built.alpha / io::kDegree));
+                   both(link.theta / io::kDegree, sd.theta / io::kDegree, as_built.theta / io::kDegree),
+                   both(second, second_sd, second_built),
+                   both(link.a / io::kMillimetre, sd.a / io::kMillimetre, as_built.a / io::kMillimetre),
+                   both(link.alpha / io::kDegree, sd.alpha / io::kDegree, as_built.alpha / io::kDegree));
   }
   if (calibration.not_identifiable.empty()) return;
   fmt::format_to(out, "\nNot identifiable\n");

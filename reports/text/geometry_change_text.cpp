@@ -57,13 +57,13 @@ void writeCauses(const comparison::GeometryChange& change, Out out) {
 
 void writeOthers(const comparison::GeometryChange& change, Out out) {
   if (!change.reflectors.empty())
-    fmt::format_to(out, "\nReflectors on the flange, after - before, mm +- standard uncertainty (flange axes)\n");
+    fmt::format_to(out, "\nReflectors on the flange, after - before, mm +- U (95 %), flange axes\n");
   for (const comparison::ReflectorChange& one : change.reflectors) {
     fmt::format_to(out, "  {:<10}", one.target);
     for (Eigen::Index k = 0; k < 3; ++k) {
       fmt::format_to(out, "{:>20}",
                      fmt::format("{:.4f} +- {:.4f}", unsignedZero(one.shift[k] / io::kMillimetre, 4),
-                                 one.sd[k] / io::kMillimetre));
+                                 expanded(one.sd[k]) / io::kMillimetre));
     }
     fmt::format_to(out, "   Holm {}\n", chance(one.p_holm));
   }

@@ -13,7 +13,7 @@ std::string clockText(const interchange::ClockReport& clock, const std::string& 
       start.empty()
           ? fmt::format("{}: the robot's clock is ahead of the tracker's by {:.3f} s", clock.log, clock.offset_s)
           : fmt::format("{}: at the tracker's {} the robot's clock shows {:.3f} s", clock.log, start, clock.offset_s);
-  text += clock.stated ? ", as stated" : fmt::format(" +- {:.3f} s", clock.uncertainty_s);
+  text += clock.stated ? ", as stated" : fmt::format(" +- {:.3f} s (limits)", clock.uncertainty_s);
   return text + fmt::format(";\n  {} of {} readings fall into its {} standstills\n", clock.inside, clock.readings,
                             clock.standstills);
 }

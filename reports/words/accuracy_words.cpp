@@ -83,7 +83,7 @@ std::string foundWords(const accuracy::AccuracyDiagnosis& accuracy) {
 std::string causeSentence(const accuracy::AccuracyDiagnosis& accuracy) {
   if (!accuracy.usable) return fmt::format("No cause can be given: {}.", asIs(words(accuracy.unusable_reason)));
   if (accuracy.verdict.empty()) return "What the calibrated geometry leaves is noise, or too small to matter.";
-  return asIs(fmt::format("{} (see What the geometry misses).", foundWords(accuracy)));
+  return fmt::format("{} (see @{{What the geometry misses}}).", asIs(foundWords(accuracy)));
 }
 
 }  // namespace

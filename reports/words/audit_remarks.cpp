@@ -378,8 +378,8 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
           values.number(2) / io::kMillimetre, values.number(3) / io::kMillimetre, lengthWords(values.number(1), 1),
           lengthWords(values.number(0), 1), lengthWords(values.number(4), 1));
     case audit::RemarkId::rail_travels:
-      return fmt::format("a reported metre is {:.6f} +- {:.6f} m of travel, and is taken as that", values.number(0),
-                         values.number(1));
+      return fmt::format("a reported metre is {:.6f} +- {:.6f} m of travel (U, 95 %), and is taken as that",
+                         values.number(0), expanded(values.number(1)));
     case audit::RemarkId::rail_runs:
       return fmt::format("the carriage goes {:.3f} deg off the axis of the URDF's prismatic joint",
                          values.number(0) / io::kDegree);

@@ -110,7 +110,7 @@ std::string auditMeaning(const audit::AuditReport& audit, DayKind kind, bool ref
     case preparation::AuditVerdict::warn:
       return fmt::format("The readings are good enough to {}; the audit warns of {}{}.", purposeOf(kind),
                          warned.size() == 1 ? "one thing" : fmt::format("{} things", warned.size()),
-                         refers ? " (see Audit)" : "");
+                         refers ? " (see @{Audit})" : "");
     case preparation::AuditVerdict::not_testable:
       // A day that is not meant for loads does not fail by what only a load would tell.
       if (kind == DayKind::sweeps) return "No check of the audit fails; some need what such a day does not measure.";
@@ -144,9 +144,9 @@ std::vector<std::string> scopeWords(DayKind kind, bool limits, bool hidden) {
   switch (kind) {
     case DayKind::unloaded:
       return {
-          "Uncertainty: u of a parameter is its standard uncertainty by least squares, from the tracker's declared "
-          "noise and what the model leaves beyond it, readings of one posture erring together. The tracker's own "
-          "scale, of which no reading tells, is not in it.",
+          "Uncertainty: U of a parameter, about 95\u00a0%, is 1.96 times its standard uncertainty by least squares, "
+          "from the tracker's declared noise and what the model leaves beyond it, readings of one posture erring "
+          "together. The tracker's own scale, of which no reading tells, is not in it.",
           rule +
               "An effect is in the model where it predicts postures that took no part better than the model without "
               "it; errors that are named held out are of postures by which nothing was fitted or chosen. The errors "

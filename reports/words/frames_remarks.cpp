@@ -23,7 +23,12 @@ std::string framesWords(frames::RemarkId id, const RemarkValues& values) {
              "axis: all axes are found together from all sweeps";
     case RemarkId::coupled_axes_not_placed:
       return "joints are coupled ('mimic' in the URDF), and the sweeps show fewer than three reflectors in three "
-             "postures, or turns about one direction only";
+             "postures, or do not turn the flange";
+    case RemarkId::coupled_flange_level:
+      return "joints are coupled ('mimic' in the URDF) and the flange stays level: reflectors on it show where axes "
+             "and "
+             "they themselves stand in sum only, so that the axes stay the URDF's; Partial Pose finds the base by "
+             "unloaded postures";
     case RemarkId::coupled_axes_not_settling:
       return "joints are coupled ('mimic' in the URDF), and the fit of all axes to the sweeps does not settle: "
              "readings and URDF contradict each other";
@@ -63,13 +68,21 @@ std::string framesWords(frames::RemarkId id, const RemarkValues& values) {
       return "there are no absolute unloaded positions (loading, step 0) to calibrate on";
     case RemarkId::base_not_placed:
       return "the base's place is not known from sweeps, and finding it from postures needs three "
-             "reflectors in three postures that turn the flange about different axes";
+             "reflectors in three postures that turn the flange about different axes, or about one while it goes to "
+             "places that are on no one circle about that axis; differences need no place: a table `displacements` "
+             "with "
+             "frame=\"base_link\", and each `target` with its x_mm y_mm z_mm on the flange, identifies without it";
     case RemarkId::too_few_positions:
       return fmt::format("{} unloaded positions do not determine {} parameters", values.count(0), values.count(1));
     case RemarkId::calibration_not_settling:
       return "the calibration did not converge: " + values.name(0);
     case RemarkId::axis_parameter:
       return fmt::format("axis {} {}", values.count(0), kAxisParameters.at(static_cast<std::size_t>(values.count(1))));
+    case RemarkId::base_against_reflectors:
+      return fmt::format(
+          "{} combination{} of the base's place with the reflectors' on the flange, which no posture tells apart: of a "
+          "flange that stays level, how high they stand, which turns no spring",
+          values.count(0), values.count(0) == 1 ? "" : "s");
     case RemarkId::no_absolute_readings:
       return "no absolute readings unloaded: measure `loading` with step 0";
     case RemarkId::tracker_noise_not_declared:

@@ -57,6 +57,19 @@ std::string shiftZero(const RemarkValues& values) {
                      values.count(2) != 0 ? ", or turn that joint's origin in the URDF" : "");
 }
 
+/// "angles stand in rows of other poses, in the reverse order: those of pose 1 in the row of pose 16, ..."
+std::string renumbered(bool whole_rows, const RemarkValues& values) {
+  const std::vector<std::string>& pairs = values.names(0);
+  constexpr std::size_t kShown = 16;  // eight pairs
+  std::string text = fmt::format("{} stand in the rows of other poses", whole_rows ? "angles and wrenches" : "angles");
+  if (!values.remark(1).empty()) text += ", " + words(values.remark(1));
+  for (std::size_t i = 0; i + 1 < std::min(kShown, pairs.size()); i += 2)
+    text += fmt::format("{}those of pose {} in that of pose {}", i == 0 ? ": " : ", ", pairs[i], pairs[i + 1]);
+  if (pairs.size() > kShown) text += fmt::format(" and {} more", (pairs.size() - kShown) / 2);
+  return text + (whole_rows ? ": number the rows, or the readings, as the others are"
+                            : ": put the angles of each pose into its own row");
+}
+
 /// Whole millimetres where the shift is of a centimetre or more.
 std::string originOff(const RemarkValues& values) {
   const std::vector<double>& shift = values.numbers(1);
@@ -202,6 +215,17 @@ std::string mistakesWords(mistakes::RemarkId id, const RemarkValues& values) {
     case RemarkId::angles_repeated:
       return fmt::format("pose {0} has the angles of pose {1}, and not its readings: write those of pose {0}",
                          values.name(0), values.name(1));
+    case RemarkId::angles_renumbered:
+    case RemarkId::rows_renumbered:
+      return renumbered(id == RemarkId::rows_renumbered, values);
+    case RemarkId::order_reversed:
+      return "in the reverse order";
+    case RemarkId::order_moved_on:
+      return fmt::format("{} row{} {}", std::abs(values.count(0)), std::abs(values.count(0)) == 1 ? "" : "s",
+                         values.count(0) > 0 ? "further on, those at the end at the beginning"
+                                             : "further up, those at the beginning at the end");
+    case RemarkId::order_as_texts:
+      return "in the order of their names as texts, which has 10 before 2";
     case RemarkId::rows_lost:
       return fmt::format("from pose {} on each posture has the angles of the {}: a row of the log is {}",
                          values.name(0), values.count(1) != 0 ? "next" : "one before",

@@ -171,6 +171,10 @@ std::string toPlaceOf(double value, double width) {
   return fixed(value, placesFor(width, 2));
 }
 
+int placesOf(double uncertainty, int without) {
+  return std::isfinite(uncertainty) && uncertainty > 0.0 ? std::max(0, placesFor(uncertainty, 2)) : without;
+}
+
 std::string asPrinted(double value) { return withMinus(fmt::format("{}", value)); }
 
 std::string percentNumber(double share, int decimals) {

@@ -88,6 +88,10 @@ std::string uncertainStiffness(const identification::StiffnessEstimate& estimate
 /// same digits. Without a finite positive width four significant digits.
 std::string toPlaceOf(double value, double width);
 
+/// Decimal places down to the second digit of an uncertainty, none where that stands before the point; `without` where
+/// there is none.
+int placesOf(double uncertainty, int without);
+
 /// As few digits as tell the number: for one that comes from print.
 std::string asPrinted(double value);
 

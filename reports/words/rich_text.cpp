@@ -15,7 +15,7 @@ struct Mark {
   const char* open;
   const char* close;
 };
-constexpr std::array<Mark, 3> kMarks{{{"_{", "}"}, {"`", "`"}, {"\x1b", "\x1b"}}};
+constexpr std::array<Mark, 4> kMarks{{{"_{", "}"}, {"`", "`"}, {"\x1b", "\x1b"}, {"@{", "}"}}};
 
 }  // namespace
 
@@ -59,8 +59,9 @@ std::string plain(const std::string& rich_text) {
 std::string asIs(const std::string& text) {
   std::string inside = text;
   std::erase(inside, kAsIs);
-  const bool marks =
-      inside.find("_{") != std::string::npos || inside.find('`') != std::string::npos || inside.ends_with('_');
+  // Behind a sign at its end a brace of what follows would make a mark, too.
+  const bool marks = inside.find("_{") != std::string::npos || inside.find("@{") != std::string::npos ||
+                     inside.find('`') != std::string::npos || inside.ends_with('_') || inside.ends_with('@');
   return marks ? kAsIs + inside + kAsIs : inside;
 }
 

@@ -3,14 +3,14 @@
 #include <string>
 #include <vector>
 
-// Rich texts of the page and its pictures: `x_{abc}` sets abc as a subscript, a word between backticks is code; what
-// asIs made stays to the letter.
+// Rich texts of the page and its pictures: `x_{abc}` sets abc as a subscript, a word between backticks is code,
+// `@{Audit}` refers to the section that the contents call so; what asIs made stays to the letter.
 
 namespace stiffscope::reports {
 
 /// A stretch of a rich text and how it is set.
 struct RichStretch {
-  enum Kind { subscript = 0, code = 1, verbatim = 2, normal = 3 };
+  enum Kind { subscript = 0, code = 1, verbatim = 2, reference = 3, normal = 4 };
   std::string text;
   Kind kind = normal;
 };

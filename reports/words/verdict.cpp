@@ -110,8 +110,8 @@ std::vector<std::string> oneByOne(const std::vector<ReportCampaign>& campaigns) 
 std::string gapSentence(const ReportCampaign& one) {
   if (one.diagnosis == nullptr || !one.diagnosis->usable) return {};
   if (one.diagnosis->verdict.entries.empty()) return "What joint springs leave is noise, or too small to matter.";
-  return asIs(fmt::format("Besides joint springs the readings show {} (see What the model misses).",
-                          presentWords(one.diagnosis->verdict)));
+  return fmt::format("{} (see @{{What the model misses}}).",
+                     asIs("Besides joint springs the readings show " + presentWords(one.diagnosis->verdict)));
 }
 
 /// Said once where it is the same in all campaigns.

@@ -98,10 +98,12 @@ TEST(Dcc, RefusesWhatIsNoCountryLanguageDateOrPlace) {
       {"country=\"DE\" languages", "country: 'Germany': expected a country of ISO 3166-1"},
       {"languages=\"de en\"", "languages: 'German': expected languages of ISO 639-1"},
       {"begin=\"2026-11-20\"", "begin: '20.11.2026': expected a date such as 2026-11-21"},
+      {"begin=\"2026-11-20\"", "begin: '2026-11-31': expected a date such as 2026-11-21"},
+      {"begin=\"2026-11-20\"", "end: '2026-11-21': expected the end of the calibration on its beginning or after it"},
       {"place=\"customer\"",
        "place: 'customr': expected laboratory, customer, laboratoryBranch, customerBranch or other"}};
   const std::vector<std::string> by{"country=\"Germany\" languages", "languages=\"German\"", "begin=\"20.11.2026\"",
-                                    "place=\"customr\""};
+                                    "begin=\"2026-11-31\"",          "begin=\"2026-11-22\"", "place=\"customr\""};
   for (std::size_t i = 0; i < spoilt.size(); ++i) {
     const ScratchFolder scratch;
     std::string certificate = kCertificate;

@@ -2,6 +2,7 @@
 // 300 MB that nothing else needs, so scripts/setup does not bring them (apt-get install chromium poppler-utils).
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -16,9 +17,9 @@ namespace page_browser_test {
 constexpr const char* kMeasure = R"js(<script>
 addEventListener('load',function(){
  var boxes=[],out={overlaps:[],clipped:[],requests:[],tabs:0};
- document.querySelectorAll('details').forEach(function(e){e.open=true;});
+ document.querySelectorAll('main details,header details').forEach(function(e){e.open=true;});
  document.querySelectorAll('h1,h2,h3,p,li,caption,th,td,figcaption,img,b,span').forEach(function(e){
-  if(e.closest('.skip'))return;
+  if(e.closest('.skip')||!e.checkVisibility())return;
   if(e.tagName=='LI'&&e.querySelector('b'))return;
   var r;
   if(e.tagName=='IMG')r=e.getBoundingClientRect();
@@ -59,6 +60,14 @@ addEventListener('load',function(){
      .filter(function(x){return !isNaN(x);});
     for(var k=1;k<n.length;k++)if(way*(n[k]-n[k-1])<0){out.unsorted.push(t.caption.textContent+': '+h.textContent);return;}
     if(n.length>1)out.sorted++;});});});
+ // The contents: what of them is seen, where; opened and chosen from.
+ var nav=document.querySelector('nav'),links=Array.from(nav.querySelectorAll('a'));
+ function seen(){return links.filter(function(a){return a.checkVisibility()&&a.getBoundingClientRect().height>0;}).length;}
+ var bar=nav.getBoundingClientRect();
+ out.nav={top:bar.top,height:bar.height,right:bar.right,entries:links.length,seen:seen()};
+ nav.querySelector('summary').click();out.nav.opened=seen();links[3].click();out.nav.chosen=seen();
+ out.nav.away=document.querySelector('main').getBoundingClientRect().top;  // the page went to what was chosen
+ bar=nav.getBoundingClientRect();out.nav.top_then=bar.top;
  var v=document.createElement('pre');v.id='verdict';v.textContent='@@'+JSON.stringify(out)+'@@';
  document.body.appendChild(v);});
 </script></body>)js";
@@ -140,6 +149,65 @@ TEST_F(PageInABrowser, LettersOfChartsAreReadOnANarrowScreen) {
   EXPECT_EQ(found["wide"], 0);
 }
 
+TEST_F(PageInABrowser, TheContentsAreAtHandOnEveryScreen) {
+  const auto narrow = measured(500).found["nav"], wide = measured(1700).found["nav"];
+  ASSERT_TRUE(narrow.is_object() && wide.is_object());
+  // A bar at the top that stays there, its entries folded in.
+  EXPECT_EQ(narrow["top"], 0);
+  EXPECT_LT(narrow["height"], 100);
+  EXPECT_GT(narrow["entries"], 10);
+  EXPECT_EQ(narrow["seen"], 0);
+  EXPECT_EQ(narrow["opened"], narrow["entries"]);
+  EXPECT_EQ(narrow["chosen"], 0);
+  EXPECT_LT(narrow["away"], 0);
+  EXPECT_EQ(narrow["top_then"], 0);
+  // A column beside the page.
+  EXPECT_EQ(wide["seen"], wide["entries"]);
+  EXPECT_LT(wide["right"], 600);
+}
+
+/// Brightness of a column of a screenshot, rows `from` to `to`: its median, 0 to 255.
+int columnOf(const std::string& file, int x, int from, int to) {
+  const cv::Mat picture = cv::imread(file, cv::IMREAD_GRAYSCALE);
+  if (picture.empty() || to > picture.rows || x >= picture.cols) return -1;
+  std::vector<int> values;
+  for (int y = from; y < to; ++y) values.push_back(picture.at<std::uint8_t>(y, x));
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+  return values[values.size() / 2];
+}
+
+// A table and a chart that are wider than their frames, at their beginning and at their end.
+TEST_F(PageInABrowser, AShadeTellsWhatIsCutAndGoesWhereNothingIs) {
+  constexpr int kWide = 400, kHigh = 300, kInside = 3;
+  for (const bool at_end : {false, true}) {
+    std::string page = contentsOf(out() / "report.html");
+    const std::string script =
+        "<script>addEventListener('load',function(){"
+        "var wide=['.scroll','.readable'].map(function(n){return Array.from(document.querySelectorAll('main '+n)).find("
+        "function(e){return e.scrollWidth>e.clientWidth+150&&e.clientHeight>150;});});"
+        "document.body.replaceChildren.apply(document.body,wide);"
+        "wide.forEach(function(e,i){e.style.cssText='position:absolute;left:0;width:400px;height:300px;border:0;"
+        "margin:0;top:'+400*i+'px';e.scrollLeft=" +
+        std::string(at_end ? "9999" : "0") + ";});});</script></body>";
+    page.replace(page.rfind("</body>"), 7, script);
+    const auto copy = scratch() / "cut.html";
+    const std::string shot = (scratch() / "cut.png").string();
+    std::ofstream(copy, std::ios::binary) << page;
+    std::filesystem::remove(shot);
+    runBrowser(
+        "--blink-settings=preferredColorScheme=1 --window-size=500,800 --virtual-time-budget=5000 --screenshot='" +
+            shot + "' 'file://" + copy.string() + "'",
+        scratch());
+    for (const int top : {0, kWide}) {
+      SCOPED_TRACE(top == 0 ? "table" : "chart");
+      const int left = columnOf(shot, kInside, top + 5, top + kHigh - 5),
+                right = columnOf(shot, kWide - 1 - kInside, top + 5, top + kHigh - 5);
+      EXPECT_LT(at_end ? left : right, 210) << "the edge beyond which there is more";
+      EXPECT_GT(at_end ? right : left, 245) << "the edge beyond which there is nothing";
+    }
+  }
+}
+
 TEST_F(PageInABrowser, TheMeasureSeesFaults) {
   const auto [found, console] =
       measured(1000,
@@ -172,6 +240,101 @@ void expectFullPages(const std::string& pdf, int pages) {
     if (page < pages) EXPECT_GT(lowest, foot * 2 / 3) << "page " << page << " of " << pages;
   }
   EXPECT_EQ(seen, pages);
+}
+
+/// Measures in the print's style what stays in one piece: boxes that may not break, and such as are bound to their
+/// neighbours. What is on the first page is one by its order.
+constexpr const char* kPieces = R"js(<script>
+addEventListener('load',function(){
+ var leaves=[],through=['BODY','HEADER','MAIN','SECTION','DIV','UL','OL','FOOTER','TBODY'];
+ function styled(e){return getComputedStyle(e);}
+ (function walk(e){
+  if(styled(e).display==='none'||e.matches('.first'))return;
+  var open=through.includes(e.tagName)&&!e.matches('.numbers')||e.tagName==='TABLE';
+  if(open&&!styled(e).breakInside.startsWith('avoid'))return Array.from(e.children).forEach(walk);
+  if(e.getBoundingClientRect().height>0)leaves.push(e);
+ })(document.body);
+ function shownOf(e){return Array.from(e.children).filter(function(c){return styled(c).display!=='none';});}
+ function bound(e,top,last){  // e, and what it is the last, or first, of
+  for(;e!==top;e=e.parentElement){
+   if(styled(e)[last?'breakAfter':'breakBefore'].startsWith('avoid'))return true;
+   if(e.parentElement===top)return false;
+   var all=shownOf(e.parentElement);if(all[last?all.length-1:0]!==e)return false;}
+  return false;}
+ function endOf(e){  // of a paragraph that may break, as many lines as stay together at least
+  var r=e.getBoundingClientRect(),s=styled(e),line=parseFloat(s.lineHeight);
+  var least=Number(s.orphans),few=r.height/line<least+Number(s.widows)-.5;
+  return e.tagName!=='P'||s.breakInside.startsWith('avoid')||few?r.bottom:r.top+least*line;}
+ var mm=96/25.4,longest={mm:0},from=0;
+ for(var i=1;i<=leaves.length;i++){
+  if(i<leaves.length){
+   var top=leaves[i];while(!top.contains(leaves[i-1]))top=top.parentElement;
+   if(bound(leaves[i-1],top,true)||bound(leaves[i],top,false))continue;}
+  var high=(endOf(leaves[i-1])-leaves[from].getBoundingClientRect().top)/mm;
+  if(high>longest.mm)longest={mm:high,first:leaves[from].textContent.slice(0,60),last:leaves[i-1].textContent.slice(0,60)};
+  from=i;}
+ var v=document.createElement('pre');v.textContent='@@'+JSON.stringify({pieces:leaves.length,longest:longest})+'@@';
+ document.body.appendChild(v);});
+</script></body>)js";
+
+/// What kPieces says of a page; `extra` before its end.
+nlohmann::json piecesOf(std::string page, const std::filesystem::path& scratch, const std::string& extra = {}) {
+  for (const auto& [from, to] :
+       {std::pair<std::string, std::string>{"@media print{", "@media all{"}, {"@media screen", "@media speech"}}) {
+    for (std::size_t at = page.find(from); at != std::string::npos; at = page.find(from, at + 1))
+      page.replace(at, from.size(), to);
+  }
+  page.replace(page.rfind("</body>"), 7, extra + kPieces);
+  const auto copy = scratch / "pieces.html";
+  std::ofstream(copy, std::ios::binary) << page;
+  constexpr const char* kWidthOfA4 = "680";  // 180 mm between the margins
+  const Ran ran = runBrowser(
+      std::string("--window-size=") + kWidthOfA4 + ",2000 --dump-dom 'file://" + copy.string() + "'", scratch);
+  const std::size_t close = ran.out.rfind("@@"), open = ran.out.rfind("@@{", close);
+  if (open == std::string::npos) return {};
+  return nlohmann::json::parse(ran.out.substr(open + 2, close - open - 2), nullptr, false);
+}
+
+// So that no page is a third empty wherever what is on it begins: nothing that has to stay together is higher than
+// that.
+TEST_F(PageInABrowser, NothingThatStaysTogetherIsHigherThanAThirdOfAPage) {
+  constexpr double kThird = (297.0 - 15.0 - 17.0) / 3.0;  // mm
+  for (const std::string day : {"pair", "active", "unloaded"}) {
+    SCOPED_TRACE(day);
+    const ScratchFolder own;
+    if (day != "pair")
+      ASSERT_EQ(runProgram("report '" STIFFSCOPE_SOURCE_DIR "/samples/" + day + "' --out '" + own.path().string() + "'",
+                           own.path())
+                    .status,
+                0);
+    const std::string page = contentsOf((day == "pair" ? out() : own.path()) / "report.html");
+    const nlohmann::json found = piecesOf(page, own.path());
+    ASSERT_TRUE(found.is_object());
+    EXPECT_GT(found["pieces"], 50);
+    EXPECT_LT(found["longest"]["mm"], kThird) << found.dump();
+    // It sees what is too high.
+    const std::string bound = "<p style='break-after:avoid'>a</p><p style='height:100mm'>b</p>";
+    EXPECT_GT(piecesOf(page, own.path(), bound)["longest"]["mm"], 100.0);
+  }
+}
+
+TEST_F(PageInABrowser, ABrokenTableHasItsHeadOnBothPages) {
+  if (!installed("pdftotext")) GTEST_SKIP() << "poppler-utils is not installed";
+  const auto heads = [&](const std::string& style) {
+    std::string page = contentsOf(out() / "report.html");
+    page.replace(page.rfind("</body>"), 7, "<style>" + style + "</style></body>");
+    const std::string copy = (scratch() / "heads.html").string(), pdf = (scratch() / "heads.pdf").string();
+    std::ofstream(copy, std::ios::binary) << page;
+    runBrowser("--no-pdf-header-footer --print-to-pdf='" + pdf + "' 'file://" + copy + "'", scratch());
+    const std::string text = runShell("pdftotext '" + pdf + "' -", scratch()).out;
+    int count = 0;
+    for (std::size_t at = text.find("in direction"); at != std::string::npos; at = text.find("in direction", at + 1))
+      ++count;
+    return count;
+  };
+  // The tables of the workspace, one a day, whose heads hold buttons.
+  EXPECT_EQ(heads("#workspace table{break-inside:avoid!important}"), 2);
+  EXPECT_GE(heads("@media print{#workspace tbody tr:nth-child(8){break-before:page}}"), 4);
 }
 
 TEST_F(PageInABrowser, OtherDaysPrintOnFullPagesToo) {

@@ -85,7 +85,7 @@ TEST(Report, OfAMistakenDayBeginsWithTheMistakeAndNotWithWhatItLooksLike) {
   const Ran ran = report(campaign, out, scratch);
   ASSERT_LE(ran.status, 1) << ran.err;
   const std::string page = contentsOf(out / "report.html");
-  const std::string first = page.substr(page.find("<header>"), page.find("<nav") - page.find("<header>"));
+  const std::string first = page.substr(page.find("<header>"), page.find("<main") - page.find("<header>"));
   EXPECT_NE(
       first.find("The audit suspects a mistake in the files, wrench sign of the columns fz_n of states.csv: turn the "
                  "sign of fz_n, then make this report again."),
@@ -120,6 +120,33 @@ TEST(Report, LimitsAreDecidedByTheWholeInterval) {
   const Ran refused = run("two");
   EXPECT_EQ(refused.status, 2);
   EXPECT_NE(refused.err.find("limits.csv:2: most: 'two': "), std::string::npos) << refused.err;
+}
+
+TEST(Report, SweepsAloneGiveIdentifyAndDiagnoseNothingToUse) {
+  const ScratchFolder scratch;
+  const std::string folder = "'" + sweepsOnly(scratch).string() + "'";
+  const fs::path file = scratch.path() / "result.json";
+  for (const std::string command : {"identify", "identify --springs-only", "diagnose"}) {
+    SCOPED_TRACE(command);
+    const Ran ran = runProgram(command + " " + folder + " --json '" + file.string() + "'", scratch.path());
+    EXPECT_EQ(ran.status, 1) << ran.err;  // the day is as it should be, and serves another purpose
+    EXPECT_NE((ran.out + ran.err).find("no 'states': joint angles and load-cell readings are needed"),
+              std::string::npos)
+        << ran.out << ran.err;
+    const json result = json::parse(contentsOf(file));
+    if (command == "diagnose") {
+      EXPECT_EQ(result["usable"], false);
+      continue;
+    }
+    for (const char* method : {"cp", "pp", "dpp"}) {
+      EXPECT_NE(result["methods"][method]["unavailable"].get<std::string>().find("no 'states'"), std::string::npos);
+    }
+  }
+  // An unloaded day as well, which another command is for.
+  const fs::path unloaded = fs::path(STIFFSCOPE_SOURCE_DIR) / "samples" / "unloaded";
+  const Ran ran = runProgram("identify '" + unloaded.string() + "'", scratch.path());
+  EXPECT_EQ(ran.status, 1) << ran.err;
+  EXPECT_NE(ran.err.find("`stiffscope calibrate` fits unloaded postures"), std::string::npos) << ran.err;
 }
 
 TEST(Report, SweepsAloneGiveFramesAuditAndReasons) {

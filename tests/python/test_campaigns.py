@@ -82,6 +82,72 @@ class Tables(unittest.TestCase):
         self.assertEqual(stiffscope.open(self.folder / "day").postures, self.day.postures)
 
 
+def rail_day(folder):
+    """A short day of the samples' arm on a rail of six metres."""
+    urdf = (SAMPLES / "m900ib700.urdf").read_text()
+    rail = ('<link name="floor"/><joint name="rail" type="prismatic"><parent link="floor"/><child link="base_link"/>'
+            '<axis xyz="1 0 0"/><limit lower="0" upper="6" effort="0" velocity="0"/></joint>')
+    (folder / "rail.urdf").write_text(urdf.replace('<link name="base_link">', rail + '<link name="base_link">', 1))
+    spec = (SAMPLES / "active.xml").read_text()
+    for old, new in (('urdf="m900ib700.urdf" base_link="base_link"', 'urdf="rail.urdf" base_link="floor"'),
+                     ('readings="1000"', 'readings="60"'), ('<draw count="19"', '<draw count="6"'),
+                     ("<postures>", '<rail min_mm="0" max_mm="600" stops="5"/>\n  <postures>')):
+        assert old in spec, old
+        spec = spec.replace(old, new, 1)
+    (folder / "rail.xml").write_text(spec)
+    stiffscope.simulate(folder / "rail.xml", folder / "rail")
+    return folder / "rail"
+
+
+class Rail(unittest.TestCase):
+
+    @classmethod
+    def setUpClass(cls):
+        made = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(made.cleanup)
+        cls.folder = pathlib.Path(made.name)
+        cls.files = rail_day(cls.folder)
+        cls.day = stiffscope.open(cls.files)
+
+    def test_the_sweep_of_the_carriage_is_a_table(self):
+        lines = (self.files / "rail_sweep.csv").read_text().splitlines()
+        names = lines[0].split(",")
+        rows = [dict(zip(names, line.split(","))) for line in lines[1:]]
+        sweep = self.day.tables.rail_sweep
+        self.assertEqual(list(sweep), names)
+        self.assertEqual(len(rows), 5 * 3)
+        self.assertEqual(list(sweep["target"]), [row["target"] for row in rows])
+        self.assertEqual(list(sweep["index"]), [row["index"] for row in rows])
+        for column in ("rail_mm", "x_mm", "y_mm", "z_mm"):
+            numpy.testing.assert_allclose(sweep[column], [float(row[column]) for row in rows], rtol=0, atol=1e-9)
+        self.assertEqual((min(sweep["rail_mm"]), max(sweep["rail_mm"])), (0.0, 600.0))
+
+    def test_it_is_written_again_and_is_what_refers_the_readings(self):
+        tables = dict(self.day.tables)
+        again = stiffscope.write_campaign(self.folder / "again", self.day, tables)
+        for column, values in self.day.tables.rail_sweep.items():
+            if isinstance(values, list):
+                self.assertEqual(again.tables.rail_sweep[column], values)
+            else:
+                numpy.testing.assert_allclose(again.tables.rail_sweep[column], values, rtol=1e-14, atol=1e-12)
+        # A carriage that went half as far as it says.
+        sweep = dict(tables["rail_sweep"])
+        sweep["rail_mm"] = 2 * sweep["rail_mm"]
+        wrong = stiffscope.write_campaign(self.folder / "wrong", self.day, {"rail_sweep": sweep})
+
+        def scale(day):
+            return next(check for check in day.audit().checks if check.id == "rail_scale")
+
+        self.assertEqual(scale(again).verdict, "pass")
+        self.assertEqual(scale(wrong).verdict, "fail")
+
+    def test_without_it_a_carriage_that_moved_is_refused(self):
+        with self.assertRaises(stiffscope.InputError) as raised:
+            stiffscope.write_campaign(self.folder / "without", self.day, {"rail_sweep": None})
+        self.assertIn("rail_sweep", str(raised.exception))
+        self.assertFalse((self.folder / "without").exists())
+
+
 class Postures(unittest.TestCase):
 
     @classmethod

@@ -61,8 +61,10 @@ class Refused(unittest.TestCase):
         self.assertEqual((error.file, error.line, error.column), ("points", 2, "z"))
 
     def test_a_day_without_a_load_has_no_stiffness(self):
-        error = self.error(stiffscope.identify, SAMPLES / "unloaded")
-        self.assertIn("no load", str(error))
+        result = stiffscope.identify(SAMPLES / "unloaded")
+        self.assertFalse(result.serves)
+        self.assertIn("load_cell", result.why_not)
+        self.assertIn("no joint stiffness", str(result))
 
     def test_what_does_not_serve_says_why(self):
         fitted = stiffscope.fit("sphere", [[0, 0, 0], [1, 0, 0], [2, 0, 0], [3, 0, 0]])

@@ -1,4 +1,5 @@
 // JSON and text of the diagnosis of a day without a load.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "core/accuracy/diagnose_accuracy.h"
@@ -93,6 +94,14 @@ TEST(AccuracyText, AnswersWhichHowFarAndWhere) {
         "noise of the readings", "Which: candidates", "Where the gap lies", "Smallest size that would have been seen"})
     EXPECT_TRUE(has(text, words)) << words;
   EXPECT_FALSE(has(text, "nan"));
+}
+
+TEST(AccuracyText, WhatStandsBehindPlusMinusIsU) {
+  const DiagnosedDay day;
+  const accuracy::AccuracyClass& named = day.accuracy.classes.front();
+  ASSERT_FALSE(named.sds.empty());
+  EXPECT_TRUE(has(day.text(), "on postures held out; +- U, 95 %"));
+  EXPECT_TRUE(has(day.text(), fmt::format("{:.4g} +- {:.2g} ", named.sizes[0], 1.96 * named.sds[0]))) << day.text();
 }
 
 TEST(AccuracyText, ACleanDayHasNoCandidates) {

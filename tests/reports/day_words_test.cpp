@@ -25,7 +25,7 @@ TEST(DayWords, TheAuditsSentenceSaysWhetherTheReadingsServeAndWhatSpoilsThem) {
   using preparation::AuditVerdict;
   EXPECT_EQ(
       auditMeaning(auditOf(AuditVerdict::warn, {"repeat_outliers", "repeat_outliers", "lost_beam"}), DayKind::loaded),
-      "The readings are good enough to identify stiffnesses from; the audit warns of 2 things (see Audit).");
+      "The readings are good enough to identify stiffnesses from; the audit warns of 2 things (see @{Audit}).");
   EXPECT_EQ(
       auditMeaning(auditOf(AuditVerdict::fail, {"time_order"}), DayKind::unloaded),
       "The audit fails: load steps do not follow each other in time. As they were read, the readings are not fit to "

@@ -50,7 +50,8 @@ TEST(HostileName, ChangesNothingButItsOwnText) {
   for (const std::string& name :
        {std::string("<script>alert(1)</script>"), std::string("\"'><img src=x onerror=alert(1)>"),
         std::string(10'000, 'x'), std::string("\u202Eright to left \u05d0\u05d1\u05d2"),
-        std::string("two\nlines\r\n\x1b[31mred"), std::string("sub_{script} `code` & &amp; \xff\xfe")}) {
+        std::string("two\nlines\r\n\x1b[31mred"), std::string("sub_{script} `code` & &amp; \xff\xfe"),
+        std::string("@{Stiffness} and mail@")}) {
     SmallResult hostile = saying(name);
     hostile.campaign.name = name;
     hostile.campaign.date = name;

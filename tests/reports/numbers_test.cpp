@@ -23,6 +23,15 @@ TEST(Numbers, ValuesEndWhereTheirUncertaintyDoes) {
   EXPECT_EQ(reports::withUncertainty(1.0, 0.0996), "1.00 ± 0.10");  // 0.0996 is 0.10 in two digits
 }
 
+TEST(Numbers, PlacesToTheSecondDigitOfAnUncertainty) {
+  EXPECT_EQ(reports::placesOf(0.0123, 3), 3);
+  EXPECT_EQ(reports::placesOf(0.0996, 3), 2);  // as 0.10
+  EXPECT_EQ(reports::placesOf(12.3, 3), 0);
+  EXPECT_EQ(reports::placesOf(250.0, 3), 0);
+  EXPECT_EQ(reports::placesOf(0.0, 3), 3);
+  EXPECT_EQ(reports::placesOf(std::nan(""), 4), 4);
+}
+
 TEST(Numbers, WithoutUncertaintyFourDigits) {
   EXPECT_EQ(reports::withUncertainty(3.14159, 0.0), "3.142");
   EXPECT_EQ(reports::withUncertainty(3.14159, std::nan("")), "3.142");

@@ -267,9 +267,15 @@ TEST(Page, TheDiagnosisSaysWhatToDo) {
   content.figures[0].section = "gap";
   content.verdict = reports::verdictOf(content.campaigns, {});
   const std::string page = page::reportPage(content);
-  EXPECT_TRUE(has(page, "Besides joint springs the readings show load cell bias (see What the model misses)."));
+  // As many as stand before it, and itself.
+  std::size_t number = 1;
+  for (std::size_t at = page.find("<section "); at < page.find("<section id=\"gap\"");
+       at = page.find("<section ", at + 1))
+    ++number;
+  EXPECT_TRUE(has(page, "Besides joint springs the readings show load cell bias (see <a href=\"#gap\">section\u00a0" +
+                            std::to_string(number) + ", What the model misses</a>)."));
   EXPECT_TRUE(has(page, "load cell bias: a constant force is added to the loaded readings"));
-  EXPECT_TRUE(has(page, "and u is one standard uncertainty by weights of the noise"));
+  EXPECT_TRUE(has(page, "and U is 1.96 times the standard uncertainty by weights of the noise"));
   EXPECT_TRUE(has(page, "<li>Tare the cell with nothing hanging"));
   EXPECT_TRUE(has(page, "<li>To tell load cell bias and hysteresis apart, measure a posture"));
   EXPECT_TRUE(has(page, "Stiffnesses alone leave 30.0 µm rms"));
@@ -284,7 +290,7 @@ TEST(Page, TheDiagnosisSaysWhatToDo) {
   diagnosis.stiffness_before[1] = 4.0e6, diagnosis.stiffness_after[1] = 5.0e6;
   EXPECT_TRUE(has(page::reportPage(content), "Joint stiffness by Partial Pose, by joint springs alone and with"));
   EXPECT_TRUE(has(page::reportPage(content), "5.00 ± 0.30"));
-  EXPECT_FALSE(has(page::reportPage(content), "one standard uncertainty by weights of the noise"));
+  EXPECT_FALSE(has(page::reportPage(content), "standard uncertainty by weights of the noise"));
   diagnosis.verdict.entries.clear();
   EXPECT_TRUE(has(page::reportPage(content), "Joint springs are enough for this machine"));
 }

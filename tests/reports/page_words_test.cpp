@@ -1,4 +1,5 @@
 // What the page says in words beside its numbers: that no sentence contradicts a card, a table or another section.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -102,6 +103,23 @@ TEST(PageWords, WhatTheEncodersAvoidHasItsCaveatWithIt) {
   page = page::reportPage(pair.content);
   EXPECT_FALSE(says(page, "differ as well"));
   EXPECT_TRUE(says(page, "What the double encoders take away ± U"));
+}
+
+TEST(PageWords, TheDeflectionOfTwoDaysIsThatOfBoth) {
+  Pair pair;
+  std::string page = page::reportPage(pair.content);
+  EXPECT_TRUE(says(page, "<b>4.00 and 2.00\u00a0mm</b>"));
+  EXPECT_TRUE(says(page, "3 postures: double encoders inactive, and double encoders active"));
+  // Of two days that nothing tells apart but their names, these.
+  pair.inactive.campaign.name = "before", pair.active.campaign.name = "after";
+  pair.inactive.campaign.double_encoder = pair.active.campaign.double_encoder = campaign::DoubleEncoder::unspecified;
+  page = page::reportPage(pair.content);
+  EXPECT_TRUE(says(page, "3 postures: before, and after"));
+  // Under another load the leading day's alone, with which it is.
+  for (identification::LoadCase& one : pair.active.identification.cases) one.wrench.force *= 2.0;
+  page = page::reportPage(pair.content);
+  EXPECT_TRUE(says(page, "<b>4.00\u00a0mm</b>"));
+  EXPECT_TRUE(says(page, "under 1.00\u00a0kN, 3 postures, before"));
 }
 
 TEST(PageWords, TheVerdictOfTwoDaysIsAList) {
@@ -344,8 +362,14 @@ TEST(PageWords, NothingRefersToItself) {
   reports::ReportContent content = contentOf(small);
   content.campaigns[0].audit = &audited;
   const std::string page = page::reportPage(content);
-  EXPECT_EQ(countOf(page, "(see Audit)"), 1u);
-  EXPECT_LT(page.find("(see Audit)"), page.find("id=\"audit\""));
+  const std::size_t audit = page.find("<section id=\"audit\"");
+  ASSERT_NE(audit, std::string::npos);
+  // By the number that the browser counts before its heading.
+  const std::string reference = fmt::format("(see <a href=\"#audit\">section\u00a0{}, Audit</a>)",
+                                            countOf(page.substr(0, audit), "<section ") + 1);
+  EXPECT_EQ(countOf(page, reference), 1u) << reference;
+  EXPECT_EQ(countOf(page, "href=\"#audit\""), 2u);  // and the contents
+  EXPECT_LT(page.find(reference), audit);
 }
 
 TEST(PageWords, APercentStaysWithItsNumber) {

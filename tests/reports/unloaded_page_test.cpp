@@ -8,6 +8,8 @@
 #include "reports/page/pages.h"
 #include "reports/words/accuracy_words.h"
 #include "reports/words/day_words.h"
+#include "reports/words/link_uncertainty.h"
+#include "reports/words/numbers.h"
 #include "reports/words/verdict.h"
 #include "tests/fixtures/unloaded_day.h"
 #include "tests/reports/small_result.h"
@@ -88,6 +90,23 @@ TEST(UnloadedPage, TablesAreFilesOfTheirNames) {
   for (const reports::TableFile& table : page.tables) names.push_back(table.name);
   for (const char* name : {"accuracy", "worst-postures", "calibrated-axes", "denavit-hartenberg", "places", "effects"})
     EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name;
+}
+
+/// What stands behind ± is U, and the link parameters have the digits that it gives them.
+TEST(UnloadedPage, WhatIsReadBehindPlusMinusIsU) {
+  const Day day;
+  const page::ReportPage page = page::makeReportPage(day.content());
+  EXPECT_FALSE(has(page.html, "standard uncertainty u"));
+  const calibration::ArmFit& fit = day.accuracy.calibration.geometry().fit;
+  constexpr int kShift = 4;  // of axis 2, along u
+  ASSERT_GT(fit.sd(kShift), 0.0);
+  EXPECT_TRUE(has(page.html,
+                  "<td>" + reports::withUncertainty(1e3 * fit.steps[kShift], 1.96 * 1e3 * fit.sd(kShift)) + "</td>"));
+  const robot::Robot& nominal = day.accuracy.calibration.day.arm;
+  const double a = calibration::denavitHartenberg(fit.arm(nominal), nominal).links[0].a,
+               sd = reports::linkUncertainties(fit, nominal)[0].a;
+  ASSERT_GT(sd, 0.0);
+  EXPECT_TRUE(has(page.html, "<td>" + reports::withUncertainty(1e3 * a, 1.96 * 1e3 * sd) + " <small>"));
 }
 
 TEST(UnloadedPage, ACleanDayNamesNothing) {

@@ -352,7 +352,10 @@ TEST(SpoiltCampaign, StatesSortedAsTextAndNumberedAfresh) {
       << reports::words(check.message);
   const preparation::AuditCheck& arm = checkNamed(report, "arm_model");
   EXPECT_EQ(arm.verdict, preparation::AuditVerdict::fail);
-  EXPECT_TRUE(contains(arm.message, "what time order finds explains it")) << reports::words(arm.message);
+  EXPECT_TRUE(contains(arm.message, "one of the usual mistakes explains it")) << reports::words(arm.message);
+  ASSERT_EQ(report.suspected.size(), 1u);
+  EXPECT_TRUE(contains(report.suspected.front().remedy, "in the order of their names as texts"))
+      << reports::words(report.suspected.front().remedy);
 }
 
 TEST(SpoiltCampaign, ManyStepsInWrongOrderAreNotAllListed) {

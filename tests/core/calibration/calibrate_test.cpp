@@ -9,6 +9,7 @@
 #include "core/campaign/read_campaign.h"
 #include "core/campaign/state_points.h"
 #include "core/preparation/prepare.h"
+#include "reports/words/remark_words.h"
 #include "tests/fixtures/unloaded_day.h"
 
 namespace stiffscope {
@@ -147,6 +148,21 @@ TEST(Calibrate, SaysWhyNot) {
   campaign::Campaign none = unloadedCampaign(spec, noise);
   none.loading.reset();
   EXPECT_TRUE(calibration::calibrate(none, {}).reason.is(calibration::RemarkId::no_unloaded_readings));
+}
+
+TEST(Calibrate, SaysThatFewPosturesLetNoEffectBeAskedFor) {
+  for (const int postures : {19, 20}) {
+    Noise noise(17);
+    UnloadedSpec spec = builtOtherwise(noise);
+    spec.postures = postures;
+    const calibration::Calibration result = calibration::calibrate(unloadedCampaign(spec, noise), {});
+    ASSERT_TRUE(result.reason.empty());
+    const std::vector<Remark>& notes = result.of(CalibratedModel::effects).notes;
+    ASSERT_EQ(notes.size(), 1u);
+    EXPECT_EQ(reports::words(notes.front()),
+              postures < 20 ? "no effect was asked for: 19 postures, which takes 20"
+                            : "no effect predicts postures that were held out better than geometry alone");
+  }
 }
 
 /// Held-out errors of an independent calibration, mm, as the days' own README.md states them, and what the effects by

@@ -227,6 +227,28 @@ TEST(ReadCampaign, NeedsNoSectionButTheRobot) {
   EXPECT_EQ(reading.campaign.gravity_in_base.y(), 9.8);
 }
 
+TEST(ReadCampaign, WarnsOfADateThatNoOrderOfDatesCanBeMadeOf) {
+  const SmallCampaign files;
+  const auto warnings = [&](const std::string& date) {
+    files.write("campaign.xml", "<?xml version=\"1.0\"?>\n<campaign format=\"1\" name=\"\" date=\"" + date +
+                                    "\"><robot urdf=\"robot.urdf\" base_link=\"base\" "
+                                    "flange_link=\"flange\"/></campaign>");
+    const campaign::CampaignReading reading = campaign::readCampaign(files.folder());
+    EXPECT_EQ(reading.campaign.date, date);  // kept as it is
+    return reading.warnings;
+  };
+  for (const char* date : {"2026-11-27", "2024-02-29", "2026-11-27T09:30", "2026-11-27 09:30", "2026-11-27/2026-11-28"})
+    EXPECT_TRUE(warnings(date).empty()) << date;
+  for (const std::string date : {"27.11.26", "27.11.2026", "2026-11-27x", "2026-13-01", "2026-02-30", "2025-02-29",
+                                 "2026-1-2", "26-11-27", "20261127", "2026-11-+7", "November"}) {
+    const std::vector<std::string> said = warnings(date);
+    ASSERT_EQ(said.size(), 1u) << date;
+    EXPECT_NE(said[0].find("campaign.xml:2: date: '" + date + "': expected a date such as 2026-11-21"),
+              std::string::npos)
+        << said[0];
+  }
+}
+
 TEST(ReadCampaign, LoadCellAxesReplaceItsRotation) {
   const SmallCampaign files;
   files.alter("campaign.xml", "rpy_deg=\"0 0 90\"", "rpy_deg=\"0 0 90\" axes=\"base\"");

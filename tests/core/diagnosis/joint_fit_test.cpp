@@ -1,6 +1,7 @@
 #include "core/diagnosis/fit.h"
 
 #include <gtest/gtest.h>
+#include "core/diagnosis/geometry_columns.h"
 #include "tests/fixtures/extended_day.h"
 
 // The relinearised fit of a bilinear effect against Ceres on the nonlinear problem.
@@ -32,7 +33,8 @@ TEST(JointFit, ComesBackFromAfarToWhereRelinearisingSettled) {
   set.effects *= 0.5;
   Eigen::VectorXd nuisances = fit.nuisances;
   nuisances.head<6>() *= 1.2;
-  const auto found = diagnosis::fitJointly(*effects.input, fit.state, fit.data.layout, set, nuisances);
+  diagnosis::GeometryColumns by_geometry;
+  const auto found = diagnosis::fitJointly(*effects.input, fit.state, fit.data.layout, set, nuisances, by_geometry);
   ASSERT_TRUE(found);
   ASSERT_GT(furthest(effects, set.effects(effects.free), settled), 10.0) << "not far";
   EXPECT_LT(furthest(effects, found->state.corrections.load_point, settled), 0.1);
@@ -43,7 +45,8 @@ TEST(JointFit, SetsWithoutABilinearEffectAreLeftAlone) {
   spec.machine.joints[2].bearing = 4e6;
   const extended_model::EffectFit effects = fitOf(spec, "bearing_tilt:3");
   const diagnosis::GapFit& fit = effects.fit;
-  EXPECT_FALSE(diagnosis::fitJointly(*effects.input, fit.state, fit.data.layout, fit.set, fit.nuisances));
+  diagnosis::GeometryColumns by_geometry;
+  EXPECT_FALSE(diagnosis::fitJointly(*effects.input, fit.state, fit.data.layout, fit.set, fit.nuisances, by_geometry));
 }
 
 }  // namespace joint_fit_test

@@ -7,8 +7,10 @@
 #include <random>
 #include <string>
 #include <vector>
+#include "core/diagnosis/geometry_columns.h"
 #include "core/diagnosis/localization.h"
 #include "core/diagnosis/projection.h"
+#include "core/frames/arm_parameters.h"
 #include "tests/fixtures/extended_day.h"
 
 namespace stiffscope {
@@ -35,6 +37,63 @@ TEST(LinearSystem, IsWeighedAgainAsItIsMadeAgain) {
   EXPECT_EQ(data.sweep_rows, made.sweep_rows);
   EXPECT_EQ(data.state_noise, made.state_noise);
   EXPECT_EQ(data.as_read.rows.size(), 0);
+}
+
+/// Columns of the geometry are kept where equations were made already: they are those that would be made anew, to the
+/// last bit, and of another place its own.
+TEST(LinearSystem, TheGeometrysColumnsAreOfThePlaceItself) {
+  const campaign::Campaign campaign = simulation::simulate(springsAlone(8));
+  const extended_model::EffectFit effects =
+      extended_model::fitEffects(campaign, extended_model::requestedEffects({"bearing_tilt:3"}, campaign));
+  const diagnosis::SystemInput& input = *effects.input;
+  const diagnosis::SystemState& start = effects.fit.state;
+  ASSERT_TRUE(input.absolute && input.sweeps);
+  const auto expectSame = [](const diagnosis::LinearSystem& one, const diagnosis::LinearSystem& other) {
+    EXPECT_EQ(one.sweeps, other.sweeps);
+    ASSERT_EQ(one.postures.size(), other.postures.size());
+    for (std::size_t p = 0; p < one.postures.size(); ++p) {
+      EXPECT_EQ(one.postures[p].columns, other.postures[p].columns);
+      EXPECT_EQ(one.postures[p].right, other.postures[p].right);
+    }
+  };
+  diagnosis::GeometryColumns kept;
+  const diagnosis::LinearSystem first = diagnosis::linearSystem(input, start, {}, kept);
+  expectSame(first, diagnosis::linearSystem(input, start, {}));
+  diagnosis::SystemState moved = start, softer = start;
+  const Eigen::Index steps = first.layout.weights - first.layout.geometry;
+  moved.geometry = frames::moved(start.geometry, Eigen::VectorXd::Constant(steps, 1e-6), start.at.epoch_centre);
+  softer.at.compliance *= 1.001;
+  const std::vector<const diagnosis::SystemState*> places{&moved, &softer, &moved, &start};
+  for (const diagnosis::SystemState* const other : places) {
+    const diagnosis::LinearSystem made = diagnosis::linearSystem(input, *other, {}, kept);
+    expectSame(made, diagnosis::linearSystem(input, *other, {}));
+    EXPECT_EQ(made.postures.front().columns == first.postures.front().columns, other == &start);
+  }
+}
+
+/// All postures but one, of several at a time: what they have in common is added once.
+TEST(LinearSystem, SumsOfSeveralWeightsAreThoseOfEach) {
+  const campaign::Campaign campaign = simulation::simulate(springsAlone(8));
+  const extended_model::EffectFit effects =
+      extended_model::fitEffects(campaign, extended_model::requestedEffects({"bearing_tilt:3"}, campaign));
+  const diagnosis::LinearSystem& data = effects.fit.data;
+  const std::size_t postures = data.postures.size();
+  ASSERT_GE(postures, 8u);
+  std::vector<std::vector<double>> weights;
+  for (std::size_t p = 0; p < 3; ++p) {
+    weights.emplace_back(postures, 1.0);
+    weights.back()[p] = 0.0;
+  }
+  weights.emplace_back(postures, 1.0);
+  weights.back()[0] = 2.0;
+  weights.back()[5] = 0.0;
+  const std::vector<Eigen::MatrixXd> sums = diagnosis::sumsOf(data, weights);
+  for (std::size_t k = 0; k < weights.size(); ++k) {
+    Eigen::MatrixXd sum = data.sweeps;
+    for (std::size_t p = 0; p < postures; ++p) data.postures[p].normal.addTo(weights[k][p], sum);
+    sum.triangularView<Eigen::StrictlyUpper>() = sum.transpose();
+    EXPECT_LT((sums[k] - sum).cwiseAbs().maxCoeff(), 1e-12 * sum.cwiseAbs().maxCoeff()) << k;
+  }
 }
 
 /// Repeats differ from reflector to reflector and from state to state: each mean has the noise of its own.

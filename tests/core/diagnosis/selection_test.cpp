@@ -81,6 +81,24 @@ TEST(Projection, ACompliancesSignIsKept) {
   EXPECT_EQ(fit.drop, 0.0);
 }
 
+// A load that does not turn a joint says nothing of its stiffness: what the model lacks may make any number of it.
+TEST(Selection, OnlyALoadedJointsNegativeComplianceRulesASetOut) {
+  Noise noise(9);
+  const Made made(noise);
+  const std::vector<effects::EffectModel> all = models();
+  const diagnosis::Projection projection =
+      made.projection(white(noise) - 2.0 * made.columns.col(0) + 3.0 * made.columns.col(8));
+  const auto isPlausible = [&](const std::vector<bool>& loaded) {
+    diagnosis::SelectionRules own = rules();
+    own.loaded = loaded;
+    const diagnosis::Selector selector(all, made.layout, projection, 50.0, own, std::vector<bool>(all.size(), true));
+    return selector.fit({{0, {2}}}).plausible;
+  };
+  EXPECT_FALSE(isPlausible({}));
+  EXPECT_FALSE(isPlausible({true, true, true, true, true, true}));
+  EXPECT_TRUE(isPlausible({false, true, true, true, true, true}));
+}
+
 // The same fall of chi2 by another road, signs and all; 1e-9 of it is what rounding makes of well separated columns.
 TEST(Projection, AGrowingSubsetBringsWhatTheSubsetBrings) {
   Noise noise(7);
