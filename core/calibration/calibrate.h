@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/calibration/arm_fit.h"
+#include "core/calibration/denavit_hartenberg.h"
 #include "core/calibration/effect_selection.h"
 #include "core/calibration/fitted_arm.h"
 #include "core/calibration/held_out.h"
@@ -100,5 +101,9 @@ UncertainPoint turnOfStation(const ArmFit& fit);
 /// Each reflector in the flange's frame, as the fitted arm has it at zero: the flange follows the last axes, which are
 /// uncertain too.
 std::vector<UncertainPoint> targetsInFlange(const UnloadedDay& day, const ArmFit& fit);
+
+/// Standard uncertainties of the link parameters of a fitted geometry (denavitHartenberg of its arm), in the places of
+/// the parameters, m and rad. 0 where nothing that was fitted moves one.
+PerJoint<LinkParameters> linkUncertainties(const ArmFit& fit, const robot::Robot& nominal);
 
 }  // namespace stiffscope::calibration

@@ -89,12 +89,7 @@ LoadingResidual residualOfLoading(const SystemInput& input, const LinearSystem& 
   Eigen::VectorXd both(layout.end + 1);
   both << nuisances, effects, -1.0;
   Eigen::VectorXd prior = Eigen::VectorXd::Zero(layout.end);
-  for (std::size_t m = 0; m < input.models.size(); ++m) {
-    Eigen::Index at = layout.model_at[m];
-    for (const effects::EffectPart& part : input.models[m].parts) {
-      for (const double most : part.most) prior[at++] = 1.0 / (most * most);
-    }
-  }
+  prior.tail(layout.end - layout.effects) = priorsOf(input.models);
   std::vector<Eigen::Index> free;
   for (Eigen::Index i = 0; i < layout.end; ++i) {
     if (normal(i, i) > 0.0 && (i < layout.effects || effects[i - layout.effects] != 0.0)) free.push_back(i);

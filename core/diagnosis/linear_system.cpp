@@ -199,6 +199,16 @@ ComplianceExpected complianceExpected(const JointVector& identified) {
   return expected;
 }
 
+Eigen::VectorXd priorsOf(const std::vector<effects::EffectModel>& models) {
+  std::vector<double> priors;
+  for (const effects::EffectModel& model : models) {
+    for (const effects::EffectPart& part : model.parts) {
+      for (const double most : part.most) priors.push_back(1.0 / (most * most));
+    }
+  }
+  return Eigen::VectorXd::Map(priors.data(), static_cast<Eigen::Index>(priors.size()));
+}
+
 GapLayout gapLayout(const std::vector<effects::EffectModel>& models, const robot::Robot& arm, std::size_t targets) {
   GapLayout layout;
   layout.geometry = arm.joints();

@@ -94,6 +94,9 @@ LinearSystem linearSystem(const SystemInput& input, const SystemState& state, co
 /// those of absolute positions, and the error of the model. Lets the sweeps' equations go.
 void weighAgain(const SystemInput& input, const SystemState& state, LinearSystem& data);
 
+/// 1 / bound^2 of each parameter of the models, in their order: what the data do not see is kept from running away.
+Eigen::VectorXd priorsOf(const std::vector<effects::EffectModel>& models);
+
 GapLayout gapLayout(const std::vector<effects::EffectModel>& models, const robot::Robot& arm, std::size_t targets);
 
 }  // namespace stiffscope::diagnosis

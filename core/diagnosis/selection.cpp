@@ -22,13 +22,13 @@ Selector::Selector(const std::vector<effects::EffectModel>& models, const GapLay
       postures_(postures),
       rules_(rules),
       allowed_(allowed),
-      prior_(projection.right.size()) {
+      prior_(priorsOf(models)) {
   for (std::size_t m = 0; m < models.size(); ++m) {
     Eigen::Index at = layout.model_at[m] - layout.effects;
     part_at_.emplace_back();
     for (const effects::EffectPart& part : models[m].parts) {
       part_at_.back().push_back(at);
-      for (const double most : part.most) prior_[at++] = 1.0 / (most * most);
+      at += static_cast<Eigen::Index>(part.most.size());
     }
   }
   given_chi2_ = given().chi2;

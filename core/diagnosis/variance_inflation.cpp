@@ -13,13 +13,7 @@ void estimateInflation(const SystemInput& input, const LinearSystem& data, Syste
   if (!input.absolute) return;
   const Eigen::Index end = data.layout.end;
   Eigen::MatrixXd normal = sumOf(data, std::vector<double>(data.postures.size(), 1.0));
-  std::size_t m = 0;
-  for (const effects::EffectModel& model : input.models) {
-    Eigen::Index at = data.layout.model_at[m++];
-    for (const effects::EffectPart& part : model.parts) {
-      for (const double most : part.most) normal(at, at) += 1.0 / (most * most), ++at;
-    }
-  }
+  normal.diagonal().segment(data.layout.effects, end - data.layout.effects) += priorsOf(input.models);
   Eigen::VectorXd scale =
       normal.diagonal().head(end).unaryExpr([](double d) { return d > 0.0 ? 1.0 / std::sqrt(d) : 0.0; });
   Eigen::MatrixXd even = scale.asDiagonal() * normal.topLeftCorner(end, end) * scale.asDiagonal();

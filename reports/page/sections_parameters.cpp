@@ -10,7 +10,6 @@
 #include "reports/page/sections.h"
 #include "reports/words/accuracy_words.h"
 #include "reports/words/calibration_words.h"
-#include "reports/words/link_uncertainty.h"
 #include "reports/words/names.h"
 #include "reports/words/numbers.h"
 
@@ -82,7 +81,7 @@ reports::Table linksTable(const calibration::Calibration& calibration) {
   const calibration::DenavitHartenberg now =
       calibration::denavitHartenberg(calibration.geometry().fit.arm(nominal), nominal);
   const calibration::DenavitHartenberg built = calibration::denavitHartenberg(nominal, nominal);
-  const PerJoint<calibration::LinkParameters> sds = reports::linkUncertainties(calibration.geometry().fit, nominal);
+  const PerJoint<calibration::LinkParameters> sds = calibration::linkUncertainties(calibration.geometry().fit, nominal);
   reports::Table table{"Denavit and Hartenberg's parameters, calibrated ± U (95\u00a0%), and the URDF's in small type",
                        {"Axes", "θ (°)", "d (mm), or β (°)", "a (mm)", "α (°)"},
                        {{}},

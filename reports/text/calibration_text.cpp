@@ -7,7 +7,6 @@
 #include "core/io/units.h"
 #include "reports/text/text.h"
 #include "reports/words/calibration_words.h"
-#include "reports/words/link_uncertainty.h"
 #include "reports/words/numbers.h"
 #include "reports/words/remark_words.h"
 
@@ -70,7 +69,7 @@ void writeAxes(const calibration::Calibration& calibration, Out out) {
   const calibration::DenavitHartenberg now = calibration::denavitHartenberg(arm, calibration.day.arm),
                                        before =
                                            calibration::denavitHartenberg(calibration.day.arm, calibration.day.arm);
-  const PerJoint<calibration::LinkParameters> sds = linkUncertainties(fit, calibration.day.arm);
+  const PerJoint<calibration::LinkParameters> sds = calibration::linkUncertainties(fit, calibration.day.arm);
   fmt::format_to(out,
                  "\nDenavit and Hartenberg's parameters (Hayati's where axes are parallel) to the second digit of U, "
                  "URDF's in brackets\n"

@@ -26,8 +26,7 @@ std::string framesWords(frames::RemarkId id, const RemarkValues& values) {
              "postures, or do not turn the flange";
     case RemarkId::coupled_flange_level:
       return "joints are coupled ('mimic' in the URDF) and the flange stays level: reflectors on it show where axes "
-             "and "
-             "they themselves stand in sum only, so that the axes stay the URDF's; Partial Pose finds the base by "
+             "and they themselves stand in sum only, so that the axes stay the URDF's; Partial Pose finds the base by "
              "unloaded postures";
     case RemarkId::coupled_axes_not_settling:
       return "joints are coupled ('mimic' in the URDF), and the fit of all axes to the sweeps does not settle: "
@@ -70,8 +69,7 @@ std::string framesWords(frames::RemarkId id, const RemarkValues& values) {
       return "the base's place is not known from sweeps, and finding it from postures needs three "
              "reflectors in three postures that turn the flange about different axes, or about one while it goes to "
              "places that are on no one circle about that axis; differences need no place: a table `displacements` "
-             "with "
-             "frame=\"base_link\", and each `target` with its x_mm y_mm z_mm on the flange, identifies without it";
+             "with frame=\"base_link\", and each `target` with its x_mm y_mm z_mm on the flange, identifies without it";
     case RemarkId::too_few_positions:
       return fmt::format("{} unloaded positions do not determine {} parameters", values.count(0), values.count(1));
     case RemarkId::calibration_not_settling:

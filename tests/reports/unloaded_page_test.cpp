@@ -8,7 +8,6 @@
 #include "reports/page/pages.h"
 #include "reports/words/accuracy_words.h"
 #include "reports/words/day_words.h"
-#include "reports/words/link_uncertainty.h"
 #include "reports/words/numbers.h"
 #include "reports/words/verdict.h"
 #include "tests/fixtures/unloaded_day.h"
@@ -104,7 +103,7 @@ TEST(UnloadedPage, WhatIsReadBehindPlusMinusIsU) {
                   "<td>" + reports::withUncertainty(1e3 * fit.steps[kShift], 1.96 * 1e3 * fit.sd(kShift)) + "</td>"));
   const robot::Robot& nominal = day.accuracy.calibration.day.arm;
   const double a = calibration::denavitHartenberg(fit.arm(nominal), nominal).links[0].a,
-               sd = reports::linkUncertainties(fit, nominal)[0].a;
+               sd = calibration::linkUncertainties(fit, nominal)[0].a;
   ASSERT_GT(sd, 0.0);
   EXPECT_TRUE(has(page.html, "<td>" + reports::withUncertainty(1e3 * a, 1.96 * 1e3 * sd) + " <small>"));
 }

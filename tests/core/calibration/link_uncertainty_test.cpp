@@ -1,9 +1,7 @@
-#include "reports/words/link_uncertainty.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include "core/accuracy/diagnose_accuracy.h"
+#include "core/calibration/calibrate.h"
 #include "tests/fixtures/unloaded_day.h"
 
 namespace stiffscope {
@@ -16,8 +14,8 @@ class AxesMovedOutwards : public ::testing::Test {
     Noise noise(52);
     const UnloadedSpec spec;
     campaign_ = unloadedCampaign(spec, noise);
-    accuracy_ = accuracy::diagnoseAccuracy(campaign_);
-    fit_ = accuracy_.calibration.geometry().fit;
+    calibration_ = calibration::calibrate(campaign_, {});
+    fit_ = calibration_.geometry().fit;
     fit_.free.clear();
   }
 
@@ -32,12 +30,12 @@ class AxesMovedOutwards : public ::testing::Test {
   }
 
   PerJoint<calibration::LinkParameters> uncertainties() const {
-    return reports::linkUncertainties(fit_, accuracy_.calibration.day.arm);
+    return calibration::linkUncertainties(fit_, calibration_.day.arm);
   }
 
   static constexpr double kSd = 0.1e-3;  // m
   campaign::Campaign campaign_;
-  accuracy::AccuracyDiagnosis accuracy_;
+  calibration::Calibration calibration_;
   calibration::ArmFit fit_;
 };
 
