@@ -41,7 +41,8 @@ extended_model::EffectFit effectsAsked(const preparation::PreparedCampaign& prep
 
 std::optional<extended_model::ExtendedModel> modelOf(const preparation::PreparedCampaign& prepared,
                                                      const ModelChoice& choice,
-                                                     const identification::IdentifyOptions& options) {
+                                                     const identification::IdentifyOptions& options,
+                                                     extended_model::Followed followed) {
   if (choice.springs_only) return std::nullopt;
   const bool by_data =
       choice.with.empty() || std::find(choice.with.begin(), choice.with.end(), "auto") != choice.with.end();
@@ -51,7 +52,7 @@ std::optional<extended_model::ExtendedModel> modelOf(const preparation::Prepared
   std::optional<preparation::PreparedCampaign> screened;
   if (prepared.preparation.raw) screened = preparation::prepareCampaign(prepared.campaign);
   const preparation::PreparedCampaign& sought = screened ? *screened : prepared;
-  if (by_data) return extended_model::supportedModel(sought, prepared.campaign, options);
+  if (by_data) return extended_model::supportedModel(sought, prepared.campaign, options, followed);
   return extended_model::extendModel(prepared.campaign, effectsAsked(sought, choice.with), options);
 }
 
@@ -62,8 +63,9 @@ diagnosis::Diagnosis diagnosisOf(const preparation::PreparedCampaign& prepared,
   if (prepared.preparation.raw) {
     diagnosis = diagnosis::diagnose(prepared.campaign, options);
   } else {
-    diagnosis = model && model->study ? diagnosis::diagnose(prepared, *model->study, options)
-                                      : diagnosis::diagnose(prepared, options);
+    diagnosis = model && model->study && model->study->hasEquations()
+                    ? diagnosis::diagnose(prepared, *model->study, options)
+                    : diagnosis::diagnose(prepared, options);
   }
   if (model && diagnosis.usable) extended_model::stateStiffnesses(*model, diagnosis);
   return diagnosis;

@@ -74,7 +74,7 @@ void drawSpikes(const std::string& file, const campaign::Campaign& campaign, con
 /// has nothing to identify from: what it lacks.
 diagnosis::Diagnosis diagnosed(const preparation::PreparedCampaign& prepared) {
   const Remark lacking = identification::whatLoadsLack(prepared.campaign);
-  if (lacking.empty()) return diagnosisOf(prepared, modelOf(prepared, {}, {}));
+  if (lacking.empty()) return diagnosisOf(prepared, modelOf(prepared, {}, {}, extended_model::Followed::by_diagnosis));
   diagnosis::Diagnosis none(prepared.campaign.robot.joints());
   none.unusable_reason = lacking;
   return none;

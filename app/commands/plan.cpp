@@ -92,7 +92,7 @@ Measured measuredBy(const preparation::PreparedCampaign& prepared, const ModelCh
   Measured measured;
   const bool loaded = campaign.states && campaign.load_cell && (campaign.loading || campaign.displacements);
   if (!loaded || !identification::heaviestStep(campaign)) return measured;
-  measured.model = modelOf(prepared, choice, {});
+  measured.model = modelOf(prepared, choice, {}, extended_model::Followed::by_diagnosis);
   if (!measured.model) measured.springs = identification::identify(campaign);
   if (measured.model) measured.next = diagnosisOf(prepared, measured.model).next;
   return measured;

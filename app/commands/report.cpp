@@ -169,7 +169,7 @@ struct Result {
     loaded = identification::whatLoadsLack(prepared.campaign).empty();
     atWork("identifying and diagnosing " + folder);
     if (!loaded && campaign::isUnloadedDay(prepared.campaign)) accuracy = accuracy::diagnoseAccuracy(prepared);
-    if (loaded) improved = modelOf(prepared, arguments.model, options);
+    if (loaded) improved = modelOf(prepared, arguments.model, options, extended_model::Followed::by_diagnosis);
     if (loaded) diagnosis = diagnosisOf(prepared, improved);
     if (!improved) {
       own = loaded ? identification::identify(prepared.campaign, options)

@@ -109,7 +109,7 @@ const render::ScenePoint* pointNamed(const render::ArmPose& pose, const std::str
 /// One method's material and its name.
 struct NamedMaterial {
   identification::Method method{};
-  ViewMaterial material;
+  const ViewMaterial& material;
 };
 
 Json loadedPoints(const ViewFrame& frame, std::size_t index, const std::vector<NamedMaterial>& methods,
@@ -137,15 +137,15 @@ Json loadedPoints(const ViewFrame& frame, std::size_t index, const std::vector<N
   return points;
 }
 
-std::vector<NamedMaterial> materialsOf(const reports::ReportCampaign& one) {
-  std::vector<NamedMaterial> materials;
-  const auto shown = reports::shownMethod(one.identification);
-  if (shown) materials.push_back({*shown, loadMaterial(one.campaign, one.identification, shown)});
+/// Those that can be shown, the one that the report shows first.
+std::vector<identification::Method> methodsOf(const identification::Identification& result) {
+  const auto shown = reports::shownMethod(result);
+  std::vector<identification::Method> methods;
+  if (shown) methods.push_back(*shown);
   for (const identification::Method method : identification::kMethods) {
-    if (method != shown && one.identification.of(method).available)
-      materials.push_back({method, loadMaterial(one.campaign, one.identification, method)});
+    if (method != shown && result.of(method).available) methods.push_back(method);
   }
-  return materials;
+  return methods;
 }
 
 }  // namespace
@@ -179,14 +179,21 @@ std::set<int> namedPoses(const reports::ReportCampaign& one) {
 
 std::string loadedSceneJson(const reports::ReportCampaign& one, const campaign::Campaign& raw) {
   if (one.identification.cases.empty()) return {};
-  const std::vector<NamedMaterial> methods = materialsOf(one);
-  const ViewMaterial material =
-      methods.empty() ? loadMaterial(one.campaign, one.identification, std::nullopt) : methods.front().material;
+  const std::size_t median = medianCase(one);
+  const int first_posture = one.identification.cases[median].pose;
+  const std::set<int> named = namedPoses(one);
+  const auto wanted = [&](int posture) {
+    return isShown(posture, one.campaign.pose_ids.size()) || named.contains(posture) || posture == first_posture;
+  };
+  const std::vector<identification::Method> shown = methodsOf(one.identification);
+  const std::vector<ViewMaterial> materials = loadMaterials(one.campaign, one.identification, shown, wanted);
+  const ViewMaterial& material = materials.front();
+  std::vector<NamedMaterial> methods;
+  for (std::size_t m = 0; m < shown.size(); ++m) methods.push_back({shown[m], materials[m]});
   std::optional<ViewMaterial> before;
   if (one.improved != nullptr && !one.improved->effects.added.empty())
-    before = loadMaterial(raw, one.improved->without, std::nullopt);
+    before = std::move(loadMaterials(raw, one.improved->without, {}, wanted).front());
   Json json = emptyScene(one);
-  const std::size_t median = medianCase(one);
   const render::ArmScene picture = deflectionScene(one);
   json["magnification"] = render::automaticMagnification(picture);
   json["residual_factor"] = picture.residual_factor;
@@ -201,13 +208,9 @@ std::string loadedSceneJson(const reports::ReportCampaign& one, const campaign::
     json["vectors"].push_back(vectorKind("r", "residual", "residual", 3.5));
   }
   if (before) json["vectors"].push_back(vectorKind("e", "effects", "effects", 3.5));
-  const int first_posture = one.identification.cases[median].pose;
-  const std::set<int> named = namedPoses(one);
   json["postures"] = one.campaign.pose_ids.size();
   for (std::size_t i = 0; i < material.frames.size(); ++i) {
     const ViewFrame& frame = material.frames[i];
-    const bool shown = isShown(frame.posture, one.campaign.pose_ids.size()) || named.contains(frame.posture);
-    if (!shown && frame.posture != first_posture) continue;
     if (frame.posture == first_posture && frame.step == one.identification.step) json["first"] = json["frames"].size();
     Json made = frameJson(one.campaign.pose_ids[static_cast<std::size_t>(frame.posture)], frame.where, frame.load,
                           frame.posture, frame.step, frame.scene.poses.front());

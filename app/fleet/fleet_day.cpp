@@ -156,7 +156,7 @@ CampaignResult fleetDay(const std::string& folder, bool springs_only) {
   if (identification::whatLoadsLack(campaign).empty()) {
     ModelChoice choice;
     choice.springs_only = springs_only;
-    const auto model = modelOf(prepared, choice, {});
+    const auto model = modelOf(prepared, choice, {}, extended_model::Followed::by_diagnosis);
     diagnosis::DiagnoseOptions options;
     options.resamples = 0;  // how far the gap shrinks is not kept, and takes half of the time
     const diagnosis::Diagnosis diagnosis = diagnosisOf(prepared, model, options);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <map>
 
 #include "app/figures/arm_scenes.h"
 #include "app/options.h"
@@ -35,25 +36,27 @@ ViewFrame frameOf(const reports::ReportCampaign& one, std::size_t index, std::op
 
 }  // namespace
 
-ViewMaterial loadMaterial(const campaign::Campaign& campaign, const identification::Identification& identified,
-                          std::optional<identification::Method> method) {
-  ViewMaterial material;
-  material.campaign = campaign.name;
-  if (method) {
-    material.method = reports::shortName(*method);
-  } else {
-    material.lacking =
+std::vector<ViewMaterial> loadMaterials(const campaign::Campaign& campaign,
+                                        const identification::Identification& identified,
+                                        const std::vector<identification::Method>& methods,
+                                        const std::function<bool(int posture)>& wanted) {
+  std::vector<ViewMaterial> materials(std::max<std::size_t>(methods.size(), 1));
+  for (ViewMaterial& material : materials) material.campaign = campaign.name;
+  for (std::size_t m = 0; m < methods.size(); ++m) materials[m].method = reports::shortName(methods[m]);
+  if (methods.empty())
+    materials.front().lacking =
         "nothing is predicted: " + reports::words(identified.of(identification::Method::partial_pose).reason);
-  }
   for (const int step : identification::loadSteps(campaign)) {
     const identification::Identification other =
         step == identified.step ? identification::Identification{} : underLoadStep(campaign, identified, step);
     const reports::ReportCampaign one{campaign, step == identified.step ? identified : other};
     for (std::size_t i = 0; i < one.identification.cases.size(); ++i) {
-      material.frames.push_back(frameOf(one, i, method));
+      if (wanted && !wanted(one.identification.cases[i].pose)) continue;
+      for (std::size_t m = 0; m < materials.size(); ++m)
+        materials[m].frames.push_back(frameOf(one, i, methods.empty() ? std::nullopt : std::optional(methods[m])));
     }
   }
-  return material;
+  return materials;
 }
 
 namespace {
@@ -111,11 +114,7 @@ std::size_t frameToStart(const ViewMaterial& material, int step, int posture) {
 
 OpenedMaterial openLoads(const campaign::Campaign& campaign, const identification::Identification& result,
                          const ViewOptions& options) {
-  OpenedMaterial opened;
-  for (const identification::Method method : methodsToShow(result, options.method)) {
-    opened.by_method.push_back(loadMaterial(campaign, result, method));
-  }
-  if (opened.by_method.empty()) opened.by_method.push_back(loadMaterial(campaign, result, std::nullopt));
+  OpenedMaterial opened{loadMaterials(campaign, result, methodsToShow(result, options.method))};
   const ViewMaterial& material = opened.by_method.front();
   if (material.frames.empty()) return {};
   if (!options.pose.empty()) {
@@ -257,12 +256,12 @@ frames::LoadingGeometry shownGeometry(const campaign::Campaign& campaign,
 std::vector<identification::CaseEquations> alignedRows(const std::vector<identification::CaseEquations>& rows,
                                                        const std::vector<identification::LoadCase>& from,
                                                        const std::vector<identification::LoadCase>& to) {
+  std::map<int, std::size_t> row_of;
+  for (std::size_t i = 0; i < rows.size(); ++i) row_of[from[i].pose] = i;
   std::vector<identification::CaseEquations> aligned;
   for (const identification::LoadCase& wanted : to) {
-    aligned.emplace_back();
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      if (from[i].pose == wanted.pose) aligned.back() = rows[i];
-    }
+    const auto found = row_of.find(wanted.pose);
+    aligned.push_back(found == row_of.end() ? identification::CaseEquations() : rows[found->second]);
   }
   return aligned;
 }

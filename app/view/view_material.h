@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,11 +31,14 @@ struct ViewMaterial {
   std::vector<ViewFrame> frames;
 };
 
-/// Every posture under every load step, the scenes by the code of the report's deflection picture. Vectors
-/// are predicted by `method` with the stiffnesses of `identified`, from whichever step they were identified;
-/// none: measured vectors only.
-ViewMaterial loadMaterial(const campaign::Campaign& campaign, const identification::Identification& identified,
-                          std::optional<identification::Method> method);
+/// Postures under every load step, the scenes by the code of the report's deflection picture, a material a method in
+/// their order. Vectors are predicted by it with the stiffnesses of `identified`, from whichever step they were
+/// identified; of no method one with measured vectors only. `wanted`: by the place among the campaign's postures which
+/// of them; null: all.
+std::vector<ViewMaterial> loadMaterials(const campaign::Campaign& campaign,
+                                        const identification::Identification& identified,
+                                        const std::vector<identification::Method>& methods,
+                                        const std::function<bool(int posture)>& wanted = nullptr);
 
 /// The command line of stiffscope-view.
 struct ViewOptions {

@@ -65,7 +65,8 @@ class Compensator {
         with_(with),
         range_(certainty ? &certainty->range : nullptr),
         own_draws_(certainty ? DeflectionDraws() : drawsOf(estimate, with)),
-        draws_(certainty ? certainty->draws : own_draws_) {}
+        draws_(certainty ? certainty->draws : own_draws_),
+        drawn_(sideBySide(draws_)) {}
 
   CompensatedPosture run(const PostureToCompensate& asked) const {
     CompensatedPosture result;
@@ -191,22 +192,29 @@ class Compensator {
     return {};
   }
 
-  /// Errors of three coordinates, a draw each column. `rows`: of the joints, J diag(tau); `by`: of the effects'
-  /// parameters; `left`: model error of each, m (or rad).
-  Eigen::Matrix3Xd errorsOf(const PointJacobian& rows, const Eigen::Ref<const Eigen::MatrixXd>& by,
-                            const Eigen::Vector3d& predicted, double left) const {
-    Eigen::Matrix3Xd errors = rows * draws_.compliance + left * draws_.model_error;
-    if (by.cols() > 0) errors += by * draws_.parameters;
-    errors += predicted * draws_.load.transpose();
-    for (std::size_t d = 0; d < draws_.springs_alone.size(); ++d) {
-      if (draws_.springs_alone[d]) errors.col(static_cast<Eigen::Index>(d)) -= predicted;
-    }
-    return errors;
+  /// A draw in a row, as `factorsOf` takes it, but for the parameters of effects: compliances, error of the load,
+  /// whether it is of springs alone, model error.
+  static Eigen::MatrixXd sideBySide(const DeflectionDraws& draws) {
+    const Eigen::Index joints = draws.compliance.rows();
+    Eigen::MatrixXd drawn = Eigen::MatrixXd::Zero(draws.size(), joints + 5);
+    drawn.leftCols(joints) = draws.compliance.transpose();
+    drawn.col(joints) = draws.load;
+    drawn.col(joints + 1).tail(draws.springs_alone).setOnes();
+    drawn.rightCols<3>() = draws.model_error.transpose();
+    return drawn;
   }
 
-  PointDeflection deflectionOf(const Eigen::Vector3d& deflection, const PointJacobian& rows,
-                               const Eigen::Ref<const Eigen::MatrixXd>& by, double left) const {
-    const PredictionSpread spread = spreadOf(errorsOf(rows, by, deflection, left));
+  /// What a draw (sideBySide) makes of the errors of three coordinates, a column each. `rows`: of the joints,
+  /// J diag(tau); `left`: model error of each, m (or rad).
+  static Eigen::MatrixX3d factorsOf(const PointJacobian& rows, const Eigen::Vector3d& predicted, double left) {
+    Eigen::MatrixX3d factors(rows.cols() + 5, 3);
+    factors << rows.transpose(), predicted.transpose(), -predicted.transpose(), left * Eigen::Matrix3d::Identity();
+    return factors;
+  }
+
+  static PointDeflection deflectionOf(const Eigen::Vector3d& deflection,
+                                      const Eigen::Ref<const Eigen::MatrixX3d>& errors) {
+    const PredictionSpread spread = spreadOf(errors);
     PointDeflection point{deflection, spread.sd, spread.interval, spread.expanded};
     for (int k = 0; k < 3; ++k) {
       identification::CoverageInterval& interval = point.interval[static_cast<std::size_t>(k)];
@@ -288,28 +296,31 @@ class Compensator {
     const double left = range_ ? range_->model_error *
                                      loadRatio(*range_, {wanted * load.point_in_flange, load.force, load.moment}, axes)
                                : 0.0;
-    // Without parameters there are no numbers to take rows of.
-    const auto rowsFrom = [&](Eigen::Index first) {
-      Eigen::Matrix3Xd three(3, by.cols());
-      if (by.cols() > 0) three = by.middleRows<3>(first);
-      return three;
-    };
-    for (std::size_t p = 0; p < points.size(); ++p) {
-      const PointJacobian rows = robot::pointJacobianAt(axes, wanted * points[p]) * torque.asDiagonal();
+    const Jacobian jacobian = robot::jacobianAt(geometry_.arm, unloaded, wanted * tcp_);
+    result.rotation = turnOf(flange);
+    const double turn_left = range_ && range_->tool_size > 0.0 ? left / range_->tool_size : 0.0;
+    // The errors of all coordinates by one product.
+    const auto count = static_cast<Eigen::Index>(points.size());
+    Eigen::MatrixXd factors(drawn_.cols(), 3 * count + 3);
+    for (Eigen::Index p = 0; p < count; ++p) {
+      const Eigen::Vector3d& point = points[static_cast<std::size_t>(p)];
+      const PointJacobian rows = robot::pointJacobianAt(axes, wanted * point) * torque.asDiagonal();
+      factors.middleCols<3>(3 * p) = factorsOf(rows, moveOf(flange, point), left);
+    }
+    factors.rightCols<3>() = factorsOf(jacobian.bottomRows<3>() * torque.asDiagonal(), result.rotation, turn_left);
+    Eigen::MatrixXd errors = drawn_ * factors;
+    if (by.cols() > 0) draws_.addByParameters(by, errors);
+    for (Eigen::Index p = 0; p < count; ++p) {
       const PointDeflection point =
-          deflectionOf(moveOf(flange, points[p]), rows, rowsFrom(3 * static_cast<Eigen::Index>(p)), left);
+          deflectionOf(moveOf(flange, points[static_cast<std::size_t>(p)]), errors.middleCols<3>(3 * p));
       if (p == 0) {
         result.tcp = point;
       } else {
         result.targets.push_back(point);
       }
     }
-    const Jacobian jacobian = robot::jacobianAt(geometry_.arm, unloaded, wanted * tcp_);
-    result.rotation = turnOf(flange);
-    const double turn_left = range_ && range_->tool_size > 0.0 ? left / range_->tool_size : 0.0;
-    result.rotation_sd = spreadOf(errorsOf(jacobian.bottomRows<3>() * torque.asDiagonal(), rowsFrom(by.rows() - 3),
-                                           result.rotation, turn_left))
-                             .sd;
+    result.rotation_sd =
+        (errors.rightCols<3>().colwise().squaredNorm() / static_cast<double>(errors.rows())).cwiseSqrt().transpose();
     result.conditioning = stepConditioning(axes, wanted * tcp_);
   }
 
@@ -390,6 +401,7 @@ class Compensator {
   const IdentifiedRange* range_;  ///< null: not known
   DeflectionDraws own_draws_;     ///< where none are given
   const DeflectionDraws& draws_;
+  Eigen::MatrixXd drawn_;  ///< of them, a draw each row (sideBySide)
 };
 
 }  // namespace

@@ -33,17 +33,24 @@ using JointDraws = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::
 /// likely, and one draw is the same arm in all postures and under all loads: an effect that the day's loads could not
 /// see is small in no draw for that reason, and widens the prediction for the loads that rouse it.
 struct DeflectionDraws {
-  /// c less the model's, rad/Nm; of a draw of `springs_alone` c itself. A joint that the day cannot see is anywhere
+  /// c less the model's, rad/Nm; of a draw of springs alone c itself. A joint that the day cannot see is anywhere
   /// between rigid and as weak as the weaker of its neighbours.
   JointDraws compliance;
-  Eigen::MatrixXd parameters;   ///< of what gives besides joint springs, less the model's
+  /// Of what gives besides joint springs, less the model's. Draw d has those of column d modulo their number, since
+  /// some draws differ by their springs alone; one of springs alone has none.
+  Eigen::MatrixXd parameters;
   DisplacementByParameters by;  ///< null: the parameters are moves along EffectDeflection::varied
   Eigen::VectorXd load;         ///< error of the wrench's size, a share
-  /// Whether the draw is an arm that gives at joint springs alone: where no model explains the day, half of them are.
-  std::vector<bool> springs_alone;
+  /// How many draws, the last ones, are an arm that gives at joint springs alone: where no model explains the day, half
+  /// of them are.
+  Eigen::Index springs_alone = 0;
   Eigen::Matrix3Xd model_error;  ///< standard normal numbers, for what the model leaves of a point
 
   Eigen::Index size() const { return compliance.cols(); }
+
+  /// Adds to `errors`, a draw each row, what its parameters make of coordinates (columns) that a unit of each moves by
+  /// `by`, a coordinate each row.
+  void addByParameters(const Eigen::MatrixXd& by, Eigen::Ref<Eigen::MatrixXd> errors) const;
 };
 
 /// Joint springs alone. `covariance`: of their compliances, scaled to normal numbers (coveringCovariance). `load_sd`:
@@ -64,12 +71,12 @@ struct PredictionSpread {
   double expanded = 0.0;  ///< U: the error is shorter than this at the stated coverage
 };
 
-/// Quantiles of one coordinate's errors at the stated coverage, widened to hold zero; NaN where one is. Reorders them.
-identification::CoverageInterval intervalOf(std::vector<double>& errors);
+/// Quantiles of one coordinate's errors at the stated coverage, widened to hold zero; NaN where one is.
+identification::CoverageInterval intervalOf(const Eigen::Ref<const Eigen::VectorXd>& errors);
 
-/// Of the errors of a prediction, a draw each column: moments about zero, and quantiles widened to hold zero. Not a
+/// Of the errors of a prediction, a draw each row: moments about zero, and quantiles widened to hold zero. Not a
 /// number where some error is not.
-PredictionSpread spreadOf(const Eigen::Matrix3Xd& errors);
+PredictionSpread spreadOf(const Eigen::Ref<const Eigen::MatrixX3d>& errors);
 
 /// The loads and postures that a day's stiffnesses come from, and what the model left of the day's own deflections.
 struct IdentifiedRange {

@@ -3,7 +3,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <vector>
 
 #include "core/extended_model/effect_deflection.h"
 #include "core/numerics/random.h"
@@ -73,17 +75,14 @@ DeflectionDraws hiddenDraws(const extended_model::ExtendedModel& model, identifi
   DeflectionDraws draws;
   draws.compliance.resize(estimate.compliance.size(), all);
   draws.compliance.leftCols(by_model) = normalDraws(withKnown(own.others, estimate), by_model, random);
-  draws.parameters.setZero(hidden.off.rows(), all);
-  for (Eigen::Index d = 0; d < by_model; ++d) {
-    const Eigen::Index drawn = d % possible;
-    draws.compliance.col(d) += own.compliance.col(drawn);
-    draws.parameters.col(d) = hidden.off.col(own.possible[static_cast<std::size_t>(drawn)]);
-  }
-  draws.springs_alone.assign(static_cast<std::size_t>(all), false);
+  for (Eigen::Index d = 0; d < by_model; ++d) draws.compliance.col(d) += own.compliance.col(d % possible);
+  draws.parameters.resize(hidden.off.rows(), possible);
+  for (Eigen::Index d = 0; d < possible; ++d)
+    draws.parameters.col(d) = hidden.off.col(own.possible[static_cast<std::size_t>(d)]);
   if (model.hidden->unexplained) {
     draws.compliance.rightCols(by_model) =
         normalDraws(identification::coveringCovariance(alone), by_model, random).colwise() + alone.compliance;
-    std::fill(draws.springs_alone.begin() + by_model, draws.springs_alone.end(), true);
+    draws.springs_alone = by_model;
   }
   addUnknownJoints(estimate, draws, random);
   addCommon(load_sd, draws, random);
@@ -94,13 +93,46 @@ DeflectionDraws hiddenDraws(const extended_model::ExtendedModel& model, identifi
   return draws;
 }
 
-double quantile(std::vector<double>& values, double p) {
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(p * static_cast<double>(values.size() - 1) + 0.5);
-  std::nth_element(values.begin(), at, values.end());
+/// Rank from the nearer end of what a share of `count` values does not exceed; from zero.
+Eigen::Index rankFromEnd(Eigen::Index count, double share) {
+  const auto rank = static_cast<Eigen::Index>(share * static_cast<double>(count - 1) + 0.5);
+  return share < 0.5 ? rank : count - 1 - rank;
+}
+
+/// The one among `values` that `rank` others come before. Only what comes before `bound`, some of them, is looked at
+/// closely, if that is enough.
+template <typename Before>
+double ranked(const Eigen::Ref<const Eigen::VectorXd>& values, Eigen::Index rank, double bound, Before before) {
+  std::vector<double> kept(static_cast<std::size_t>(values.size()));
+  std::size_t count = 0;
+  for (const double value : values) {
+    kept[count] = value;
+    count += before(value, bound) ? 1 : 0;
+  }
+  if (count <= static_cast<std::size_t>(rank)) {
+    std::copy(values.begin(), values.end(), kept.begin());
+    count = kept.size();
+  }
+  const auto at = kept.begin() + rank;
+  std::nth_element(kept.begin(), at, kept.begin() + static_cast<std::ptrdiff_t>(count), before);
   return *at;
 }
 
+double rootMeanSquare(const Eigen::Ref<const Eigen::VectorXd>& values) {
+  return std::sqrt(values.squaredNorm() / static_cast<double>(values.size()));
+}
+
 }  // namespace
+
+void DeflectionDraws::addByParameters(const Eigen::MatrixXd& by, Eigen::Ref<Eigen::MatrixXd> errors) const {
+  if (parameters.size() == 0) return;
+  const Eigen::MatrixXd moves = parameters.transpose() * by.transpose();
+  const Eigen::Index by_model = size() - springs_alone;
+  for (Eigen::Index first = 0; first < by_model; first += moves.rows()) {
+    const Eigen::Index count = std::min(moves.rows(), by_model - first);
+    errors.middleRows(first, count) += moves.topRows(count);
+  }
+}
 
 DeflectionDraws springDraws(const StiffnessEstimate& estimate, const JointMatrix& covariance, double load_sd,
                             Eigen::Index varied) {
@@ -108,7 +140,6 @@ DeflectionDraws springDraws(const StiffnessEstimate& estimate, const JointMatrix
   DeflectionDraws draws;
   draws.compliance = normalDraws(covariance, kDraws, random);
   draws.parameters = standardNormal(varied, kDraws, random);
-  draws.springs_alone.assign(static_cast<std::size_t>(kDraws), false);
   addUnknownJoints(estimate, draws, random);
   addCommon(load_sd, draws, random);
   return draws;
@@ -124,32 +155,32 @@ DeflectionDraws modelDraws(const extended_model::ExtendedModel& model, identific
   return springDraws(springs, identification::coveringCovariance(springs), load_sd, model.spread.parameters.cols());
 }
 
-identification::CoverageInterval intervalOf(std::vector<double>& errors) {
+identification::CoverageInterval intervalOf(const Eigen::Ref<const Eigen::VectorXd>& errors) {
   constexpr double kBeyond = 0.5 * (1.0 - identification::kStatedCoverage);
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  if (!std::all_of(errors.begin(), errors.end(), [](double error) { return std::isfinite(error); }))
-    return {kNone, kNone};
-  const double low = quantile(errors, kBeyond), high = quantile(errors, 1.0 - kBeyond);
+  if (!errors.allFinite()) return {kNone, kNone};
+  const double size = rootMeanSquare(errors);
+  const double low = ranked(errors, rankFromEnd(errors.size(), kBeyond), -size, std::less<>());
+  const double high = ranked(errors, rankFromEnd(errors.size(), 1.0 - kBeyond), size, std::greater<>());
   return {std::min(low, 0.0), std::max(high, 0.0)};
 }
 
-PredictionSpread spreadOf(const Eigen::Matrix3Xd& errors) {
+PredictionSpread spreadOf(const Eigen::Ref<const Eigen::MatrixX3d>& errors) {
   PredictionSpread spread;
-  spread.sd = (errors.rowwise().squaredNorm() / static_cast<double>(errors.cols())).cwiseSqrt();
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  for (int k = 0; k < 3; ++k) {
+    spread.sd[k] = rootMeanSquare(errors.col(k));
+    spread.interval[static_cast<std::size_t>(k)] = intervalOf(errors.col(k));
+  }
   if (!errors.allFinite()) {
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
     spread.sd.setConstant(kNone);
     spread.interval.fill({kNone, kNone});
     spread.expanded = kNone;
     return spread;
   }
-  std::vector<double> values(static_cast<std::size_t>(errors.cols()));
-  for (int k = 0; k < 3; ++k) {
-    Eigen::VectorXd::Map(values.data(), errors.cols()) = errors.row(k);
-    spread.interval[static_cast<std::size_t>(k)] = intervalOf(values);
-  }
-  Eigen::VectorXd::Map(values.data(), errors.cols()) = errors.colwise().norm();
-  spread.expanded = quantile(values, identification::kStatedCoverage);
+  const Eigen::VectorXd length = errors.rowwise().norm();
+  spread.expanded = ranked(length, rankFromEnd(length.size(), identification::kStatedCoverage), rootMeanSquare(length),
+                           std::greater<>());
   return spread;
 }
 

@@ -22,7 +22,7 @@ double leftBy(const SystemInput& input, const GapFit& fit, const Projection& mad
   std::vector<bool> only(allowed.size(), false);
   only[model] = true;
   // No price for parts here: the question is what the effect can imitate at all.
-  const Selector selector(input.models, fit.data.layout, made, 1.0, fit.rules, only);
+  const Selector selector(input.models, fit.data->layout, made, 1.0, fit.rules, only);
   const FittedSet base = selector.fit(others);
   std::vector<ChosenModel> models = base.models;
   std::vector<std::size_t> parts(input.models[model].parts.size());
@@ -59,7 +59,7 @@ std::vector<std::vector<effects::Effect>> designConfounding(const SystemInput& i
   const double size = kTwice * fit.rules.loading_rows;
   for (std::size_t m = 0; m < input.models.size(); ++m) {
     if (!allowed[m]) continue;
-    Eigen::Index at = fit.data.layout.model_at[m] - fit.data.layout.effects;
+    Eigen::Index at = fit.data->layout.model_at[m] - fit.data->layout.effects;
     for (const effects::EffectPart& part : input.models[m].parts) {
       Eigen::VectorXd field = Eigen::VectorXd::Zero(fit.projection.right.size());
       const auto count = static_cast<Eigen::Index>(part.most.size());

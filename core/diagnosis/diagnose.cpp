@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 #include <random>
+#include <stdexcept>
 
 #include "core/diagnosis/confounding.h"
 #include "core/diagnosis/gap_study.h"
@@ -53,7 +54,7 @@ JointVector somePosture(const robot::Robot& arm, std::mt19937_64& random) {
 /// Whitened normal equations of one more posture: unloaded, and under one force.
 Eigen::MatrixXd normalOf(const SystemInput& input, const GapFit& fit, const JointVector& q,
                          const Eigen::Vector3d& force) {
-  const GapPosture& like = fit.data.postures.front();
+  const GapPosture& like = fit.data->postures.front();
   const effects::ArmState& seen = like.states[effects::heaviestState(like.states)];
   effects::ArmState rest = effects::stateAt(fit.state.geometry, q, JointVector::Zero(q.size()));
   rest.pose = like.pose;
@@ -71,14 +72,14 @@ Eigen::MatrixXd normalOf(const SystemInput& input, const GapFit& fit, const Join
   loaded.load_torque = robot::jointTorque(fit.state.geometry.arm, rest.posture, loaded.load);
   const effects::PostureStates states{rest, loaded};
   const Eigen::Index rows = rest.rows();
-  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(rows, fit.data.layout.end + 1);
-  columns.leftCols(fit.data.layout.joints()) = effects::byEachJoint(rest, loaded.load_torque);
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(rows, fit.data->layout.end + 1);
+  columns.leftCols(fit.data->layout.joints()) = effects::byEachJoint(rest, loaded.load_torque);
   for (std::size_t m = 0; m < input.models.size(); ++m) {
     const Eigen::MatrixXd field =
         input.models[m].columns(fit.state.at, states, 1) - input.models[m].columns(fit.state.at, states, 0);
-    columns.middleCols(fit.data.layout.model_at[m], field.cols()) = field;
+    columns.middleCols(fit.data->layout.model_at[m], field.cols()) = field;
   }
-  const double sd = std::hypot(fit.data.state_noise, fit.state.model_error);
+  const double sd = std::hypot(fit.data->state_noise, fit.state.model_error);
   columns /= sd > 0.0 ? sd : 1.0;
   return columns.transpose() * columns;
 }
@@ -86,7 +87,7 @@ Eigen::MatrixXd normalOf(const SystemInput& input, const GapFit& fit, const Join
 double leastSeparation(const SystemInput& input, const GapFit& fit, const std::vector<bool>& allowed, const Tie& tie,
                        const Projection& projection) {
   const ChosenModel& chosen = fit.set.models[tie.chosen];
-  const Eigen::Index at = fit.data.layout.model_at[chosen.model] - fit.data.layout.effects;
+  const Eigen::Index at = fit.data->layout.model_at[chosen.model] - fit.data->layout.effects;
   const auto size = static_cast<Eigen::Index>(input.models[chosen.model].parameters());
   Eigen::VectorXd field = Eigen::VectorXd::Zero(fit.set.effects.size());
   field.segment(at, size) = fit.set.effects.segment(at, size);
@@ -108,8 +109,8 @@ double leastSeparation(const SystemInput& input, const GapFit& fit, const std::v
 /// most. Read as the campaign reads. Empty where none helps.
 std::optional<NextMeasurement> nextFor(const SystemInput& input, const GapFit& fit, const std::vector<bool>& allowed,
                                        const Tie& tie, std::uint64_t seed) {
-  const Eigen::MatrixXd now = sumOf(fit.data, std::vector<double>(fit.data.postures.size(), 1.0));
-  const double before = leastSeparation(input, fit, allowed, tie, project(now, fit.data.layout));
+  const Eigen::MatrixXd now = sumOf(*fit.data, std::vector<double>(fit.data->postures.size(), 1.0));
+  const double before = leastSeparation(input, fit, allowed, tie, project(now, fit.data->layout));
   std::mt19937_64 random(seed);
   const double force = fit.state.at.largest_force;
   const double floor = fit.state.at.r0_from_base_link.translation().z() + kClearOfFloor;
@@ -121,7 +122,7 @@ std::optional<NextMeasurement> nextFor(const SystemInput& input, const GapFit& f
     if (effects::stateAt(fit.state.geometry, q, JointVector::Zero(q.size())).flange.translation().z() < floor) continue;
     for (int axis = 0; axis < 3; ++axis) {
       const Eigen::MatrixXd more = now + normalOf(input, fit, q, force * Eigen::Vector3d::Unit(axis));
-      const double apart = leastSeparation(input, fit, allowed, tie, project(more, fit.data.layout));
+      const double apart = leastSeparation(input, fit, allowed, tie, project(more, fit.data->layout));
       if (apart <= best) continue;
       best = apart;
       next.what = Remark(RemarkId::posture_that_separates, std::vector<double>(q.begin(), q.end()), force, axis,
@@ -170,11 +171,11 @@ class Diagnoser {
 
  private:
   void describe() {
-    if (alone_.data.postures.empty()) alone_ = withoutEffects(input_, start_.state, fit_);
+    if (alone_.data->postures.empty()) alone_ = withoutEffects(input_, start_.state, fit_);
     result_.usable = true;
-    result_.postures = static_cast<int>(fit_.data.postures.size());
-    for (const GapPosture& posture : fit_.data.postures) result_.states += static_cast<int>(posture.states.size());
-    result_.state_noise = fit_.data.state_noise;
+    result_.postures = static_cast<int>(fit_.data->postures.size());
+    for (const GapPosture& posture : fit_.data->postures) result_.states += static_cast<int>(posture.states.size());
+    result_.state_noise = fit_.data->state_noise;
     result_.noise_source = start_.noise.source;
     result_.noise_factor_along = start_.noise.along_factor;
     result_.noise_factor_across = start_.noise.across_factor;
@@ -185,13 +186,13 @@ class Diagnoser {
     result_.left_over_limit = fit_.left_limit;
     result_.model_error = fit_.model_error;
     result_.geometric_stiffness_share = start_.geometric_stiffness_share;
-    before_ = stiffnessesAlone(alone_.data, std::vector<double>(alone_.data.postures.size(), 1.0), alone_.projection);
+    before_ = stiffnessesAlone(*alone_.data, std::vector<double>(alone_.data->postures.size(), 1.0), alone_.projection);
     after_ = allParameters(fit_.nuisances, fit_.set.effects);
     result_.gap = deflectionGap(alone_, before_, fit_, after_);
     result_.positions = positionGap(alone_, before_, fit_, after_);
     result_.positions_tested = input_.absolute;
     if (options_.verdict_only) return;
-    result_.at_points = gapAtPoints(alone_.data, before_.for_deflection, fit_.data, after_);
+    result_.at_points = gapAtPoints(*alone_.data, before_.for_deflection, *fit_.data, after_);
     asMeasured();
     result_.where = whereDeflection(input_, alone_, before_.for_deflection);
     result_.where_after = whereDeflection(input_, fit_, after_);
@@ -288,7 +289,7 @@ class Diagnoser {
   const std::vector<bool>& allowed_;
   const std::vector<std::size_t>& given_;
   const std::optional<StudyHeldOut>& held_out_;
-  GapFit fit_;    // with the effects chosen, a copy: the limit of a finding is put into its rules
+  GapFit fit_;    // with the effects chosen, not the study's own: the limit of a finding is put into its rules
   GapFit alone_;  // joint stiffnesses alone
   StiffnessesAlone before_;
   Eigen::VectorXd after_;
@@ -353,6 +354,7 @@ Diagnosis diagnose(const preparation::PreparedCampaign& prepared, const Diagnose
 
 Diagnosis diagnose(const preparation::PreparedCampaign& prepared, const GapStudy& study,
                    const DiagnoseOptions& options) {
+  if (study.usable() && !study.hasEquations()) throw std::logic_error("a diagnosis needs the study's equations");
   requireLoads(prepared.campaign);
   if (!isLong(prepared.campaign)) return Diagnoser(prepared, study, options).run();
   return LongDay(prepared.campaign).stated(Diagnoser(spreadForDiagnosis(prepared), study, options).run());

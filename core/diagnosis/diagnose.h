@@ -36,6 +36,7 @@ Diagnosis diagnose(campaign::Campaign&& campaign, const DiagnoseOptions& options
 /// Diagnoses a day that is prepared already, as identification and audit see it.
 Diagnosis diagnose(const preparation::PreparedCampaign& prepared, const DiagnoseOptions& options = {});
 /// Diagnoses by an existing study: studyGap of this day, thinned where it is long, with these options' GapOptions.
+/// Throws std::logic_error where that has let its equations go.
 Diagnosis diagnose(const preparation::PreparedCampaign& prepared, const GapStudy& study,
                    const DiagnoseOptions& options = {});
 

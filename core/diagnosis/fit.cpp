@@ -48,8 +48,8 @@ SelectionRules rulesFor(const LinearSystem& data, const FitRules& rules) {
 }  // namespace
 
 JointVector complianceVariance(const GapFit& fit, const SystemInput& input) {
-  const GapLayout& layout = fit.data.layout;
-  const Eigen::MatrixXd normal = sumOf(fit.data, ones(fit.data));
+  const GapLayout& layout = fit.data->layout;
+  const Eigen::MatrixXd normal = sumOf(*fit.data, ones(*fit.data));
   std::vector<Eigen::Index> kept;
   for (Eigen::Index i = 0; i < layout.effects; ++i) kept.push_back(i);
   for (const ChosenModel& one : fit.set.models) {
@@ -76,7 +76,7 @@ double varianceFactor(const GapFit& fit) {
 
 Selector selectorOf(const SystemInput& input, const GapFit& fit, const Projection& projection, double postures,
                     const std::vector<bool>& allowed) {
-  return Selector(input.models, fit.data.layout, projection, postures, fit.rules, allowed);
+  return Selector(input.models, fit.data->layout, projection, postures, fit.rules, allowed);
 }
 
 namespace {
@@ -113,21 +113,21 @@ ModelsAndParts namesOf(const FittedSet& set) {
 
 /// One linearisation where `fit.state` stands, and the selection on it.
 void fitOnce(const SystemInput& input, const std::vector<bool>& allowed, const FitRules& rules, GapFit& fit) {
-  fit.rules = rulesFor(fit.data, rules);
+  fit.rules = rulesFor(*fit.data, rules);
   fit.rules.given = rules.given;
   fit.rules.loaded = input.expected.known;
   // A large effect bends what the others are judged by: it is settled before a second one is looked for.
   if (fit.rounds <= kAlone) fit.rules.most_effects = 1;
-  const Eigen::MatrixXd normal = sumOf(fit.data, ones(fit.data));
-  fit.projection = project(normal, fit.data.layout);
-  const double postures = static_cast<double>(fit.data.postures.size());
+  const Eigen::MatrixXd normal = sumOf(*fit.data, ones(*fit.data));
+  fit.projection = project(normal, fit.data->layout);
+  const double postures = static_cast<double>(fit.data->postures.size());
   const Selector selector = selectorOf(input, fit, fit.projection, postures, allowed);
   fit.set = rules.fixed ? selector.fit(*rules.fixed) : selector.select();
   fit.nuisances_before = fit.projection.by_nothing;
   fit.nuisances = fit.projection.by_nothing - fit.projection.by_effects * fit.set.effects;
-  fit.left = residualOfLoading(input, fit.data, normal, fit.nuisances, fit.set.effects);
+  fit.left = residualOfLoading(input, *fit.data, normal, fit.nuisances, fit.set.effects);
   fit.left_before =
-      residualOfLoading(input, fit.data, normal, fit.nuisances_before, Eigen::VectorXd::Zero(fit.set.effects.size()));
+      residualOfLoading(input, *fit.data, normal, fit.nuisances_before, Eigen::VectorXd::Zero(fit.set.effects.size()));
 }
 
 /// How far the shapes in the set are from where its equations were made, and where that is: logarithms.
@@ -146,7 +146,7 @@ Shapes shapesOf(const SystemInput& input, const GapFit& fit) {
   Shapes shapes;
   for (const ChosenModel& one : fit.set.models) {
     const effects::EffectModel& model = input.models[one.model];
-    Eigen::Index at = fit.data.layout.model_at[one.model] - fit.data.layout.effects;
+    Eigen::Index at = fit.data->layout.model_at[one.model] - fit.data->layout.effects;
     for (const effects::EffectPart& part : model.parts) {
       if (part.is_shape) {
         shapes.farthest = std::max(shapes.farthest, std::abs(fit.set.effects[at]));
@@ -159,10 +159,10 @@ Shapes shapesOf(const SystemInput& input, const GapFit& fit) {
 }
 
 /// The equations where the fit stands, the ones it had let go first.
-void remake(const SystemInput& input, const ContainedEffects& contained, GeometryColumns& by_geometry, GapFit& fit,
-            Weighed weighed = Weighed::once) {
-  fit.data = {};
-  fit.data = linearSystem(input, fit.state, contained, by_geometry, weighed);
+std::shared_ptr<LinearSystem> remade(const SystemInput& input, const ContainedEffects& contained,
+                                     GeometryColumns& by_geometry, GapFit& fit, Weighed weighed = Weighed::once) {
+  fit.data = std::make_shared<const LinearSystem>();
+  return std::make_shared<LinearSystem>(linearSystem(input, fit.state, contained, by_geometry, weighed));
 }
 
 GapFit settle(const SystemInput& input, const SystemState& start, const std::vector<bool>& allowed,
@@ -176,15 +176,16 @@ GapFit settle(const SystemInput& input, const SystemState& start, const std::vec
   constexpr int kMostRounds = 9;
   for (fit.rounds = 1; fit.rounds <= kMostRounds; ++fit.rounds) {
     const bool inflates = input.absolute && fit.rounds > kAlone;
-    remake(input, contained, by_geometry, fit, inflates ? Weighed::again : Weighed::once);
+    const auto data = remade(input, contained, by_geometry, fit, inflates ? Weighed::again : Weighed::once);
     if (inflates) {
       const SystemState before = fit.state;
-      estimateInflation(input, fit.data, fit.state);
+      estimateInflation(input, *data, fit.state);
       if (fit.state.position_inflation != before.position_inflation ||
           fit.state.sweep_inflation != before.sweep_inflation)
-        weighAgain(input, fit.state, fit.data);
-      fit.data.as_read = {};
+        weighAgain(input, fit.state, *data);
+      data->as_read = {};
     }
+    fit.data = data;
     fitOnce(input, allowed, rules, fit);
     const ModelsAndParts now = namesOf(fit.set);
     constexpr double kSettled = 0.003;  // of chi2: far below what a verdict turns on
@@ -199,16 +200,15 @@ GapFit settle(const SystemInput& input, const SystemState& start, const std::vec
     if (fit.rounds >= kAlone + 2 && settled && as_good) return fit;
     // Of the first ones the equations do not yet contain what they find.
     if (fit.rounds > kAlone && (best.rounds == 0 || !stand || fit.set.score() < best.set.score())) {
-      LinearSystem data = std::move(fit.data);
       best = fit;
+      best.data = std::make_shared<const LinearSystem>();
       best_contained = contained;
-      fit.data = std::move(data);
     }
     if (fit.rounds == kMostRounds) break;
-    contained = correct(input, fit.data.layout, fit.set, fit.nuisances, fit.state);
+    contained = correct(input, fit.data->layout, fit.set, fit.nuisances, fit.state);
   }
-  fit.data = {};
-  remake(input, best_contained, by_geometry, best);
+  fit.data = std::make_shared<const LinearSystem>();
+  best.data = remade(input, best_contained, by_geometry, best);
   return best;
 }
 
@@ -216,14 +216,14 @@ GapFit settle(const SystemInput& input, const SystemState& start, const std::vec
 /// to.
 void polish(const SystemInput& input, const std::vector<bool>& allowed, const FitRules& rules,
             GeometryColumns& by_geometry, GapFit& fit) {
-  const auto fitted = fitJointly(input, fit.state, fit.data.layout, fit.set, fit.nuisances, by_geometry);
+  const auto fitted = fitJointly(input, fit.state, fit.data->layout, fit.set, fit.nuisances, by_geometry);
   if (!fitted) return;
   FitRules same = rules;
   same.fixed = fit.set.models;
   GapFit finer;
   finer.state = fitted->state;
   finer.rounds = fit.rounds + 1;
-  remake(input, fitted->contained, by_geometry, finer);
+  finer.data = remade(input, fitted->contained, by_geometry, finer);
   fitOnce(input, allowed, same, finer);
   if (finer.set.chi2 >= fit.set.chi2 || !finer.set.plausible) return;
   finer.model_error = fit.model_error;
@@ -242,11 +242,12 @@ GapFit withoutEffects(const SystemInput& input, const SystemState& start, const 
   alone.state.sweep_inflation = fit.state.sweep_inflation;
   alone.state.model_error = fit.state.model_error;
   GeometryColumns own;
-  alone.data = linearSystem(bare, alone.state, {}, fit.by_geometry ? *fit.by_geometry : own);
-  const Eigen::MatrixXd normal = sumOf(alone.data, ones(alone.data));
-  alone.projection = project(normal, alone.data.layout);
+  alone.data = std::make_shared<const LinearSystem>(
+      linearSystem(bare, alone.state, {}, fit.by_geometry ? *fit.by_geometry : own));
+  const Eigen::MatrixXd normal = sumOf(*alone.data, ones(*alone.data));
+  alone.projection = project(normal, alone.data->layout);
   alone.nuisances = alone.nuisances_before = alone.projection.by_nothing;
-  alone.left = alone.left_before = residualOfLoading(bare, alone.data, normal, alone.nuisances, Eigen::VectorXd());
+  alone.left = alone.left_before = residualOfLoading(bare, *alone.data, normal, alone.nuisances, Eigen::VectorXd());
   return alone;
 }
 
@@ -279,7 +280,7 @@ double leftAtLargestLoad(const GapFit& fit) {
   Eigen::VectorXd all(fit.nuisances.size() + fit.set.effects.size());
   all << fit.nuisances, fit.set.effects;
   double squares = 0.0, count = 0.0;
-  for (const GapPosture& posture : fit.data.postures) {
+  for (const GapPosture& posture : fit.data->postures) {
     const Eigen::VectorXd left = posture.right - posture.columns * all;
     const std::size_t s = effects::heaviestState(posture.states);
     if (s == 0) continue;
@@ -303,10 +304,10 @@ double modelError(const GapFit& fit, const FitRules& rules) {
   const double rows = fit.rules.loading_rows, left = leftPerEquation(fit);
   if (fit.state.model_error == 0.0 && left < limitOfLeft(fit, rules)) return 0.0;
   double before = 0.0, after = 0.0, count = 0.0;
-  Eigen::VectorXd old = Eigen::VectorXd::Zero(fit.data.layout.end), now = old;
+  Eigen::VectorXd old = Eigen::VectorXd::Zero(fit.data->layout.end), now = old;
   old.head(fit.nuisances_before.size()) = fit.nuisances_before;
   now << fit.nuisances, fit.set.effects;
-  for (const GapPosture& posture : fit.data.postures) {
+  for (const GapPosture& posture : fit.data->postures) {
     const Eigen::Index loads = posture.right.size() - posture.position_rows;
     before += (posture.right - posture.columns * old).tail(loads).squaredNorm();
     after += (posture.right - posture.columns * now).tail(loads).squaredNorm();
@@ -315,10 +316,10 @@ double modelError(const GapFit& fit, const FitRules& rules) {
   const double removed = std::sqrt(std::max(0.0, before - after) / count);
   constexpr double kShareOfRemoved = 0.1;
   const double limit =
-      std::max(std::sqrt(fit.rules.least_drop / rows) * fit.data.state_noise, kShareOfRemoved * removed);
+      std::max(std::sqrt(fit.rules.least_drop / rows) * fit.data->state_noise, kShareOfRemoved * removed);
   const double error =
       fit.state.model_error == 0.0
-          ? std::max(leftAtLargestLoad(fit), std::sqrt(std::max(0.0, left - 1.0)) * fit.data.state_noise)
+          ? std::max(leftAtLargestLoad(fit), std::sqrt(std::max(0.0, left - 1.0)) * fit.data->state_noise)
           : leftAtLargestLoad(fit);
   return error > limit ? error : 0.0;
 }

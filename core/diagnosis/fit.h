@@ -24,7 +24,7 @@ struct LoadingResidual {
 /// The gap with its effects, linearised where the best set of them stands.
 struct GapFit {
   SystemState state;
-  LinearSystem data;
+  std::shared_ptr<const LinearSystem> data = std::make_shared<const LinearSystem>();  ///< tens of megabytes; never null
   Projection projection;
   SelectionRules rules;
   FittedSet set;

@@ -63,6 +63,19 @@ void takeStation(DiagnosisInput& start, SystemInput& input, GapStudy& study) {
 
 }  // namespace
 
+void GapStudy::keepStates() {
+  LinearSystem states;
+  states.layout = fit.data->layout;
+  for (const GapPosture& posture : fit.data->postures) {
+    GapPosture& own = states.postures.emplace_back();
+    own.pose = posture.pose;
+    own.states = posture.states;
+  }
+  fit.data = std::make_shared<const LinearSystem>(std::move(states));
+  fit.by_geometry.reset();
+  alone.reset();
+}
+
 GapStudy studyGap(const preparation::PreparedCampaign& prepared, const GapOptions& options) {
   GapStudy study;
   auto start = std::make_unique<DiagnosisInput>(diagnosisInput(prepared));

@@ -41,6 +41,11 @@ struct GapStudy {
   std::optional<StudyHeldOut> held_out;         ///< the same: it takes as long as the fit
 
   bool usable() const { return start->reason.empty(); }
+
+  /// Lets go the equations, which are most of its size, where no diagnosis will be made of it. Where the postures stood
+  /// stays.
+  void keepStates();
+  bool hasEquations() const { return fit.data->sweeps.size() > 0; }
 };
 
 /// `prepared` must have been thinned where the day is long (spreadForDiagnosis).

@@ -27,13 +27,13 @@ std::vector<Trained> train(const SystemInput& input, const GapFit& alone, const 
                            const Eigen::MatrixXd& sum_alone) {
   double postures = 0.0;
   for (const double weight : weights) postures += weight;
-  const Projection projection = project(sum, fit.data.layout);
+  const Projection projection = project(sum, fit.data->layout);
   SelectionRules rules = fit.rules;
-  const double share = postures / static_cast<double>(fit.data.postures.size());
+  const double share = postures / static_cast<double>(fit.data->postures.size());
   rules.loading_rows *= share;
   rules.least_drop *= share;
-  const Selector selector(input.models, fit.data.layout, projection, std::max(2.0, postures), rules, allowed);
-  const StiffnessesAlone before = stiffnessesAlone(alone.data, weights, project(sum_alone, alone.data.layout));
+  const Selector selector(input.models, fit.data->layout, projection, std::max(2.0, postures), rules, allowed);
+  const StiffnessesAlone before = stiffnessesAlone(*alone.data, weights, project(sum_alone, alone.data->layout));
   std::vector<Trained> trained;
   for (const FitRecipe& recipe : recipes) {
     const FittedSet set = recipe.choose ? selector.select() : selector.fit(recipe.models);
@@ -53,7 +53,7 @@ void trainOnEach(const SystemInput& input, const GapFit& alone, const GapFit& fi
   numerics::onAllCores((samples.size() + kTogether - 1) / kTogether, [&](std::size_t block) {
     const std::size_t first = block * kTogether;
     const std::span some = std::span(samples).subspan(first, std::min(kTogether, samples.size() - first));
-    const std::vector<Eigen::MatrixXd> sums = sumsOf(fit.data, some), sums_alone = sumsOf(alone.data, some);
+    const std::vector<Eigen::MatrixXd> sums = sumsOf(*fit.data, some), sums_alone = sumsOf(*alone.data, some);
     for (std::size_t k = 0; k < some.size(); ++k)
       take(first + k, train(input, alone, fit, allowed, recipes, some[k], sums[k], sums_alone[k]));
   });
@@ -151,7 +151,7 @@ GapPosture narrowed(const GapPosture& posture, const std::vector<Eigen::Index>& 
 Narrowed narrowed(const SystemInput& input, const GapFit& fit, const std::vector<FitRecipe>& recipes) {
   Narrowed own{input, {}, recipes};
   own.input.models.clear();
-  std::vector<Eigen::Index> columns(static_cast<std::size_t>(fit.data.layout.effects));
+  std::vector<Eigen::Index> columns(static_cast<std::size_t>(fit.data->layout.effects));
   std::iota(columns.begin(), columns.end(), Eigen::Index{0});
   for (std::size_t m = 0; m < input.models.size(); ++m) {
     bool taken = false;
@@ -165,22 +165,24 @@ Narrowed narrowed(const SystemInput& input, const GapFit& fit, const std::vector
     if (!taken) continue;
     own.input.models.push_back(input.models[m]);
     for (std::size_t k = 0; k < input.models[m].parameters(); ++k)
-      columns.push_back(fit.data.layout.model_at[m] + static_cast<Eigen::Index>(k));
+      columns.push_back(fit.data->layout.model_at[m] + static_cast<Eigen::Index>(k));
   }
-  const Eigen::Index end = fit.data.layout.end;
+  const Eigen::Index end = fit.data->layout.end;
   own.fit.rules = fit.rules;
   own.fit.rules.given.clear();
-  own.fit.data.layout = gapLayout(own.input.models, input.campaign.robot, input.campaign.targets.size());
-  for (const GapPosture& posture : fit.data.postures) own.fit.data.postures.push_back(narrowed(posture, columns, end));
+  LinearSystem data;
+  data.layout = gapLayout(own.input.models, input.campaign.robot, input.campaign.targets.size());
+  for (const GapPosture& posture : fit.data->postures) data.postures.push_back(narrowed(posture, columns, end));
   columns.push_back(end);
-  own.fit.data.sweeps = fit.data.sweeps(columns, columns);
+  data.sweeps = fit.data->sweeps(columns, columns);
+  own.fit.data = std::make_shared<const LinearSystem>(std::move(data));
   return own;
 }
 
 std::vector<HeldOutShrink> shrinks(const SystemInput& input, const GapFit& alone, const GapFit& fit,
                                    const std::vector<bool>& allowed, const std::vector<FitRecipe>& recipes,
                                    int resamples, std::uint64_t seed) {
-  const std::size_t postures = fit.data.postures.size();
+  const std::size_t postures = fit.data->postures.size();
   std::vector<HeldOutShrink> result(recipes.size());
   if (postures < 4) return result;
   std::vector<std::vector<HeldOut>> left(postures, std::vector<HeldOut>(recipes.size()));
@@ -188,7 +190,7 @@ std::vector<HeldOutShrink> shrinks(const SystemInput& input, const GapFit& alone
   for (std::size_t p = 0; p < postures; ++p) others.push_back(numerics::leaveOneOut(postures, p));
   trainOnEach(input, alone, fit, allowed, recipes, others, [&](std::size_t p, const std::vector<Trained>& trained) {
     for (std::size_t r = 0; r < recipes.size(); ++r)
-      left[p][r] = leftIn(alone.data.postures[p], trained[r].before, fit.data.postures[p], trained[r].after);
+      left[p][r] = leftIn(alone.data->postures[p], trained[r].before, fit.data->postures[p], trained[r].after);
   });
   std::mt19937_64 random(seed);
   std::vector<numerics::Weights> samples(static_cast<std::size_t>(resamples));
@@ -205,11 +207,11 @@ std::vector<HeldOutShrink> shrinks(const SystemInput& input, const GapFit& alone
     for (std::size_t p = 0; p < postures; ++p) {
       if (weights[p] != 0.0) continue;
       for (std::size_t r = 0; r < recipes.size(); ++r)
-        add(drawn[b][r], leftIn(alone.data.postures[p], trained[r].before, fit.data.postures[p], trained[r].after));
+        add(drawn[b][r], leftIn(alone.data->postures[p], trained[r].before, fit.data->postures[p], trained[r].after));
     }
   });
   double noise = 0.0;
-  for (const GapPosture& posture : fit.data.postures) noise += noiseSquares(posture);
+  for (const GapPosture& posture : fit.data->postures) noise += noiseSquares(posture);
   for (std::size_t r = 0; r < recipes.size(); ++r) {
     HeldOut sum;
     for (const auto& one : left) add(sum, one[r]);

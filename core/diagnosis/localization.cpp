@@ -50,7 +50,7 @@ std::optional<GapAsMeasured> gapAsMeasured(const preparation::PreparedCampaign& 
     gap.by_posture.rows.push_back(
         {prepared.campaign.pose_ids[static_cast<std::size_t>(posture.pose)], std::sqrt(squares / count)});
   }
-  gap.at_points = gapAtPoints(data, parameters, fit.data, after);
+  gap.at_points = gapAtPoints(data, parameters, *fit.data, after);
   for (const SystemRows& one : loadingRows(raw.campaign, raw.state.geometry, raw.state.at, {})) {
     left[one.pose].position_before = one.position.squaredNorm();
     position += left[one.pose].position_before;
@@ -58,7 +58,7 @@ std::optional<GapAsMeasured> gapAsMeasured(const preparation::PreparedCampaign& 
   }
   if (rows > 0.0) gap.deflection = std::sqrt(deflection / rows);
   if (rests > 0.0) gap.position = std::sqrt(position / rests);
-  for (const GapPosture& posture : fit.data.postures) {
+  for (const GapPosture& posture : fit.data->postures) {
     HeldOut one = left[posture.pose];
     const HeldOut now = leftIn(posture, {after, after}, posture, after);
     one.deflection_after = now.deflection_after;
@@ -86,9 +86,9 @@ template <class Add>
 Gap summed(const GapFit& alone, const StiffnessesAlone& before, const GapFit& fit, const Eigen::VectorXd& after,
            const Add& add) {
   GapSquares squares;
-  for (std::size_t p = 0; p < fit.data.postures.size(); ++p) {
-    const GapPosture& posture = fit.data.postures[p];
-    add(leftIn(alone.data.postures[p], before, posture, after), posture, squares);
+  for (std::size_t p = 0; p < fit.data->postures.size(); ++p) {
+    const GapPosture& posture = fit.data->postures[p];
+    add(leftIn(alone.data->postures[p], before, posture, after), posture, squares);
   }
   return squares.rms();
 }
@@ -327,15 +327,15 @@ std::vector<Eigen::MatrixXd> partsByJoint(const Eigen::MatrixXd& columns) {
 /// What angles of the joints in each state would explain of that state. What two joints could both explain is shared
 /// out, so that the parts add up to what all explain together (Shapley; Lindeman, Merenda and Gold).
 WhereTable byJoint(const GapFit& fit, const Eigen::VectorXd& parameters, const std::vector<LeftOver>& all) {
-  const auto joints = static_cast<std::size_t>(fit.data.layout.joints());
+  const auto joints = static_cast<std::size_t>(fit.data->layout.joints());
   std::vector<Sum> sums(joints);
-  for (const GapPosture& posture : fit.data.postures) {
+  for (const GapPosture& posture : fit.data->postures) {
     const Eigen::VectorXd left = posture.right - posture.columns * parameters;
     const Eigen::Index per_state = posture.states.front().rows();
     for (std::size_t s = 1; s < posture.states.size(); ++s) {
       const Eigen::Index at = posture.position_rows + static_cast<Eigen::Index>(s - 1) * per_state;
       const auto parts =
-          partsByJoint(effects::byEachJoint(posture.states[s], JointVector::Ones(fit.data.layout.joints())));
+          partsByJoint(effects::byEachJoint(posture.states[s], JointVector::Ones(fit.data->layout.joints())));
       for (std::size_t joint = 0; joint < joints; ++joint)
         sums[joint].addPart(posture.pose, left.segment(at, per_state), parts[joint],
                             posture.noise.middleRows(at, per_state), posture.noise_across);
@@ -354,7 +354,7 @@ WhereTable byJoint(const GapFit& fit, const Eigen::VectorXd& parameters, const s
 
 std::vector<WhereTable> whereDeflection(const SystemInput& input, const GapFit& fit,
                                         const Eigen::VectorXd& parameters) {
-  const std::vector<LeftOver> all = leftOvers(fit.data, parameters, true);
+  const std::vector<LeftOver> all = leftOvers(*fit.data, parameters, true);
   std::vector<WhereTable> tables = commonTables(input, fit, all);
   tables.insert(tables.begin(), byJoint(fit, parameters, all));
   int last_step = 0;
@@ -377,7 +377,7 @@ std::vector<WhereTable> whereDeflection(const SystemInput& input, const GapFit& 
 }
 
 std::vector<WhereTable> wherePosition(const SystemInput& input, const GapFit& fit, const Eigen::VectorXd& parameters) {
-  const std::vector<LeftOver> all = leftOvers(fit.data, parameters, false);
+  const std::vector<LeftOver> all = leftOvers(*fit.data, parameters, false);
   if (all.empty()) return {};
   return commonTables(input, fit, all);
 }

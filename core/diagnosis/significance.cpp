@@ -27,14 +27,14 @@ double chanceLimit(const SystemInput& input, const GapFit& fit, const std::vecto
   noise.chi2_none = 0.0;
   noise.by_effects.resize(0, 0);  // the data's own stiffnesses say nothing here
   GapFit plain;
-  plain.data.layout = fit.data.layout;
+  plain.data = fit.data;
   plain.rules = fit.rules;
   plain.rules.given.clear();
   for (int draw = 0; draw < draws; ++draw) {
     Eigen::VectorXd numbers(noise.right.size());
     for (double& number : numbers) number = normal(random);
     noise.right = root * numbers;
-    const Selector selector = selectorOf(input, plain, noise, static_cast<double>(fit.data.postures.size()), allowed);
+    const Selector selector = selectorOf(input, plain, noise, static_cast<double>(fit.data->postures.size()), allowed);
     const auto ranked = selector.ranked(selector.nothing());
     best.push_back(ranked.empty() ? 0.0 : -ranked.front().score());
   }
@@ -45,7 +45,7 @@ double chanceLimit(const SystemInput& input, const GapFit& fit, const std::vecto
 }
 
 double sizeOfDrop(const GapFit& fit, double drop) {
-  return std::sqrt(std::max(0.0, drop) / fit.rules.loading_rows) * fit.data.state_noise;
+  return std::sqrt(std::max(0.0, drop) / fit.rules.loading_rows) * fit.data->state_noise;
 }
 
 namespace {
@@ -77,7 +77,7 @@ std::vector<DetectableSize> detectableSizes(const SystemInput& input, const GapF
     std::vector<double> sizes;
     for (std::size_t m = 0; m < input.models.size(); ++m) {
       if (input.models[m].effect != effect || !allowed[m]) continue;
-      Eigen::Index at = fit.data.layout.model_at[m] - fit.data.layout.effects;
+      Eigen::Index at = fit.data->layout.model_at[m] - fit.data->layout.effects;
       for (const effects::EffectPart& part : input.models[m].parts) {
         double kept = 0.0, seen = 0.0;  // by the fit's own noise, and against the measurement's
         for (std::size_t k = 0; k < part.most.size(); ++k, ++at) {

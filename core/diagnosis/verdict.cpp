@@ -46,7 +46,7 @@ class Decider {
       : from_(from),
         models_(from.input.models),
         selector_(selectorOf(from.input, from.fit, from.fit.projection,
-                             static_cast<double>(from.fit.data.postures.size()), from.allowed)) {}
+                             static_cast<double>(from.fit.data->postures.size()), from.allowed)) {}
 
   Decision run() {
     nameGeometry();
@@ -69,7 +69,7 @@ class Decider {
   }
 
   Eigen::VectorXd own(const Eigen::VectorXd& effects, std::size_t model) const {
-    return effects.segment(from_.fit.data.layout.model_at[model] - from_.fit.data.layout.effects,
+    return effects.segment(from_.fit.data->layout.model_at[model] - from_.fit.data->layout.effects,
                            static_cast<Eigen::Index>(models_[model].parameters()));
   }
 
@@ -169,7 +169,7 @@ class Decider {
     const ChosenModel& chosen = set().models[i];
     std::vector<effects::Effect> effects{models_[chosen.model].effect};
     Eigen::VectorXd field = Eigen::VectorXd::Zero(set().effects.size());
-    const Eigen::Index at = from_.fit.data.layout.model_at[chosen.model] - from_.fit.data.layout.effects;
+    const Eigen::Index at = from_.fit.data->layout.model_at[chosen.model] - from_.fit.data->layout.effects;
     field.segment(at, static_cast<Eigen::Index>(models_[chosen.model].parameters())) = own(set().effects, chosen.model);
     const Projection made = withField(from_.fit.projection, field);
     const double scale = selector_.misfit(set());
@@ -196,7 +196,7 @@ class Decider {
     const double left = std::sqrt(std::max(0.0, gap.after * gap.after - gap.noise * gap.noise));
     const double removed = std::sqrt(std::max(0.0, gap.before * gap.before - gap.after * gap.after));
     constexpr double kStates = 2.0, kShareOfRemoved = 0.1;
-    const double limit = std::max(kStates * from_.fit.data.state_noise, kShareOfRemoved * removed);
+    const double limit = std::max(kStates * from_.fit.data->state_noise, kShareOfRemoved * removed);
     if (left <= limit) return;
     unknown_positions_ = true;
     nameUnknownOnce();
@@ -267,10 +267,10 @@ class Decider {
 
   OwnField fieldOf(std::size_t named) const {
     const Eigen::VectorXd parameters = own(set().effects, modelOf(named));
-    const Eigen::Index at = from_.fit.data.layout.model_at[modelOf(named)];
+    const Eigen::Index at = from_.fit.data->layout.model_at[modelOf(named)];
     const double inflation = from_.fit.state.position_inflation;
     OwnField sum;
-    for (const GapPosture& posture : from_.fit.data.postures) {
+    for (const GapPosture& posture : from_.fit.data->postures) {
       const Eigen::VectorXd field = posture.columns.middleCols(at, parameters.size()) * parameters;
       for (Eigen::Index row = 0; row < field.size(); ++row) {
         const double square = field[row] * field[row], variance = posture.noiseSquares(row, 1);
@@ -315,7 +315,7 @@ class Decider {
 
   Eigen::Index deflectionRows() const {
     Eigen::Index rows = 0;
-    for (const GapPosture& posture : from_.fit.data.postures) rows += posture.right.size() - posture.position_rows;
+    for (const GapPosture& posture : from_.fit.data->postures) rows += posture.right.size() - posture.position_rows;
     return std::max<Eigen::Index>(1, rows);
   }
 
@@ -351,7 +351,7 @@ class Decider {
                          from_.fit.left_before.perEquation());
     if (decision_.verdict.entries.empty()) {
       reasons.emplace_back(RemarkId::no_effect_passes, rules.detect,
-                           std::sqrt(rules.least_drop / rules.loading_rows) * from_.fit.data.state_noise);
+                           std::sqrt(rules.least_drop / rules.loading_rows) * from_.fit.data->state_noise);
     }
     reasons.insert(reasons.end(), besides_.begin(), besides_.end());
     sayChiSquare();
@@ -366,7 +366,7 @@ class Decider {
       decision_.verdict.reasons.emplace_back(RemarkId::chi_square_significant, left, limit);
     if (unknown_positions_ || !from_.input.absolute) return;
     Eigen::Index rows = 0;
-    for (const GapPosture& posture : from_.fit.data.postures) rows += posture.position_rows;
+    for (const GapPosture& posture : from_.fit.data->postures) rows += posture.position_rows;
     const double inflation = from_.fit.state.position_inflation;
     const double by_chance =
         1.0 + (limit - 1.0) * std::sqrt(from_.fit.left.freedom / std::max(1.0, static_cast<double>(rows)));

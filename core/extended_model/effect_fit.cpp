@@ -107,7 +107,7 @@ std::vector<diagnosis::ChosenModel> withShapes(std::vector<diagnosis::ChosenMode
 /// An effect of which stiffnesses and geometry leave nothing in these postures has no size.
 void requireSeen(const diagnosis::GapFit& fit, const diagnosis::SystemInput& input) {
   for (const diagnosis::ChosenModel& one : fit.set.models) {
-    const Eigen::Index first = fit.data.layout.model_at[one.model] - fit.data.layout.effects;
+    const Eigen::Index first = fit.data->layout.model_at[one.model] - fit.data->layout.effects;
     bool seen = false;
     for (Eigen::Index i = first; i < first + static_cast<Eigen::Index>(input.models[one.model].parameters()); ++i)
       seen = seen || fit.projection.matrix(i, i) > fit.rules.kept_share * fit.projection.before[i];
@@ -120,7 +120,7 @@ class Chooser {
   Chooser(const diagnosis::SystemInput& input, const diagnosis::GapFit& fit, const std::vector<bool>& allowed)
       : models_(input.models),
         fit_(fit),
-        selector_(diagnosis::selectorOf(input, fit, fit.projection, static_cast<double>(fit.data.postures.size()),
+        selector_(diagnosis::selectorOf(input, fit, fit.projection, static_cast<double>(fit.data->postures.size()),
                                         allowed)) {}
 
   /// What was asked for by its parts, what the free selection took of the rest, and then, put in beside these, what
@@ -204,9 +204,9 @@ constexpr double kModelShare = 0.01;
 
 /// Of the joint fit with all nuisances, and of the equations themselves.
 Eigen::MatrixXd covarianceOfFree(const EffectFit& effects) {
-  const diagnosis::GapLayout& layout = effects.fit.data.layout;
-  const std::vector<double> ones(effects.fit.data.postures.size(), 1.0);
-  const diagnosis::Projection projection = diagnosis::project(diagnosis::sumOf(effects.fit.data, ones), layout);
+  const diagnosis::GapLayout& layout = effects.fit.data->layout;
+  const std::vector<double> ones(effects.fit.data->postures.size(), 1.0);
+  const diagnosis::Projection projection = diagnosis::project(diagnosis::sumOf(*effects.fit.data, ones), layout);
   Eigen::MatrixXd matrix = projection.matrix(effects.free, effects.free);
   const Eigen::VectorXd scale =
       matrix.diagonal().unaryExpr([](double d) { return d > 0.0 ? 1.0 / std::sqrt(d) : 0.0; });
@@ -233,7 +233,7 @@ void describe(EffectFit& effects, const std::vector<bool>& allowed) {
   const diagnosis::GapFit& fit = effects.fit;
   const diagnosis::SystemInput& input = *effects.input;
   const diagnosis::Selector selector =
-      diagnosis::selectorOf(input, fit, fit.projection, static_cast<double>(fit.data.postures.size()), allowed);
+      diagnosis::selectorOf(input, fit, fit.projection, static_cast<double>(fit.data->postures.size()), allowed);
   for (std::size_t i = 0; i < fit.set.models.size(); ++i) {
     const diagnosis::ChosenModel& chosen = fit.set.models[i];
     const effects::EffectModel& model = input.models[chosen.model];
@@ -241,7 +241,7 @@ void describe(EffectFit& effects, const std::vector<bool>& allowed) {
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
     AddedEffect one{model.effect, {}, model.shape, selector.fit(others).score() - fit.set.score(), true, {}};
     std::vector<std::string> details;
-    Eigen::Index at = fit.data.layout.model_at[chosen.model] - fit.data.layout.effects;
+    Eigen::Index at = fit.data->layout.model_at[chosen.model] - fit.data->layout.effects;
     for (std::size_t p = 0; p < model.parts.size(); ++p) {
       const effects::EffectPart& part = model.parts[p];
       const bool there = std::find(chosen.parts.begin(), chosen.parts.end(), p) != chosen.parts.end();
@@ -309,15 +309,16 @@ EffectFit fitToAll(const preparation::PreparedCampaign& prepared, const Requeste
   rules.fixed = withShapes(std::move(*rules.fixed), input->models);
   effects.fit = diagnosis::fitGap(*input, start->state, allowed, rules);
   requireSeen(effects.fit, *input);
-  for (std::size_t i = 0; i < effects.fit.data.postures.size(); ++i)
-    effects.day[effects.fit.data.postures[i].pose] = {effects::CompactPosture(effects.fit.data.postures[i].states), i};
+  for (std::size_t i = 0; i < effects.fit.data->postures.size(); ++i)
+    effects.day[effects.fit.data->postures[i].pose] = {effects::CompactPosture(effects.fit.data->postures[i].states),
+                                                       i};
   effects.start = std::move(start);
   effects.input = std::move(input);
   effects.free = freeParameters(effects);
   effects.covariance = covarianceOfFree(effects);
   const diagnosis::GapFit alone = diagnosis::withoutEffects(*effects.input, effects.start->state, effects.fit);
   const diagnosis::StiffnessesAlone before =
-      diagnosis::stiffnessesAlone(alone.data, std::vector<double>(alone.data.postures.size(), 1.0), alone.projection);
+      diagnosis::stiffnessesAlone(*alone.data, std::vector<double>(alone.data->postures.size(), 1.0), alone.projection);
   effects.gap = diagnosis::deflectionGap(alone, before, effects.fit,
                                          diagnosis::allParameters(effects.fit.nuisances, effects.fit.set.effects));
   describe(effects, allowed);
@@ -337,7 +338,7 @@ EffectFit fitToAll(const preparation::PreparedCampaign& prepared, const Requeste
 }  // namespace
 
 EffectFit overWholeDay(EffectFit spread, const preparation::PreparedCampaign& whole) {
-  if (spread.fit.data.postures.empty()) return spread;
+  if (spread.fit.data->postures.empty()) return spread;
   diagnosis::SystemState& state = spread.fit.state;
   // Reflectors that took no part are where the day without effects has them.
   auto& places = state.geometry.targets_at_zero;
@@ -374,7 +375,7 @@ EffectFit fitEffects(const preparation::PreparedCampaign& prepared, const Reques
 }
 
 std::vector<effects::PresentEffect> machineEffects(const EffectFit& effects, const Eigen::VectorXd& parameters) {
-  const diagnosis::GapLayout& layout = effects.fit.data.layout;
+  const diagnosis::GapLayout& layout = effects.fit.data->layout;
   std::vector<effects::PresentEffect> machine;
   for (const diagnosis::ChosenModel& one : effects.fit.set.models) {
     const effects::EffectModel& model = effects.input->models[one.model];
@@ -388,7 +389,7 @@ std::vector<effects::PresentEffect> machineEffects(const EffectFit& effects, con
 
 Eigen::VectorXd parametersFrom(const EffectFit& effects, const std::vector<double>& weights) {
   const diagnosis::GapFit& fit = effects.fit;
-  const diagnosis::Projection projection = diagnosis::project(diagnosis::sumOf(fit.data, weights), fit.data.layout);
+  const diagnosis::Projection projection = diagnosis::project(diagnosis::sumOf(*fit.data, weights), fit.data->layout);
   double postures = 0.0;
   for (const double weight : weights) postures += weight;
   const std::vector<bool> allowed(effects.input->models.size(), true);

@@ -95,7 +95,7 @@ Eigen::MatrixXd displacementByEffects(const diagnosis::SystemInput& input, const
   effects::PostureStates states = posture;
   for (effects::ArmState& one : states) one.targets = targets, one.points = places;
   const auto rows = static_cast<Eigen::Index>(3 * targets.size());
-  const diagnosis::GapLayout& layout = fit.data.layout;
+  const diagnosis::GapLayout& layout = fit.data->layout;
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(rows, layout.end - layout.effects);
   for (const std::size_t m : columns.models) {
     const effects::EffectModel& model = input.models[m];
@@ -109,9 +109,9 @@ Eigen::MatrixXd displacementBySteps(const EffectFit& effects, const Eigen::Matri
                                     const effects::FlangeLoad& load,
                                     const std::vector<Eigen::Vector3d>& targets_in_flange) {
   const diagnosis::SystemState& state = effects.fit.state;
-  const effects::ArmState& seen = effects.fit.data.postures.front().states.back();
+  const effects::ArmState& seen = effects.fit.data->postures.front().states.back();
   effects::ArmState rest = effects::gravityEquilibrium(state.geometry, state.at, q);
-  rest.pose = effects.fit.data.postures.front().pose;
+  rest.pose = effects.fit.data->postures.front().pose;
   std::vector<int> targets;
   std::vector<Eigen::Vector3d> places;
   for (const Eigen::Vector3d& target : targets_in_flange) {

@@ -119,23 +119,37 @@ class EffectRefits {
   explicit EffectRefits(const ExtendedModel& model)
       : effects_(model.effects), from_parameters_(pseudoInverse(model.spread.parameters)) {}
 
-  /// `weights` of the postures of `equations`; others do not take part.
-  const Eigen::VectorXd& steps(const std::vector<ExtendedEquations>& equations, const Weights& weights) {
-    Weights own(effects_.fit.data.postures.size(), 0.0);
-    for (std::size_t p = 0; p < weights.size(); ++p) {
-      const std::optional<std::size_t>& in_fit = effects_.day.at(equations[p].springs.posture).in_fit;
-      if (in_fit) own[*in_fit] = weights[p];
+  /// Of each sample, which has weights of the postures of `equations`; others do not take part.
+  std::vector<Eigen::VectorXd> steps(const std::vector<ExtendedEquations>& equations,
+                                     const std::vector<Weights>& samples) {
+    std::vector<std::pair<std::size_t, std::size_t>> in_fit;  // place in `equations` and in the fit
+    for (std::size_t p = 0; p < equations.size(); ++p) {
+      const std::optional<std::size_t>& fitted = effects_.day.at(equations[p].springs.posture).in_fit;
+      if (fitted) in_fit.emplace_back(p, *fitted);
     }
-    const auto found = known_.find(own);
-    if (found != known_.end()) return found->second;
-    const Eigen::VectorXd change = parametersFrom(effects_, own) - effects_.parameters();
-    return known_.emplace(std::move(own), from_parameters_ * change(effects_.free)).first->second;
+    std::vector<Known::iterator> all, fresh;
+    for (const Weights& weights : samples) {
+      Weights own(effects_.fit.data->postures.size(), 0.0);
+      for (const auto& [from, to] : in_fit) own[to] = weights[from];
+      const auto [known, is_fresh] = known_.try_emplace(std::move(own));
+      all.push_back(known);
+      if (is_fresh) fresh.push_back(known);
+    }
+    numerics::onAllCores(fresh.size(), [&](std::size_t i) {
+      const Eigen::VectorXd change = parametersFrom(effects_, fresh[i]->first) - effects_.parameters();
+      fresh[i]->second = from_parameters_ * change(effects_.free);
+    });
+    std::vector<Eigen::VectorXd> steps;
+    for (const Known::iterator& one : all) steps.push_back(one->second);
+    return steps;
   }
 
  private:
+  using Known = std::map<Weights, Eigen::VectorXd>;  // by weights of the fit's postures
+
   const EffectFit& effects_;
   Eigen::MatrixXd from_parameters_;
-  std::map<Weights, Eigen::VectorXd> known_;
+  Known known_;
 };
 
 /// Displacement of the machine itself: with faults of the measurement corrected, with what its effects add.
@@ -211,11 +225,16 @@ class MethodJudge {
     return subsets;
   }
 
-  /// Effects and springs anew on these postures: the steps of the effects, and the compliances.
-  std::pair<Eigen::VectorXd, JointVector> anew(const Weights& weights) const {
-    Eigen::VectorXd steps = refits_.steps(equations_.reflectors, weights);
-    const JointVector compliance = solvedCompliance(equations_, which_, own_.estimate.identifiable, weights, steps);
-    return {std::move(steps), compliance};
+  /// Effects and springs anew on each of some samples of the postures.
+  std::vector<Refit> anew(std::vector<Weights> samples) const {
+    std::vector<Eigen::VectorXd> steps = refits_.steps(equations_.reflectors, samples);
+    std::vector<Refit> refits(samples.size());
+    numerics::onAllCores(samples.size(), [&](std::size_t i) {
+      const JointVector compliance =
+          solvedCompliance(equations_, which_, own_.estimate.identifiable, samples[i], steps[i]);
+      refits[i] = {std::move(samples[i]), std::move(steps[i]), compliance};
+    });
+    return refits;
   }
 
   identification::SubsetStudy study(bool wrist, PointJudge& at_wrist, PointJudge& at_targets) const {
@@ -228,12 +247,11 @@ class MethodJudge {
     const std::uint64_t affordable = std::clamp(kWork / static_cast<std::uint64_t>(study.of), kFewest, kMost);
     const std::uint64_t most = std::min({affordable, asked.sample, std::max<std::uint64_t>(asked.most_all, 1)});
     study.every_subset = numerics::subsetCount(study.of, study.size) <= most;
-    std::vector<Refit> refits;
-    numerics::forEachSubset(study.of, study.size, most, asked.seed, [&](const Weights& used) {
-      auto [steps, compliance] = anew(used);
-      study.compliances.push_back(compliance);
-      refits.push_back({used, std::move(steps), compliance});
-    });
+    std::vector<Weights> samples;
+    numerics::forEachSubset(study.of, study.size, most, asked.seed,
+                            [&](const Weights& used) { samples.push_back(used); });
+    const std::vector<Refit> refits = anew(std::move(samples));
+    for (const Refit& refit : refits) study.compliances.push_back(refit.compliance);
     if (wrist) at_wrist.add(refits);
     at_targets.add(refits);
     const auto subsets = static_cast<double>(study.compliances.size());
@@ -246,9 +264,9 @@ class MethodJudge {
     identification::PostureBootstrap result;
     std::mt19937_64 random(options_.bootstrap.seed);
     const std::size_t n = equations_.reflectors.size();
-    for (int draw = 0; draw < options_.bootstrap.draws; ++draw) {
-      result.compliances.push_back(anew(numerics::drawWeights(random, n)).second);
-    }
+    std::vector<Weights> samples;
+    for (int draw = 0; draw < options_.bootstrap.draws; ++draw) samples.push_back(numerics::drawWeights(random, n));
+    for (const Refit& refit : anew(std::move(samples))) result.compliances.push_back(refit.compliance);
     return result;
   }
 

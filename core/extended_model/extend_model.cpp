@@ -15,6 +15,7 @@
 #include "core/identification/remarks.h"
 #include "core/identification/shown_first.h"
 #include "core/identification/warnings.h"
+#include "metrology/linear_algebra.h"
 
 namespace stiffscope::extended_model {
 
@@ -110,7 +111,7 @@ void describeAsDiagnosed(diagnosis::GapStudy& study, EffectFit& chosen) {
   const diagnosis::GapFit& alone =
       study.alone.emplace(diagnosis::withoutEffects(*study.input, study.start->state, fit));
   const diagnosis::StiffnessesAlone before =
-      diagnosis::stiffnessesAlone(alone.data, std::vector<double>(alone.data.postures.size(), 1.0), alone.projection);
+      diagnosis::stiffnessesAlone(*alone.data, std::vector<double>(alone.data->postures.size(), 1.0), alone.projection);
   chosen.gap = diagnosis::deflectionGap(alone, before, fit, diagnosis::allParameters(fit.nuisances, fit.set.effects));
   const diagnosis::DiagnoseOptions as_there;
   const diagnosis::HeldOutShrink held_out = diagnosis::heldOutShrinks(*study.input, alone, fit, study.allowed,
@@ -158,7 +159,7 @@ bool contradicted(const identification::Identification& springs) {
 }  // namespace
 
 ExtendedModel supportedModel(const preparation::PreparedCampaign& prepared, const campaign::Campaign& campaign,
-                             const identification::IdentifyOptions& options) {
+                             const identification::IdentifyOptions& options, Followed followed) {
   const bool thinned = diagnosis::isLong(prepared.campaign);
   std::optional<preparation::PreparedCampaign> spread;
   if (thinned) spread = diagnosis::spreadForDiagnosis(prepared);
@@ -171,6 +172,7 @@ ExtendedModel supportedModel(const preparation::PreparedCampaign& prepared, cons
   }
   EffectFit chosen = chosenEffects(spread ? *spread : prepared, study);
   describeAsDiagnosed(study, chosen);
+  if (followed == Followed::by_nothing) study.keepStates();
   // Chosen anew on the other postures, what they choose makes those left out worse: it is not this machine's.
   if (!chosen.free.empty() && !(chosen.shrink.value > 0.0)) {
     chosen = {};

@@ -16,15 +16,18 @@ namespace stiffscope::extended_model {
 ExtendedModel extendModel(const campaign::Campaign& campaign, EffectFit effects,
                           const identification::IdentifyOptions& options);
 
+/// Whether a diagnosis of the same day will be made of the model's study.
+enum class Followed { by_nothing, by_diagnosis };
+
 /// The model that the data support: the effects that the joint fit of a diagnosis chooses, joint springs alone where it
 /// chooses none, and in the intervals what could still hide (hidden_effects.h). On a long day the effects are chosen,
 /// and what could hide is weighed, on the postures that the diagnosis looks at; values are of all.
 ///
 /// `prepared`: screened and corrected for drift. `campaign`: what is identified from, `prepared.campaign` or the same
 /// day as it was read. Where there is no gap to look at, springs alone, with `hidden` empty and the reason in the
-/// notes.
+/// notes. Where no diagnosis follows the study has no equations (GapStudy::keepStates).
 ExtendedModel supportedModel(const preparation::PreparedCampaign& prepared, const campaign::Campaign& campaign,
-                             const identification::IdentifyOptions& options);
+                             const identification::IdentifyOptions& options, Followed followed = Followed::by_nothing);
 
 /// Puts the stiffnesses of the model's best method into a diagnosis of the same day: by springs alone, with the
 /// effects, and the interval, so that the same question has one answer. Nothing where no method is available.

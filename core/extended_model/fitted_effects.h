@@ -76,7 +76,7 @@ struct EffectFit {
   const Eigen::VectorXd& parameters() const { return fit.set.effects; }
   /// First of an effect's parameters among all, and its own.
   Eigen::Index firstOf(const diagnosis::ChosenModel& one) const {
-    return fit.data.layout.model_at[one.model] - fit.data.layout.effects;
+    return fit.data->layout.model_at[one.model] - fit.data->layout.effects;
   }
   Eigen::VectorXd parametersOf(const diagnosis::ChosenModel& one) const {
     return parameters().segment(firstOf(one), static_cast<Eigen::Index>(input->models[one.model].parameters()));

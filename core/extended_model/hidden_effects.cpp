@@ -36,7 +36,7 @@ void forEachReading(const campaign::Campaign& campaign, const Visit& visit) {
 Eigen::MatrixXd columnsAtSweeps(const diagnosis::GapStudy& study, const EffectColumns& columns,
                                 const campaign::Campaign& campaign) {
   const diagnosis::SystemState& state = study.fit.state;
-  const diagnosis::GapLayout& layout = study.fit.data.layout;
+  const diagnosis::GapLayout& layout = study.fit.data->layout;
   const Eigen::Matrix3d sweeps_from_r0 = state.r0_from_sweeps.linear().transpose();
   std::vector<Eigen::MatrixXd> rows;
   effects::ArmState rest;
@@ -138,7 +138,7 @@ double declaredSd(effects::Effect effect, const Declared& declared) {
 }
 
 HiddenDraws hiddenDraws(const diagnosis::GapStudy& study, const EffectFit& fitted, const Declared& declared) {
-  const diagnosis::GapLayout& layout = study.fit.data.layout;
+  const diagnosis::GapLayout& layout = study.fit.data->layout;
   const diagnosis::Projection& projection = study.fit.projection;
   HiddenDraws hidden;
   EffectEvidence evidence;

@@ -111,7 +111,7 @@ std::vector<ExtendedEquations> equationsOf(const std::vector<identification::Cas
 
 std::map<int, const diagnosis::GapPosture*> fittedPostures(const diagnosis::GapFit& fit) {
   std::map<int, const diagnosis::GapPosture*> postures;
-  for (const diagnosis::GapPosture& one : fit.data.postures) postures[one.pose] = &one;
+  for (const diagnosis::GapPosture& one : fit.data->postures) postures[one.pose] = &one;
   return postures;
 }
 

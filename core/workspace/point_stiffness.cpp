@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/numerics/resampling.h"
 #include "core/robot/cartesian_stiffness.h"
 #include "core/robot/kinematics.h"
 #include "metrology/linear_algebra.h"
@@ -99,12 +98,16 @@ double varianceOfFit(const DeflectingArm& arm, const JointVector& q, const Point
 
 /// What 68.27 % of the errors do not exceed, the standard uncertainty of normal ones: of a few draws of a large effect
 /// their root mean square would speak, which is no scale of the others.
-double middleError(const std::vector<double>& errors) {
+double middleError(const Eigen::VectorXd& errors) {
   constexpr double kOneSigma = 0.6827;
-  std::vector<double> sizes(errors.size());
-  std::transform(errors.begin(), errors.end(), sizes.begin(), [](double error) { return std::abs(error); });
-  std::sort(sizes.begin(), sizes.end());
-  return numerics::quantile(sizes, kOneSigma);
+  std::vector<double> sizes(errors.begin(), errors.end());
+  for (double& size : sizes) size = std::abs(size);
+  // Linear between neighbours; only these two are wanted in their order.
+  const double place = kOneSigma * static_cast<double>(sizes.size() - 1);
+  const auto below = sizes.begin() + static_cast<std::ptrdiff_t>(place);
+  std::nth_element(sizes.begin(), below, sizes.end());
+  const double above = below + 1 == sizes.end() ? *below : *std::min_element(below + 1, sizes.end());
+  return *below + (place - std::floor(place)) * (above - *below);
 }
 
 /// `by`: of the effects' parameters along the direction; no columns: joint springs alone. `more`: variance that the
@@ -114,13 +117,9 @@ DirectionalCompliance withInterval(const DeflectingArm& arm, const PointJacobian
                                    double more = 0.0) {
   const compensation::DeflectionDraws& draws = arm.certainty->draws;
   const JointVector moves = jacobian.transpose() * direction;
-  std::vector<double> errors(static_cast<std::size_t>(draws.size()));
-  Eigen::Map<Eigen::RowVectorXd> row(errors.data(), draws.size());
-  row = moves.cwiseAbs2().transpose() * draws.compliance;
-  if (by.cols() > 0) row += by * draws.parameters;
-  for (std::size_t d = 0; d < draws.springs_alone.size(); ++d) {
-    if (draws.springs_alone[d]) errors[d] -= compliance;
-  }
+  Eigen::VectorXd errors = draws.compliance.transpose() * moves.cwiseAbs2();
+  if (by.cols() > 0) draws.addByParameters(by, errors);
+  errors.tail(draws.springs_alone).array() -= compliance;
   identification::CoverageInterval off = compensation::intervalOf(errors);
   if (by.cols() > 0 && std::isfinite(off.low)) {
     const double half = identification::kNormalFactor * std::sqrt(std::pow(middleError(errors), 2) + more);

@@ -36,7 +36,8 @@ struct Hand {
                      std::optional<double> magnification = std::nullopt) {
     std::vector<app::ViewMaterial> by_method;
     for (const auto& method : methods) {
-      by_method.push_back(app::loadMaterial(small.campaign, small.identification, method));
+      const auto asked = method ? std::vector{*method} : std::vector<identification::Method>{};
+      by_method.push_back(app::loadMaterials(small.campaign, small.identification, asked).front());
     }
     app::ViewWindow window;
     window.look = [this](render::View view) { looked.push_back(view); };
@@ -139,13 +140,27 @@ TEST(Viewer, WithoutAModelTheMeasuredVectorsStay) {
   EXPECT_NE(viewer.status().find("nothing is predicted: the load turns no joint"), std::string::npos);
 }
 
+struct IdentifiedDay {
+  campaign::Campaign campaign;
+  identification::Identification identified;
+};
+
+/// samples/active, identified once for all tests here, without its subsets.
+const IdentifiedDay& identifiedSample() {
+  static const IdentifiedDay day = [] {
+    IdentifiedDay made{campaign::readCampaign(STIFFSCOPE_SOURCE_DIR "/samples/active").campaign, {}};
+    identification::IdentifyOptions options;
+    options.subsets.most_all = 0;
+    options.subsets.sample = 1;
+    made.identified = identification::identify(made.campaign, options);
+    return made;
+  }();
+  return day;
+}
+
 // Under the step it was identified from, another step's way of working must give the same.
 TEST(LoadStep, TheIdentifiedStepComesOutAgain) {
-  const campaign::Campaign campaign = campaign::readCampaign(STIFFSCOPE_SOURCE_DIR "/samples/active").campaign;
-  identification::IdentifyOptions options;
-  options.subsets.most_all = 0;
-  options.subsets.sample = 1;
-  const identification::Identification identified = identification::identify(campaign, options);
+  const auto& [campaign, identified] = identifiedSample();
   const identification::Identification again = app::underLoadStep(campaign, identified, identified.step);
   ASSERT_EQ(again.cases.size(), identified.cases.size());
   for (const identification::Method method : identification::kMethods) {
@@ -163,11 +178,7 @@ TEST(LoadStep, TheIdentifiedStepComesOutAgain) {
 // The springs are linear: under another step the prediction goes with the force, but for K_c (below a
 // hundredth).
 TEST(LoadStep, PredictionGoesWithTheLoad) {
-  const campaign::Campaign campaign = campaign::readCampaign(STIFFSCOPE_SOURCE_DIR "/samples/active").campaign;
-  identification::IdentifyOptions options;
-  options.subsets.most_all = 0;
-  options.subsets.sample = 1;
-  const identification::Identification identified = identification::identify(campaign, options);
+  const auto& [campaign, identified] = identifiedSample();
   const identification::Identification lighter = app::underLoadStep(campaign, identified, 1);
   ASSERT_EQ(lighter.cases.size(), identified.cases.size());
   const identification::MethodResult& method = identified.of(identification::Method::decoupled_partial_pose);
@@ -179,6 +190,32 @@ TEST(LoadStep, PredictionGoesWithTheLoad) {
     const Eigen::VectorXd less =
         lighter.of(identification::Method::decoupled_partial_pose).target_rows[i].matrix * method.estimate.compliance;
     EXPECT_LT((less - share * full).norm(), 0.02 * full.norm()) << i;
+  }
+}
+
+// What a page of a long day shows is the same as of all, and nothing else is made.
+TEST(LoadMaterials, OfSomePosturesAreThoseOfAll) {
+  const auto& [campaign, identified] = identifiedSample();
+  const std::vector<identification::Method> methods{identification::Method::partial_pose,
+                                                    identification::Method::decoupled_partial_pose};
+  const auto all = app::loadMaterials(campaign, identified, methods);
+  const auto some = app::loadMaterials(campaign, identified, methods, [](int posture) { return posture % 5 == 2; });
+  ASSERT_EQ(all.size(), 2u);
+  ASSERT_EQ(some.size(), 2u);
+  for (std::size_t m = 0; m < methods.size(); ++m) {
+    EXPECT_EQ(some[m].method, all[m].method);
+    std::size_t next = 0;
+    for (const app::ViewFrame& frame : all[m].frames) {
+      if (frame.posture % 5 != 2) continue;
+      ASSERT_LT(next, some[m].frames.size());
+      const app::ViewFrame& same = some[m].frames[next++];
+      EXPECT_EQ(same.name, frame.name);
+      const auto &here = same.scene.poses.front().targets, &there = frame.scene.poses.front().targets;
+      ASSERT_EQ(here.size(), there.size());
+      for (std::size_t t = 0; t < here.size(); ++t) EXPECT_EQ(*here[t].predicted, *there[t].predicted);
+    }
+    EXPECT_EQ(next, some[m].frames.size());
+    EXPECT_LT(next, all[m].frames.size());
   }
 }
 

@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
+
 #include "core/compensation/compensate.h"
 #include "core/identification/identify.h"
 #include "core/simulation/measure.h"
@@ -15,7 +17,7 @@ namespace certainty_test {
 
 TEST(PredictionSpread, OfNormalErrorsIsTheirs) {
   Noise noise(3);
-  Eigen::Matrix3Xd errors(3, 20000);
+  Eigen::MatrixX3d errors(20000, 3);
   for (double& one : errors.reshaped()) one = 2.0 * noise.normal();
   const compensation::PredictionSpread spread = compensation::spreadOf(errors);
   // A 2.5 % quantile of 20000 numbers is known to 0.019 standard deviations; four of these.
@@ -25,8 +27,45 @@ TEST(PredictionSpread, OfNormalErrorsIsTheirs) {
     EXPECT_NEAR(spread.sd[static_cast<Eigen::Index>(k)], 2.0, 0.04);
   }
   EXPECT_NEAR(spread.expanded, 2.0 * 2.7955, 2.0 * 0.06);  // of chi with three degrees of freedom
-  errors(1, 7) = std::nan("");
+  errors(7, 1) = std::nan("");
   EXPECT_TRUE(std::isnan(compensation::spreadOf(errors).expanded));
+}
+
+// By sorting all of them. Most of the last ones are nothing, and a few so large that no other is beyond their root mean
+// square; of the shifted ones all are on one side of zero.
+TEST(PredictionSpread, IntervalsAreByRankHoweverErrorsAreSpread) {
+  Noise noise(9);
+  const auto expectRanked = [](const Eigen::VectorXd& errors) {
+    Eigen::VectorXd sorted = errors;
+    std::sort(sorted.begin(), sorted.end());
+    const auto rankOf = [&](double share) {
+      return static_cast<Eigen::Index>(share * static_cast<double>(errors.size() - 1) + 0.5);
+    };
+    const identification::CoverageInterval interval = compensation::intervalOf(errors);
+    EXPECT_EQ(interval.low, std::min(0.0, sorted[rankOf(0.025)]));
+    EXPECT_EQ(interval.high, std::max(0.0, sorted[rankOf(0.975)]));
+  };
+  Eigen::VectorXd errors(3000);
+  for (double& one : errors) one = noise.normal();
+  expectRanked(errors);
+  expectRanked(errors.array() + 5.0);
+  errors.head(30).array() *= 1e6;
+  expectRanked(errors);
+  expectRanked(Eigen::VectorXd::Constant(7, -2.0));
+}
+
+// Five draws of two parameters' numbers, the last one of springs alone.
+TEST(DeflectionDraws, TakeTheirParametersInTurn) {
+  compensation::DeflectionDraws draws;
+  draws.compliance.setZero(6, 5);
+  draws.parameters.resize(1, 2);
+  draws.parameters << 10.0, 20.0;
+  draws.springs_alone = 1;
+  Eigen::MatrixXd errors = Eigen::MatrixXd::Constant(5, 2, 1.0);
+  draws.addByParameters(Eigen::Vector2d(1.0, -3.0), errors);
+  Eigen::MatrixXd expected(5, 2);
+  expected << 11, -29, 21, -59, 11, -29, 21, -59, 1, 1;
+  EXPECT_EQ(errors, expected);
 }
 
 /// A known arm, what its day is said to have had, and one posture.

@@ -34,7 +34,7 @@ TEST(JointFit, ComesBackFromAfarToWhereRelinearisingSettled) {
   Eigen::VectorXd nuisances = fit.nuisances;
   nuisances.head<6>() *= 1.2;
   diagnosis::GeometryColumns by_geometry;
-  const auto found = diagnosis::fitJointly(*effects.input, fit.state, fit.data.layout, set, nuisances, by_geometry);
+  const auto found = diagnosis::fitJointly(*effects.input, fit.state, fit.data->layout, set, nuisances, by_geometry);
   ASSERT_TRUE(found);
   ASSERT_GT(furthest(effects, set.effects(effects.free), settled), 10.0) << "not far";
   EXPECT_LT(furthest(effects, found->state.corrections.load_point, settled), 0.1);
@@ -46,7 +46,7 @@ TEST(JointFit, SetsWithoutABilinearEffectAreLeftAlone) {
   const extended_model::EffectFit effects = fitOf(spec, "bearing_tilt:3");
   const diagnosis::GapFit& fit = effects.fit;
   diagnosis::GeometryColumns by_geometry;
-  EXPECT_FALSE(diagnosis::fitJointly(*effects.input, fit.state, fit.data.layout, fit.set, fit.nuisances, by_geometry));
+  EXPECT_FALSE(diagnosis::fitJointly(*effects.input, fit.state, fit.data->layout, fit.set, fit.nuisances, by_geometry));
 }
 
 }  // namespace joint_fit_test

@@ -76,7 +76,7 @@ TEST(LinearSystem, SumsOfSeveralWeightsAreThoseOfEach) {
   const campaign::Campaign campaign = simulation::simulate(springsAlone(8));
   const extended_model::EffectFit effects =
       extended_model::fitEffects(campaign, extended_model::requestedEffects({"bearing_tilt:3"}, campaign));
-  const diagnosis::LinearSystem& data = effects.fit.data;
+  const diagnosis::LinearSystem& data = *effects.fit.data;
   const std::size_t postures = data.postures.size();
   ASSERT_GE(postures, 8u);
   std::vector<std::vector<double>> weights;
@@ -136,9 +136,10 @@ TEST(WhereDeflection, OfNoiseAloneIsAsOftenAboveAsANormalNumber) {
       extended_model::fitEffects(campaign, extended_model::requestedEffects({"bearing_tilt:3"}, campaign));
   const diagnosis::SystemInput& input = *effects.input;
   diagnosis::GapFit fit = effects.fit;
-  fit.data = diagnosis::linearSystem(input, fit.state, {});
+  const auto data = std::make_shared<diagnosis::LinearSystem>(diagnosis::linearSystem(input, fit.state, {}));
+  fit.data = data;
   std::vector<Eigen::MatrixXd> roots;
-  for (const diagnosis::GapPosture& posture : fit.data.postures) {
+  for (const diagnosis::GapPosture& posture : fit.data->postures) {
     ASSERT_GE(posture.states.size(), 3u);
     const Eigen::Index size = posture.right.size() - posture.position_rows, each = posture.noise.cols();
     Eigen::MatrixXd covariance(size, size);
@@ -153,12 +154,12 @@ TEST(WhereDeflection, OfNoiseAloneIsAsOftenAboveAsANormalNumber) {
   std::normal_distribution<double> standard;
   std::map<std::string, std::vector<double>> deviates;
   constexpr int kDraws = 400;
-  const Eigen::VectorXd none = Eigen::VectorXd::Zero(fit.data.layout.end);
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(fit.data->layout.end);
   for (int draw = 0; draw < kDraws; ++draw) {
     for (std::size_t p = 0; p < roots.size(); ++p) {
       Eigen::VectorXd normal(roots[p].rows());
       for (double& x : normal) x = standard(random);
-      fit.data.postures[p].right.tail(normal.size()) = roots[p] * normal;
+      data->postures[p].right.tail(normal.size()) = roots[p] * normal;
     }
     for (const diagnosis::WhereTable& table : diagnosis::whereDeflection(input, fit, none)) {
       for (const diagnosis::WhereRow& row : table.rows) {

@@ -37,11 +37,11 @@ TEST(LoadingResidual, OfNoiseIsOneADegreeOfFreedom) {
 TEST(LoadingResidual, TheSweepsPayForTheGeometry) {
   const diagnosis::GapStudy with = studyOf(41), fewer = studyOf(41, false);
   const auto taken = [](const diagnosis::GapFit& fit) {
-    return static_cast<double>(fit.data.loading_rows) - fit.left_before.freedom;
+    return static_cast<double>(fit.data->loading_rows) - fit.left_before.freedom;
   };
   EXPECT_GT(taken(with.fit), 6.0);
   EXPECT_LT(taken(with.fit), taken(fewer.fit));
-  EXPECT_LT(taken(fewer.fit), static_cast<double>(fewer.fit.data.layout.effects));
+  EXPECT_LT(taken(fewer.fit), static_cast<double>(fewer.fit.data->layout.effects));
 }
 
 TEST(LoadingResidual, IsWhatADiagnosisPrints) {

@@ -16,7 +16,7 @@ constexpr double kRows = 540.0;
 /// A fit of nothing to `postures` postures, the column of the effect of this square before and after the projection.
 struct OneColumn {
   campaign::Campaign campaign;
-  diagnosis::SystemInput input{.campaign = campaign, .noise = {}, .models = {}};
+  diagnosis::SystemInput input{.campaign = campaign, .noise = {}, .models = {}, .expected = {}};
   diagnosis::GapFit fit;
   std::vector<bool> allowed{true};
 
@@ -25,9 +25,11 @@ struct OneColumn {
     model.effect = effects::Effect::bearing_tilt;
     model.parts.push_back({"joint 2", {1e6}, false, "1"});
     input.models.push_back(model);
-    fit.data.layout.effects = 6, fit.data.layout.end = 7, fit.data.layout.model_at = {6};
-    fit.data.postures.resize(postures);
-    fit.data.state_noise = kNoise;
+    diagnosis::LinearSystem data;
+    data.layout.effects = 6, data.layout.end = 7, data.layout.model_at = {6};
+    data.postures.resize(postures);
+    data.state_noise = kNoise;
+    fit.data = std::make_shared<const diagnosis::LinearSystem>(std::move(data));
     fit.rules.loading_rows = kRows;
     fit.projection.matrix = Eigen::MatrixXd::Constant(1, 1, kept * before);
     fit.projection.before = Eigen::VectorXd::Constant(1, before);

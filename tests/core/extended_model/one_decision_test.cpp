@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "core/diagnosis/diagnose.h"
 #include "core/extended_model/extend_model.h"
@@ -29,8 +30,8 @@ Said saidBy(const diagnosis::Diagnosis& diagnosis) {
 
 void expectOneWord(const simulation::SimulationSpec& spec, bool unknown) {
   const preparation::PreparedCampaign prepared = preparation::prepareCampaign(simulation::simulate(spec));
-  const extended_model::ExtendedModel model =
-      extended_model::supportedModel(prepared, prepared.campaign, fewSubsets(2));
+  const extended_model::ExtendedModel model = extended_model::supportedModel(prepared, prepared.campaign, fewSubsets(2),
+                                                                             extended_model::Followed::by_diagnosis);
   diagnosis::DiagnoseOptions quick;
   quick.resamples = quick.chance_draws = 0;
   const Said said = saidBy(diagnosis::diagnose(prepared, *model.study, quick));
@@ -49,6 +50,23 @@ TEST(OneDecision, WhatNoEffectExplainsBothSay) {
   simulation::SimulationSpec spec = springsAlone(11);
   spec.machine.joints[2].rate_wave = simulation::JointWave{0.35, 3.0, 0.4};
   expectOneWord(spec, true);
+}
+
+// What is stated of stiffnesses needs the study's equations no more; a diagnosis does, and says so.
+TEST(OneDecision, AStudyWithoutEquationsServesTheModelAlone) {
+  const preparation::PreparedCampaign prepared = preparation::prepareCampaign(simulation::simulate(springsAlone(45)));
+  const auto modelFor = [&](extended_model::Followed followed) {
+    return extended_model::supportedModel(prepared, prepared.campaign, fewSubsets(2), followed);
+  };
+  const extended_model::ExtendedModel kept = modelFor(extended_model::Followed::by_diagnosis);
+  const extended_model::ExtendedModel alone = modelFor(extended_model::Followed::by_nothing);
+  ASSERT_TRUE(kept.study->hasEquations());
+  ASSERT_FALSE(alone.study->hasEquations());
+  for (const identification::Method which : identification::kMethods) {
+    EXPECT_EQ(kept.with.of(which).estimate.compliance, alone.with.of(which).estimate.compliance);
+    EXPECT_EQ(kept.with.of(which).estimate.covariance, alone.with.of(which).estimate.covariance);
+  }
+  EXPECT_THROW(diagnosis::diagnose(prepared, *alone.study, {}), std::logic_error);
 }
 
 }  // namespace one_decision_test
