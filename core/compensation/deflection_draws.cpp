@@ -167,16 +167,16 @@ identification::CoverageInterval intervalOf(const Eigen::Ref<const Eigen::Vector
 
 PredictionSpread spreadOf(const Eigen::Ref<const Eigen::MatrixX3d>& errors) {
   PredictionSpread spread;
-  for (int k = 0; k < 3; ++k) {
-    spread.sd[k] = rootMeanSquare(errors.col(k));
-    spread.interval[static_cast<std::size_t>(k)] = intervalOf(errors.col(k));
-  }
   if (!errors.allFinite()) {
     constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
     spread.sd.setConstant(kNone);
     spread.interval.fill({kNone, kNone});
     spread.expanded = kNone;
     return spread;
+  }
+  for (int k = 0; k < 3; ++k) {
+    spread.sd[k] = rootMeanSquare(errors.col(k));
+    spread.interval[static_cast<std::size_t>(k)] = intervalOf(errors.col(k));
   }
   const Eigen::VectorXd length = errors.rowwise().norm();
   spread.expanded = ranked(length, rankFromEnd(length.size(), identification::kStatedCoverage), rootMeanSquare(length),

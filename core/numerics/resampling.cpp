@@ -13,6 +13,14 @@ double quantile(const std::vector<double>& ascending, double share) {
   return ascending[below] + (place - static_cast<double>(below)) * (ascending[above] - ascending[below]);
 }
 
+double quantileOf(std::vector<double> values, double share) {
+  // The two that `quantile` looks at are brought to their places.
+  const auto below = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), below, values.end());
+  if (below + 1 != values.end()) std::iter_swap(below + 1, std::min_element(below + 1, values.end()));
+  return quantile(values, share);
+}
+
 std::pair<double, double> shortestInterval(const std::vector<double>& ascending, double share) {
   constexpr int kSteps = 10;
   std::pair best{ascending.front(), ascending.back()};

@@ -19,6 +19,8 @@ using Weights = std::vector<double>;
 
 /// Value below which `share` of the ascending values lie, linear between neighbours. Needs at least one value.
 double quantile(const std::vector<double>& ascending, double share);
+/// The same of values in any order, which need not be sorted for one.
+double quantileOf(std::vector<double> values, double share);
 
 /// From and to where `share` of ascending draws lie, as short as it can be: what they leave out is shared out between
 /// both ends in ten steps, since the very shortest follows the draws' chance. Needs at least one value.

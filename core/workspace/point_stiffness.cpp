@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
+#include "core/numerics/resampling.h"
 #include "core/robot/cartesian_stiffness.h"
 #include "core/robot/kinematics.h"
 #include "metrology/linear_algebra.h"
@@ -102,12 +105,7 @@ double middleError(const Eigen::VectorXd& errors) {
   constexpr double kOneSigma = 0.6827;
   std::vector<double> sizes(errors.begin(), errors.end());
   for (double& size : sizes) size = std::abs(size);
-  // Linear between neighbours; only these two are wanted in their order.
-  const double place = kOneSigma * static_cast<double>(sizes.size() - 1);
-  const auto below = sizes.begin() + static_cast<std::ptrdiff_t>(place);
-  std::nth_element(sizes.begin(), below, sizes.end());
-  const double above = below + 1 == sizes.end() ? *below : *std::min_element(below + 1, sizes.end());
-  return *below + (place - std::floor(place)) * (above - *below);
+  return numerics::quantileOf(std::move(sizes), kOneSigma);
 }
 
 /// `by`: of the effects' parameters along the direction; no columns: joint springs alone. `more`: variance that the

@@ -18,6 +18,12 @@ TEST(Quantile, LinearBetweenNeighbours) {
   EXPECT_EQ(numerics::quantile(values, 0.875), 12.0);
   EXPECT_EQ(numerics::quantile(values, 1.0), 16.0);
   EXPECT_EQ(numerics::quantile({3.0}, 0.3), 3.0);
+  for (const double share : {0.0, 0.3, 0.5, 0.6827, 0.875, 1.0}) {
+    std::vector<double> others(values.rbegin(), values.rend());
+    std::swap(others[0], others[2]);
+    EXPECT_EQ(numerics::quantileOf(others, share), numerics::quantile(values, share)) << share;
+    EXPECT_EQ(numerics::quantileOf({3.0}, share), 3.0);
+  }
 }
 
 // Against quantiles of distributions at even steps of probability: one that falls from zero on begins there, one that
