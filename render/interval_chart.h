@@ -9,7 +9,8 @@
 
 namespace stiffscope::render {
 
-/// A value and the ends of its interval, in the unit of the axis. A value that is not finite leaves a gap.
+/// A value and the ends of its interval, in the unit of the axis; an infinite end has none. A value that is not finite
+/// leaves a gap.
 struct Interval {
   double value = std::numeric_limits<double>::quiet_NaN();
   double lower = std::numeric_limits<double>::quiet_NaN();

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/figures/chart_style.h"
+#include "core/identification/estimate.h"
 #include "core/identification/subsets.h"
 #include "reports/page/html.h"
 #include "reports/words/names.h"
@@ -21,9 +22,14 @@ int jointsOf(const identification::Identification& result) {
 
 render::Interval intervalOf(const identification::StiffnessEstimate& estimate, int joint) {
   if (!estimate.identifiable[static_cast<std::size_t>(joint)]) return {};
-  const double value = estimate.stiffness(joint),
-               reach = reports::coverageOf(estimate, joint).factor * estimate.stiffnessSd(joint);
-  return {value, value - reach, value + reach, !estimate.mark(joint).empty()};
+  const double value = estimate.stiffness(joint);
+  const bool doubtful = !estimate.mark(joint).empty();
+  if (!estimate.stated.empty()) {
+    const identification::CoverageInterval interval = identification::stiffnessInterval(estimate, joint);
+    return {value, interval.low, interval.high, doubtful};
+  }
+  const double reach = identification::expandedUncertainty(estimate, joint);
+  return {value, value - reach, value + reach, doubtful};
 }
 
 /// The joint on which the methods differ most, as the ratio of the largest to the smallest positive
@@ -53,8 +59,8 @@ std::string disagreement(const identification::Identification& result) {
 render::IntervalChart stiffnessIntervals(const reports::ReportCampaign& one) {
   render::IntervalChart chart;
   chart.title = "Joint stiffness by method";
-  chart.subtitle = fmt::format("{}; {} postures; whiskers: expanded uncertainty U, about 95\u00a0%",
-                               reports::asIs(one.campaign.name), one.identification.cases.size());
+  chart.subtitle = fmt::format("{}; {} postures; whiskers: 95\u00a0% intervals", reports::asIs(one.campaign.name),
+                               one.identification.cases.size());
   chart.y_title = "Stiffness (Nm/rad)";
   chart.category_title = "Joint";
   chart.logarithmic = true;
@@ -84,7 +90,7 @@ reports::Figure describeStiffnessIntervals(const reports::ReportCampaign& one) {
   reports::Figure figure;
   figure.id = "stiffness-intervals";
   figure.title = "Joint stiffness by method";
-  figure.caption = fmt::format("From all {} postures, with the expanded uncertainty U (about 95\u00a0%) either way.{}",
+  figure.caption = fmt::format("From all {} postures, with 95\u00a0% intervals; U is the longer side of each.{}",
                                one.identification.cases.size(), disagreement(one.identification));
   if (!unseen.empty()) figure.caption += fmt::format(" Not identifiable in this data: {}.", fmt::join(unseen, ", "));
   figure.alt = "Points with whiskers by joint and method: stiffness on a logarithmic axis.";

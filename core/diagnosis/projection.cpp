@@ -78,7 +78,8 @@ Projection project(const Eigen::MatrixXd& normal, const GapLayout& layout) {
   result.by_nothing = solved.col(effects);
   const Eigen::MatrixXd transposed = across.leftCols(effects).transpose();
   result.matrix = normal.block(effects_at, effects_at, effects, effects);
-  result.matrix.triangularView<Eigen::Lower>() -= transposed * result.by_effects;
+  // Of no effect the product is empty, whose first element Eigen would look for.
+  if (effects > 0) result.matrix.triangularView<Eigen::Lower>() -= transposed * result.by_effects;
   result.matrix.triangularView<Eigen::StrictlyUpper>() = result.matrix.transpose();
   result.right = normal.col(end).segment(effects_at, effects) - transposed * result.by_nothing;
   result.before = normal.diagonal().segment(effects_at, effects);

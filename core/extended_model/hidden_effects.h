@@ -185,7 +185,9 @@ struct EffectEvidence {
 };
 
 struct PosteriorOptions {
-  int draws = 600, warm_up = 150;
+  int draws = 600;    ///< that are kept
+  int one_of = 3;     ///< of so many that are made
+  int warm_up = 150;  ///< made before the first
   std::uint64_t seed = 1;
 };
 
@@ -199,9 +201,10 @@ struct PosteriorOptions {
 /// bends hardly twists, though its twist looks like that of the joint beside it. The prior of a parameter that is
 /// declared with a standard uncertainty is normal with that.
 ///
-/// By Gibbs sampling: the parameters of either sign jointly, those that are positive one after the other with the
-/// former integrated out, the scales by their inverse gamma mixtures (Makalic and Schmidt, IEEE Signal Processing
-/// Letters 23, 2016, 179). The same seed gives the same draws.
+/// By Gibbs sampling: the parameters of either sign jointly; those that are positive with the former integrated out,
+/// one after the other and along random lines through all of them; the scales by their inverse gamma mixtures (Makalic
+/// and Schmidt, IEEE Signal Processing Letters 23, 2016, 179) and by stretching their parameters with them. The same
+/// seed gives the same draws.
 Eigen::MatrixXd drawEffects(const EffectEvidence& evidence, const PosteriorOptions& options = {});
 
 /// Scale of an effect's size before anything is measured, as a share of the physical bounds. From a third to three

@@ -72,10 +72,13 @@ bool offLogAxis(const Interval& interval) {
 
 void drawInterval(Canvas& canvas, double x, const YAxis& axis, const Interval& interval, Colour colour, double radius) {
   const double u = canvas.unit();
+  // A side without an end goes to the edge of the diagram, and has no cap there.
   const auto at = [&axis](double value) {
+    if (std::isinf(value) && value > 0.0) return axis.at(axis.upper);
     return placeable(value, axis.logarithmic) ? axis.at(std::clamp(value, axis.lower, axis.upper)) : axis.bottom;
   };
-  if (std::isfinite(interval.lower) && std::isfinite(interval.upper) && at(interval.lower) > at(interval.upper)) {
+  const bool known = !std::isnan(interval.lower) && !std::isnan(interval.upper);
+  if (known && at(interval.lower) > at(interval.upper)) {
     drawWhisker(canvas, x, at(interval.lower), at(interval.upper), 0.9 * radius, colour,
                 placeable(interval.lower, axis.logarithmic), placeable(interval.upper, axis.logarithmic));
   }

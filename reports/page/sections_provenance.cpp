@@ -267,10 +267,8 @@ std::vector<std::string> leftOut(const reports::ReportCampaign& one) {
   if (!isLoaded(one)) return {};
   const identification::Identification& result = one.identification;
   std::vector<std::string> items = reports::listed(result.left_out, reports::leftOutWords, reports::kListedInResults);
-  if (!result.calibration.fixed.empty()) {
-    items.push_back(fmt::format("PP's geometry, kept at its start because the positions do not see it: {}.",
-                                fmt::join(reports::words(result.calibration.fixed), ", ")));
-  }
+  if (std::string kept = reports::geometryKeptWords(result.calibration); !kept.empty())
+    items.push_back(std::move(kept));
   return items;
 }
 

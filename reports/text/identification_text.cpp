@@ -313,6 +313,8 @@ std::string identificationText(const campaign::Campaign& campaign, const identif
                                        result.calibration.rms_before / io::kMillimetre,
                                        result.calibration.rms_after / io::kMillimetre, result.calibration.parameters),
                            0));
+    if (const std::string kept = geometryKeptWords(result.calibration); !kept.empty())
+      fmt::format_to(out, "{}\n", wrapped(kept, 0));
   }
   fmt::format_to(out, "{}\n", wrapped(fmt::format("Own weight: {}.", words(result.frames.sag_note)), 0));
   fmt::format_to(out, "{}\n",

@@ -129,6 +129,12 @@ JudgedPoint judgedPoint(const ReportCampaign& one) {
   return {false, fmt::format("the reflectors (mean of {})", count)};
 }
 
+std::string geometryKeptWords(const frames::GeometryCalibration& calibration) {
+  if (calibration.fixed.empty()) return {};
+  return fmt::format("PP's geometry, kept at its start because the positions do not see it: {}.",
+                     fmt::join(words(calibration.fixed), ", "));
+}
+
 std::string leftOutWords(const identification::LeftOutPosture& posture) {
   return fmt::format("pose {}: {}", posture.pose, words(posture.reason));
 }

@@ -63,6 +63,8 @@ JudgedPoint judgedPoint(const ReportCampaign& one);
 
 /// "pose 3: no state of this load step"; a plain text.
 std::string leftOutWords(const identification::LeftOutPosture& posture);
+/// Parameters of PP's geometry that the positions do not show, as a sentence; empty where they show all.
+std::string geometryKeptWords(const frames::GeometryCalibration& calibration);
 
 /// "not seen: the load only hangs"; short enough for a cell of a table.
 std::string unseenWords(const identification::JointIdentifiability& joint);

@@ -18,7 +18,8 @@ PROGRAM = os.environ["STIFFSCOPE_BINARY"]
 
 
 def printed_json(*words):
-    run = subprocess.run([PROGRAM, *map(str, words), "--json", "-"], stdout=subprocess.PIPE, check=False)
+    without = {name: value for name, value in os.environ.items() if name != "LD_PRELOAD"}
+    run = subprocess.run([PROGRAM, *map(str, words), "--json", "-"], stdout=subprocess.PIPE, env=without, check=False)
     return json.loads(run.stdout), run.returncode
 
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <vector>
 
 namespace stiffscope::extended_model {
@@ -72,7 +73,7 @@ double shareBelow(const Eigen::MatrixXd& draws, Eigen::Index row, double limit) 
 
 /// Draws are correlated; of 20,000 some thousands count. The steps of the grid are a tenth of the smallest spread.
 constexpr double kTolerance = 0.025;
-constexpr PosteriorOptions kMany{20000, 500, 3};
+constexpr PosteriorOptions kMany{20000, 1, 500, 3};
 
 void compareOne(double mean, double sd, bool positive) {
   const Eigen::MatrixXd normal = Eigen::MatrixXd::Constant(1, 1, 1.0 / (sd * sd));
@@ -181,11 +182,92 @@ TEST(EffectPosterior, ParametersThatAreAlikeShareTheirScale) {
   }
 }
 
+// Two compliances of which the data see the sum, and hardly which of the two it is, as of a joint's bearing and the
+// link that stands on it. One by one they go to and fro a hundredth of their valley at a time.
+TEST(EffectPosterior, ALongValleyIsWalkedFromEndToEnd) {
+  constexpr double kSum = 0.3, kSd = 5e-5;
+  Eigen::Matrix2d normal = Eigen::Matrix2d::Constant(1.0 / (kSd * kSd));
+  normal += 4.0 * Eigen::Matrix2d::Identity();
+  const EffectEvidence one = evidence(normal, Eigen::Vector2d::Constant(kSum / (kSd * kSd) + 2.0 * kSum), {true, true});
+  // Either has all of it or they share: along x + y = kSum by a grid that is fine at both ends.
+  double whole = 0.0, at_ends = 0.0;
+  for (double s = std::log(1e-9); s < std::log(0.5 * kSum); s += 0.001) {
+    const double x = std::exp(s), y = kSum - x, off = 0.5 * (x - y);
+    const double mass = x * priorDensity(x) * priorDensity(y) * std::exp(-4.0 * off * off);
+    whole += mass;
+    at_ends += x < 0.05 * kSum ? mass : 0.0;
+  }
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    const Eigen::ArrayXd x = drawEffects(one, {4000, 1, 150, seed}).row(0).transpose();
+    EXPECT_NEAR((x < 0.05 * kSum || x > 0.95 * kSum).cast<double>().mean(), at_ends / whole, 0.05) << seed;
+    EXPECT_NEAR((x < 0.5 * kSum).cast<double>().mean(), 0.5, 0.15) << seed;
+  }
+}
+
+/// Parameters as the prior draws them, by the standard library alone.
+Eigen::VectorXd fromPrior(const EffectEvidence& one, std::mt19937_64& random) {
+  std::cauchy_distribution<double> cauchy;
+  std::normal_distribution<double> normal;
+  std::vector<double> scale(one.group.size()), effect(one.group.size());
+  for (double& l : scale) l = std::abs(cauchy(random));
+  for (double& t : effect) t = kUsual * std::abs(cauchy(random));
+  Eigen::VectorXd x(static_cast<Eigen::Index>(one.group.size()));
+  for (std::size_t i = 0; i < one.group.size(); ++i) {
+    const bool known = i < one.known_sd.size() && one.known_sd[i] > 0.0;
+    const double sd = known ? one.known_sd[i] : scale[one.scale[i]] * effect[one.group[i]];
+    const double drawn = sd * normal(random);
+    x[static_cast<Eigen::Index>(i)] = one.positive[i] ? std::abs(drawn) : drawn;
+  }
+  return x;
+}
+
+// Where machines are drawn from the prior and their days from the machines, the truth has any rank among the draws of
+// its posterior as often as any other (Cook, Gelman and Rubin, Journal of Computational and Graphical Statistics 15,
+// 2006, 675): of all parameters, whose evidence is correlated, of a sum, and of what a joint would be off by.
+TEST(EffectPosterior, TruthHasAnyRankAmongItsDraws) {
+  std::mt19937_64 random(11);
+  std::normal_distribution<double> normal;
+  EffectEvidence one;
+  one.positive = {true, false, true, true, false, true, true};
+  one.group = {0, 0, 1, 1, 2, 2, 3};
+  one.scale = {0, 1, 2, 2, 3, 4, 5};
+  one.known_sd = {0, 0, 0, 0, 0, 0, 0.02};
+  const auto count = static_cast<Eigen::Index>(one.group.size());
+  // 30 readings by columns that share much, sd 0.01 of each.
+  Eigen::MatrixXd columns(30, count);
+  for (double& value : columns.reshaped()) value = normal(random);
+  columns.col(2) = columns.col(0) + 0.05 * columns.col(2);
+  columns.col(5) = columns.col(3) - 0.1 * columns.col(5);
+  columns.col(4) *= 0.01;
+  columns /= 0.01;
+  one.normal = columns.transpose() * columns;
+  constexpr int kDays = 300, kRanks = 10;
+  Eigen::MatrixXd asked = Eigen::MatrixXd::Identity(count + 2, count);
+  asked.row(count).setOnes();
+  asked.row(count + 1) << 1.0, -1.0, 0.3, -1.0, 0.1, -0.5, 2.0;
+  Eigen::MatrixXd found = Eigen::MatrixXd::Zero(asked.rows(), kRanks);
+  for (int day = 0; day < kDays; ++day) {
+    const Eigen::VectorXd truth = fromPrior(one, random);
+    Eigen::VectorXd read = columns * truth;
+    for (double& value : read) value += normal(random);
+    one.right = columns.transpose() * read;
+    const Eigen::MatrixXd draws = asked * drawEffects(one, {kRanks * 10 - 1, 5, 200, 1});
+    const Eigen::VectorXd is = asked * truth;
+    for (Eigen::Index row = 0; row < asked.rows(); ++row)
+      found(row, (draws.row(row).array() < is[row]).count() * kRanks / (kRanks * 10)) += 1.0;
+  }
+  for (Eigen::Index row = 0; row < asked.rows(); ++row) {
+    const double expected = static_cast<double>(kDays) / kRanks;
+    const double chi2 = (found.row(row).array() - expected).square().sum() / expected;
+    EXPECT_LT(chi2, 29.7) << "row " << row << ": " << found.row(row);  // one in two thousand of nine degrees of freedom
+  }
+}
+
 TEST(EffectPosterior, TheSameSeedGivesTheSameDraws) {
   const Eigen::MatrixXd normal = 100.0 * Eigen::MatrixXd::Identity(3, 3);
   const EffectEvidence one = evidence(normal, Eigen::Vector3d(1.0, 0.0, 30.0), {true, false, true});
   EXPECT_EQ(drawEffects(one), drawEffects(one));
-  EXPECT_NE(drawEffects(one), drawEffects(one, {600, 150, 2}));
+  EXPECT_NE(drawEffects(one), drawEffects(one, {600, 3, 150, 2}));
 }
 
 TEST(EffectPosterior, NothingToDraw) { EXPECT_EQ(drawEffects(EffectEvidence{}).rows(), 0); }
