@@ -32,9 +32,9 @@ std::vector<reports::Figure> makeFigures(const std::vector<reports::ReportCampai
                                          const FigureOptions& options = {},
                                          const std::optional<reports::AvoidedByEncoders>& avoided = {});
 
-/// Joint stiffnesses from all postures by method, value +- expanded uncertainty (page::coverageOf), Nm/rad,
-/// logarithmic axis. A joint that is not identifiable leaves a gap; negative and imprecise values are hollow. No series
-/// where no method is available.
+/// Joint stiffnesses from all postures by method with their 95 % intervals (identification::stiffnessInterval; value +-
+/// expanded uncertainty where none is stated), Nm/rad, logarithmic axis. A joint that is not identifiable leaves a gap;
+/// negative and imprecise values are hollow. No series where no method is available.
 render::IntervalChart stiffnessIntervals(const reports::ReportCampaign& one);
 
 reports::Figure describeStiffnessIntervals(const reports::ReportCampaign& one);
