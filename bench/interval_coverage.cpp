@@ -55,7 +55,8 @@ struct Lengths {
   }
 };
 
-/// What each joint gives when it alone is loaded: springs that two joints share are part of it.
+/// What each joint gives when it alone is loaded: springs that two joints share are part of it, and of joint 1 what the
+/// base gives about the same axis, which no reading tells from it.
 JointVector trueCompliance(const simulation::MachineSpec& machine) {
   const auto joints = static_cast<Eigen::Index>(machine.joints.size());
   JointMatrix stiffness = JointMatrix::Zero(joints, joints);
@@ -65,7 +66,9 @@ JointVector trueCompliance(const simulation::MachineSpec& machine) {
     for (std::size_t k = 0; k < 2; ++k) arms[spring.joints[k]] += spring.arms[k];
     stiffness += spring.rate * arms * arms.transpose();
   }
-  return stiffness.inverse().diagonal();
+  JointVector compliance = stiffness.inverse().diagonal();
+  if (machine.base_rotation) compliance[0] += 1.0 / machine.base_rotation->z();
+  return compliance;
 }
 
 struct Row {

@@ -33,13 +33,32 @@ struct PostureReadBack {
       : pose(of_pose), correction(JointVector::Zero(joints)), significance(correction) {}
 };
 
+/// What moved while loading went on, as one rigid body: it stands elsewhere from one posture on, or goes steadily from
+/// the first posture to the last.
+struct MovedMeanwhile {
+  enum class Body {
+    station,  ///< tracker or robot: one motion in R0
+    tool      ///< with all its reflectors on the flange: one motion in the flange
+  };
+
+  Body body = Body::station;
+  bool steady = false;
+  int pose = 0;          ///< the first that was read afterwards, or the last of all
+  std::size_t line = 0;  ///< of its first unloaded reading, in the loading's file
+  /// Of what was read: rotation vector (rad), then displacement (m) at AbsoluteFit::centre; of the tool at the middle
+  /// of its reflectors, both as the flange stands at joints zero.
+  Vector6d motion = Vector6d::Zero();
+  double by_chance = 0.0;  ///< largest displacement that chance makes, m
+  double explained = 0.0;  ///< share of the positions' misfit that goes with it
+};
+
 /// Unloaded absolute positions against forward kinematics in the swept geometry, with the arm's own sag. In
 /// R0.
 ///
 /// One weighted linear least squares in: a rigid shift of the loading against the sweeps (free), the
 /// reflectors' places (free), the axes (4 parameters each, held by the covariance of their sweeps) and
-/// the compliances by which the own weight sags (held to a stated share). Postures whose joint angles stand
-/// apart are left out.
+/// the compliances by which the own weight sags (held to a stated share). Where something moved while loading went
+/// on, what it moved is taken off first. Postures whose joint angles stand apart are left out.
 struct AbsoluteFit {
   bool done = false;
   Remark reason;                                     ///< why not
@@ -54,6 +73,7 @@ struct AbsoluteFit {
   double rms_before = 0.0;   ///< plain, per coordinate, m: as the sweeps have it
   double rms_after = 0.0;    ///< with everything fitted
   double score_limit = 0.0;  ///< of PostureReadBack::score
+  std::vector<MovedMeanwhile> moves;
   std::vector<PostureReadBack> postures;
 };
 

@@ -86,7 +86,8 @@ Findings checkWrist(const AuditInput& input);
 /// what is reported and the URDF. None for an arm that stands on no rail.
 Findings checkRail(const AuditInput& input);
 
-/// frame_moved, unloaded_positions, joint_read_back: unloaded absolute positions against forward kinematics.
+/// frame_moved, unloaded_positions, joint_read_back: unloaded absolute positions against forward kinematics;
+/// frame_moved from the sweeps to the loading, and during it.
 Findings checkUnloadedPositions(const AuditInput& input);
 
 /// servo_change: reported angles that change under load.

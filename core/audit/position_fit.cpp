@@ -1,4 +1,4 @@
-#include "core/audit/audit_input.h"
+#include "core/audit/position_fit.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -8,7 +8,6 @@
 
 #include "core/audit/remarks.h"
 #include "core/frames/arm_parameters.h"
-#include "core/frames/position_equations.h"
 #include "core/numerics/distributions.h"
 #include "core/numerics/parallel.h"
 #include "core/numerics/resampling.h"
@@ -17,22 +16,11 @@
 
 namespace stiffscope::audit {
 
-namespace {
-
-/// Weighted normal equations over the postures that take part, with what is known beforehand on the diagonal.
-struct Normal {
-  Eigen::MatrixXd matrix;
-  Eigen::VectorXd right;
-  double squares = 0.0;  ///< chi2 with all parameters at zero
-  int rows = 0;
-};
-
-/// Weight in the common fit by the index of the posture; 0 for one that is left out.
-using Weights = std::vector<double>;
-
-Weights equalWeights(const frames::AbsoluteRows& rows) {
-  return Weights(static_cast<std::size_t>(*std::max_element(rows.poses.begin(), rows.poses.end())) + 1, 1.0);
+PostureWeights equalWeights(const frames::AbsoluteRows& rows) {
+  return PostureWeights(static_cast<std::size_t>(*std::max_element(rows.poses.begin(), rows.poses.end())) + 1, 1.0);
 }
+
+namespace {
 
 /// [J r]^T W [J r], lower triangle, and how many rows made it.
 struct Products {
@@ -46,7 +34,7 @@ struct Products {
   }
 };
 
-Products productsOf(const frames::AbsoluteRows& rows, const Weights& weights) {
+Products productsOf(const frames::AbsoluteRows& rows, const PostureWeights& weights) {
   constexpr std::size_t kTogether = 32, kMicroseconds = 64;  // readings, and what they take
   const Eigen::Index size = rows.parameters;
   return numerics::sumInBlocks<Products>(
@@ -71,11 +59,13 @@ Products productsOf(const frames::AbsoluteRows& rows, const Weights& weights) {
       kMicroseconds);
 }
 
-Normal sumUp(const frames::AbsoluteRows& rows, const Weights& weights) {
+}  // namespace
+
+PositionNormal sumUp(const frames::AbsoluteRows& rows, const PostureWeights& weights) {
   const Eigen::Index size = rows.parameters;
   Products sum = productsOf(rows, weights);
   if (sum.matrix.size() == 0) sum.matrix.setZero(size + 1, size + 1);  // no row
-  Normal normal{rows.prior, sum.matrix.row(size).head(size).transpose(), sum.matrix(size, size), sum.rows};
+  PositionNormal normal{rows.prior, sum.matrix.row(size).head(size).transpose(), sum.matrix(size, size), sum.rows};
   normal.matrix += Eigen::MatrixXd(sum.matrix.topLeftCorner(size, size).selfadjointView<Eigen::Lower>());
   // A reflector that no row of the postures left shows stays where it is.
   for (Eigen::Index i = 0; i < size; ++i) {
@@ -84,10 +74,7 @@ Normal sumUp(const frames::AbsoluteRows& rows, const Weights& weights) {
   return normal;
 }
 
-Eigen::Index shiftAt(const frames::AbsoluteRows& rows) { return frames::ArmParameters(rows.axes).baseAt(); }
-
-/// The sum of squares that is left; `held`: with the six parameters of the shift from there on at zero.
-double leastSquares(Normal normal, std::optional<Eigen::Index> held = {}) {
+double leastSquares(PositionNormal normal, std::optional<Eigen::Index> held) {
   if (held) {
     normal.matrix.middleRows<6>(*held).setZero();
     normal.matrix.middleCols<6>(*held).setZero();
@@ -96,6 +83,42 @@ double leastSquares(Normal normal, std::optional<Eigen::Index> held = {}) {
   }
   return normal.squares - normal.right.dot(Eigen::VectorXd(solveSymmetric(normal.matrix, normal.right)));
 }
+
+RobustFit robustFit(const frames::AbsoluteRows& rows) {
+  RobustFit fit{Eigen::VectorXd::Zero(rows.parameters), equalWeights(rows)};
+  Eigen::VectorXd& parameters = fit.parameters;
+  PostureWeights& weights = fit.weights;
+  constexpr int kRounds = 20;
+  constexpr double kSettled = 1e-6;  // of the parameters' standard uncertainties
+  for (int round = 0; round < kRounds; ++round) {
+    const PositionNormal normal = sumUp(rows, weights);
+    const Eigen::VectorXd before = std::exchange(parameters, solveSymmetric(normal.matrix, normal.right));
+    const Eigen::VectorXd step = parameters - before;
+    if (round > 0 && step.dot(normal.matrix * step) < kSettled * kSettled) break;
+    std::vector<double> by_row(rows.rows.size());
+    numerics::smallWorkOnAllCores(by_row.size(), [&](std::size_t i) {
+      const frames::AbsoluteRow& row = rows.rows[i];
+      const Eigen::Vector3d left = row.residual - row.jacobian * parameters;
+      by_row[i] = left.dot(row.weight * left);
+    });
+    std::vector<double> misfits(weights.size(), 0.0), sorted;
+    std::vector<bool> has_rows(weights.size(), false);
+    for (std::size_t i = 0; i < by_row.size(); ++i) {
+      const auto pose = static_cast<std::size_t>(rows.rows[i].pose);
+      misfits[pose] += by_row[i];
+      has_rows[pose] = true;
+    }
+    for (std::size_t pose = 0; pose < misfits.size(); ++pose) {
+      if (has_rows[pose]) sorted.push_back(misfits[pose]);
+    }
+    constexpr double kCauchy = 2.385;
+    const double scale = kCauchy * kCauchy * std::max(numerics::upperMedian(sorted), 1e-300);
+    for (std::size_t pose = 0; pose < misfits.size(); ++pose) weights[pose] = 1.0 / (1.0 + misfits[pose] / scale);
+  }
+  return fit;
+}
+
+namespace {
 
 constexpr double kSigmas = 3.0;  // of the share to which the sag is trusted
 
@@ -162,41 +185,6 @@ std::vector<PostureReadBack> readBacks(const frames::AbsoluteRows& rows, const E
   return postures;
 }
 
-/// A fit that one posture cannot pull: each is weighted down by its own misfit against the median one
-/// (Cauchy's weights, 2.385 being their usual constant), again and again.
-Eigen::VectorXd robustFit(const frames::AbsoluteRows& rows) {
-  Weights weights = equalWeights(rows);
-  Eigen::VectorXd parameters = Eigen::VectorXd::Zero(rows.parameters);
-  constexpr int kRounds = 20;
-  constexpr double kSettled = 1e-6;  // of the parameters' standard uncertainties
-  for (int round = 0; round < kRounds; ++round) {
-    const Normal normal = sumUp(rows, weights);
-    const Eigen::VectorXd before = std::exchange(parameters, solveSymmetric(normal.matrix, normal.right));
-    const Eigen::VectorXd step = parameters - before;
-    if (round > 0 && step.dot(normal.matrix * step) < kSettled * kSettled) break;
-    std::vector<double> by_row(rows.rows.size());
-    numerics::smallWorkOnAllCores(by_row.size(), [&](std::size_t i) {
-      const frames::AbsoluteRow& row = rows.rows[i];
-      const Eigen::Vector3d left = row.residual - row.jacobian * parameters;
-      by_row[i] = left.dot(row.weight * left);
-    });
-    std::vector<double> misfits(weights.size(), 0.0), sorted;
-    std::vector<bool> has_rows(weights.size(), false);
-    for (std::size_t i = 0; i < by_row.size(); ++i) {
-      const auto pose = static_cast<std::size_t>(rows.rows[i].pose);
-      misfits[pose] += by_row[i];
-      has_rows[pose] = true;
-    }
-    for (std::size_t pose = 0; pose < misfits.size(); ++pose) {
-      if (has_rows[pose]) sorted.push_back(misfits[pose]);
-    }
-    constexpr double kCauchy = 2.385;
-    const double scale = kCauchy * kCauchy * std::max(numerics::upperMedian(sorted), 1e-300);
-    for (std::size_t pose = 0; pose < misfits.size(); ++pose) weights[pose] = 1.0 / (1.0 + misfits[pose] / scale);
-  }
-  return parameters;
-}
-
 /// Scores against the campaign's own scatter of each joint (median absolute deviation, never below the
 /// reading noise), because geometry errors put more than noise into every posture.
 void scorePostures(int joints, double limit, std::vector<PostureReadBack>& postures) {
@@ -224,8 +212,21 @@ double scoreLimit(int joints, std::size_t postures) {
   return numerics::studentLimit(preparation::kLevel / (joints * count), std::max(1.0, 0.37 * (count - 1.0)));
 }
 
-void describe(const frames::AbsoluteRows& rows, const Weights& weights, AbsoluteFit& fit) {
-  const Normal normal = sumUp(rows, weights);
+Eigen::Index shiftAt(const frames::AbsoluteRows& rows) { return frames::ArmParameters(rows.axes).baseAt(); }
+
+/// Equal weights but for postures whose angles stand apart.
+PostureWeights withoutOutlying(const frames::AbsoluteRows& rows, double limit, std::vector<PostureReadBack>& postures) {
+  postures = readBacks(rows, robustFit(rows).parameters);
+  scorePostures(rows.joints, limit, postures);
+  PostureWeights weights = equalWeights(rows);
+  for (const PostureReadBack& posture : postures) {
+    if (posture.outlier) weights[static_cast<std::size_t>(posture.pose)] = 0.0;
+  }
+  return weights;
+}
+
+void describe(const frames::AbsoluteRows& rows, const PostureWeights& weights, AbsoluteFit& fit) {
+  const PositionNormal normal = sumUp(rows, weights);
   const Eigen::VectorXd parameters = solveSymmetric(normal.matrix, normal.right);
   const Eigen::Index shift_at = shiftAt(rows);
   fit.shift = -parameters.segment<6>(shift_at);  // what the readings' motion takes back
@@ -252,7 +253,7 @@ AbsoluteFit fitAbsolutePositions(const campaign::Campaign& campaign, const frame
                                  const std::vector<campaign::StatePoints>& states,
                                  const std::optional<metrology::TrackerNoise>& noise) {
   AbsoluteFit fit;
-  const frames::AbsoluteRows rows = frames::absoluteRows(campaign, frames, geometry, states, noise);
+  frames::AbsoluteRows rows = frames::absoluteRows(campaign, frames, geometry, states, noise);
   if (!rows.reason.empty()) {
     fit.reason = rows.reason;
     return fit;
@@ -265,12 +266,11 @@ AbsoluteFit fitAbsolutePositions(const campaign::Campaign& campaign, const frame
     return fit;
   }
   fit.score_limit = scoreLimit(rows.joints, rows.poses.size());
-  fit.postures = readBacks(rows, robustFit(rows));
-  scorePostures(rows.joints, fit.score_limit, fit.postures);
-  Weights weights = equalWeights(rows);
-  for (const PostureReadBack& posture : fit.postures) {
-    if (posture.outlier) weights[static_cast<std::size_t>(posture.pose)] = 0.0;
-  }
+  const auto weights_of = [&fit](const frames::AbsoluteRows& now) {
+    return withoutOutlying(now, fit.score_limit, fit.postures);
+  };
+  fit.moves = takeOffMoves(campaign, geometry, states, weights_of, rows);
+  const PostureWeights weights = weights_of(rows);
   describe(rows, weights, fit);
   fit.done = true;
   return fit;

@@ -127,7 +127,11 @@ enum class RemarkId {
   // frame_moved, unloaded_positions, joint_read_back.
   loading_shifted,  ///< shift in R0 m, turn rad, explained share of the misfit, more
   tracker_or_robot_moved,
-  positions_miss,  ///< positions, rms as read m, rms as fitted m, in parts of what is left open, more
+  moved_meanwhile,           ///< remarks: the next three
+  station_moved_meanwhile,   ///< posture, displacement in R0 m, turn rad, explained share of the misfit
+  station_drifts_meanwhile,  ///< displacement from the first posture to the last in R0 m, turn rad, explained share
+  tool_moved_meanwhile,      ///< posture, displacement m, turn rad, explained share of the misfit
+  positions_miss,            ///< positions, rms as read m, rms as fitted m, in parts of what is left open, more
   positions_impossible,
   geometry_does_not_carry,
   angles_agree,

@@ -41,7 +41,7 @@ constexpr std::array kPlain{
     PlainCheck{"rail_straight", "the rail is not straight"},
     PlainCheck{"rail_scale", "the rail travels otherwise than reported"},
     PlainCheck{"rail_direction", "the rail does not run as the URDF has it"},
-    PlainCheck{"frame_moved", "the arm stood elsewhere under load than during the sweeps"},
+    PlainCheck{"frame_moved", "tracker, robot or tool moved between the sweeps and the last posture"},
     PlainCheck{"unloaded_positions", "reflectors without load are not where the URDF's arm would put them"},
     PlainCheck{"joint_read_back", "reported joint angles jump"},
     PlainCheck{"servo_change", "reported joint angles change under load"},

@@ -395,6 +395,30 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
           millimetres(values.numbers(0), 3), 1e6 * values.number(1), 100.0 * values.number(2), more(values, 3));
     case audit::RemarkId::tracker_or_robot_moved:
       return ": tracker or robot moved between sweeps and loading";
+    case audit::RemarkId::moved_meanwhile:
+      return joined(values, 0, "; ") +
+             "; displacements within a posture hardly feel it: stiffnesses by springs alone stand, geometry, accuracy "
+             "and "
+             "what a diagnosis makes of positions do not";
+    case audit::RemarkId::station_moved_meanwhile:
+      return fmt::format(
+          "from posture {} on readings stand ({}) mm in R0 from those before, and turned by {:.0f} urad, which "
+          "explains "
+          "{:.0f} % of the misfit of the unloaded positions: tracker or robot moved during the loading",
+          values.name(0), millimetres(values.numbers(1), 3), 1e6 * values.number(2), 100.0 * values.number(3));
+    case audit::RemarkId::station_drifts_meanwhile:
+      return fmt::format(
+          "readings drift by ({}) mm in R0 from the first posture of the loading to the last, and turn by {:.0f} urad, "
+          "which explains {:.0f} % of the misfit of the unloaded positions: the tracker, its stand or the air drifted, "
+          "or the "
+          "robot grew warm",
+          millimetres(values.numbers(0), 3), 1e6 * values.number(1), 100.0 * values.number(2));
+    case audit::RemarkId::tool_moved_meanwhile:
+      return fmt::format(
+          "from posture {} on all reflectors stand {:.3f} mm from where the flange carried them before, and turned by "
+          "{:.0f} urad, which explains {:.0f} % of the misfit of the unloaded positions: the tool slipped on the "
+          "flange",
+          values.name(0), 1e3 * values.number(1), 1e6 * values.number(2), 100.0 * values.number(3));
     case audit::RemarkId::positions_miss:
       return fmt::format(
           "{} unloaded positions miss forward kinematics with sag by {:.3f} mm rms per coordinate, {:.3f} mm "
