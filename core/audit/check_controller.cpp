@@ -18,9 +18,9 @@ using campaign::ControllerModel;
 std::vector<Remark> patternOf(const mistakes::ControllerAgreement& poses) {
   constexpr double kExplained = 0.25;
   const auto explains = [&](const std::optional<double>& left) { return left && *left < kExplained * *poses.miss; };
-  if (explains(poses.geometry_miss)) return {Remark(RemarkId::poses_of_other_geometry, *poses.geometry_miss)};
-  if (explains(poses.elastic_miss)) return {Remark(RemarkId::poses_sag, *poses.elastic_miss)};
-  if (poses.geometry_miss) return {Remark(RemarkId::poses_unexplained, *poses.geometry_miss)};
+  if (explains(poses.geometry_miss)) return {Remark(ControllerRemarkId::poses_of_other_geometry, *poses.geometry_miss)};
+  if (explains(poses.elastic_miss)) return {Remark(ControllerRemarkId::poses_sag, *poses.elastic_miss)};
+  if (poses.geometry_miss) return {Remark(ControllerRemarkId::poses_unexplained, *poses.geometry_miss)};
   return {};
 }
 
@@ -28,7 +28,7 @@ std::vector<Remark> patternOf(const mistakes::ControllerAgreement& poses) {
 void judgeAgreement(const campaign::Campaign& campaign, preparation::AuditCheck& check, std::vector<Remark>& more) {
   if (campaign.controller_model != ControllerModel::absolute_accuracy) return;
   check.verdict = preparation::AuditVerdict::warn;
-  more.push_back(Remark(RemarkId::accuracy_not_seen));
+  more.push_back(Remark(ControllerRemarkId::accuracy_not_seen));
 }
 
 /// Where they are not: by mistake, or because the controller has another model of its arm.
@@ -38,12 +38,12 @@ void judgeDifference(const campaign::Campaign& campaign, const mistakes::Control
   if (!poses.cures.empty()) {
     check.verdict = AuditVerdict::fail;
     check.where = poses.cures.size() == 1 ? poses.cures.front().where : Remark();
-    more.push_back(Remark(RemarkId::poses_mended, poses.cures.size()));
+    more.push_back(Remark(ControllerRemarkId::poses_mended, poses.cures.size()));
     return;
   }
   if (poses.position_miss && *poses.position_miss <= *check.limit) {
     check.verdict = AuditVerdict::fail;
-    more.push_back(Remark(RemarkId::turns_otherwise, *poses.position_miss));
+    more.push_back(Remark(ControllerRemarkId::turns_otherwise, *poses.position_miss));
     return;
   }
   more = patternOf(poses);
@@ -51,7 +51,7 @@ void judgeDifference(const campaign::Campaign& campaign, const mistakes::Control
   check.verdict = another_arm ? AuditVerdict::fail : AuditVerdict::warn;
   check.where = preparation::atRow(campaign.states->file, poses.line);
   if (another_arm) {
-    more.push_back(Remark(RemarkId::poses_of_other_arm));
+    more.push_back(Remark(ControllerRemarkId::poses_of_other_arm));
     return;
   }
   if (campaign.controller_model == ControllerModel::absolute_accuracy) {
@@ -59,11 +59,12 @@ void judgeDifference(const campaign::Campaign& campaign, const mistakes::Control
     check.limit = identification::kMissedGeometry;
     check.limit_source = Remark(LimitId::machines_off_drawing);
     check.where = Remark();
-    more.push_back(Remark(RemarkId::accuracy_as_declared));
+    more.push_back(Remark(ControllerRemarkId::accuracy_as_declared));
     return;
   }
-  more.push_back(Remark(campaign.controller_model == ControllerModel::nominal ? RemarkId::declared_nominal
-                                                                              : RemarkId::accuracy_undeclared));
+  more.push_back(Remark(campaign.controller_model == ControllerModel::nominal
+                            ? ControllerRemarkId::declared_nominal
+                            : ControllerRemarkId::accuracy_undeclared));
 }
 
 }  // namespace
@@ -85,8 +86,9 @@ Findings checkControllerPoses(const AuditInput& input) {
     judgeAgreement(input.campaign, check, more);
   else
     judgeDifference(input.campaign, poses, check, more);
-  if (!poses.still.empty()) more.push_back(Remark(RemarkId::joints_not_compared, poses.still));
-  check.message = Remark(RemarkId::controller_states, poses.postures, *poses.miss, poses.largest, std::move(more));
+  if (!poses.still.empty()) more.push_back(Remark(ControllerRemarkId::joints_not_compared, poses.still));
+  check.message =
+      Remark(ControllerRemarkId::controller_states, poses.postures, *poses.miss, poses.largest, std::move(more));
   return {check};
 }
 

@@ -86,7 +86,7 @@ preparation::AuditCheck movedMeanwhileCheck(const campaign::Campaign& campaign, 
   preparation::AuditCheck check;
   check.id = "frame_moved";
   check.value = 0.0;
-  check.limit_source = preparation::byChance(Remark(LimitId::chi_square_of_shift));
+  check.limit_source = Remark(LimitId::chi_square_of_motion);
   std::vector<Remark> moves;
   const MovedMeanwhile* largest = &fit.moves.front();
   for (const MovedMeanwhile& move : fit.moves) {

@@ -173,8 +173,10 @@ enum class RemarkId {
   readings_contradict,  ///< median distance m, how many mistakes would mend it, the check that explains it or nothing
   springs_agree,        ///< share left
   springs_contradict,   ///< share left, how many mistakes would mend it, the check that explains it or nothing
+};
 
-  // controller_poses.
+/// What controller_poses has to say.
+enum class ControllerRemarkId {
   controller_states,        ///< postures, rms m, farthest m, more
   poses_mended,             ///< how many mistakes would mend it
   turns_otherwise,          ///< rms of positions alone m
@@ -200,6 +202,7 @@ enum class LimitId {
   chi_square_of_tare,
   chi_square_of_displacement,
   chi_square_of_shift,
+  chi_square_of_motion,
   factor_of_two,    ///< degrees of freedom that are needed
   normal_deviates,  ///< how many
   student_between_postures,

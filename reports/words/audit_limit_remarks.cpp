@@ -38,6 +38,10 @@ std::string auditLimitWords(audit::LimitId id, const RemarkValues& values) {
       return "chi-square of the mean unloaded reading, six components, and of each reading";
     case audit::LimitId::chi_square_of_displacement:
       return "chi-square of the displacement where the arm stands, by the nests' declared noise";
+    case audit::LimitId::chi_square_of_motion:
+      return "chi-square of a rigid motion, six degrees of freedom, over that of the rest; chance makes one at any of "
+             "the "
+             "postures in fewer than one day in a hundred thousand";
     case audit::LimitId::chi_square_of_shift:
       return "chi-square of a rigid shift, six degrees of freedom, over that of the rest";
     case audit::LimitId::factor_of_two:

@@ -23,6 +23,7 @@ const std::unordered_map<std::type_index, FamilyWords>& families() {
   static const std::unordered_map<std::type_index, FamilyWords> all{
       of<accuracy::RemarkId, &accuracyWords>(),
       of<audit::RemarkId, &auditWords>(),
+      of<audit::ControllerRemarkId, &auditControllerWords>(),
       of<audit::LimitId, &auditLimitWords>(),
       of<audit::MissingId, &auditMissingWords>(),
       of<calibration::RemarkId, &calibrationWords>(),

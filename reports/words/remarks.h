@@ -63,6 +63,7 @@ class RemarkValues {
 // its checks judge by and what they lack in audit_limit_remarks.cpp).
 std::string accuracyWords(accuracy::RemarkId id, const RemarkValues& values);
 std::string auditWords(audit::RemarkId id, const RemarkValues& values);
+std::string auditControllerWords(audit::ControllerRemarkId id, const RemarkValues& values);
 std::string auditLimitWords(audit::LimitId id, const RemarkValues& values);
 std::string auditMissingWords(audit::MissingId id, const RemarkValues& values);
 std::string calibrationWords(calibration::RemarkId id, const RemarkValues& values);
