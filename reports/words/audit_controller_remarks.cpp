@@ -13,7 +13,8 @@ std::string auditControllerWords(audit::ControllerRemarkId id, const RemarkValue
       return fmt::format(
           "the poses that the controller states in {} postures miss the URDF's by {:.3f} mm rms, at most {:.3f} mm, "
           "its tool and base frame fitted{}",
-          values.count(0), 1e3 * values.number(1), 1e3 * values.number(2), fmt::format("{}", fmt::join(words(values.remarks(3)), "")));
+          values.count(0), 1e3 * values.number(1), 1e3 * values.number(2),
+          fmt::format("{}", fmt::join(words(values.remarks(3)), "")));
     case audit::ControllerRemarkId::poses_mended:
       return ": " + (values.count(0) == 1
                          ? std::string("one of the usual mistakes explains it (suspected)")
