@@ -23,7 +23,7 @@ class Backend {
 
 /// The one symbol that is looked up in the module. Its number goes up whenever Backend or the data structures
 /// change, so that a module left over from another version is refused instead of misread.
-inline constexpr const char* kBackendSymbol = "stiffscope_render_backend_7";
+inline constexpr const char* kBackendSymbol = "stiffscope_render_backend_8";
 using BackendFunction = Backend*();
 
 }  // namespace stiffscope::render

@@ -10,7 +10,8 @@
 namespace stiffscope::render {
 
 /// A value and the ends of its interval, in the unit of the axis; an infinite end has none. A value that is not finite
-/// leaves a gap.
+/// leaves a gap. Of a value that has no place on the axis (see IntervalChart) the interval need not hold it: what is
+/// possible may lie apart from what was found.
 struct Interval {
   double value = std::numeric_limits<double>::quiet_NaN();
   double lower = std::numeric_limits<double>::quiet_NaN();
@@ -43,8 +44,8 @@ struct IntervalChart {
 };
 
 /// Draws the chart. Throws std::invalid_argument when there is no category or series, when lengths disagree
-/// or an interval's ends do not enclose its value, or when `size` is too small; std::runtime_error when
-/// offscreen rendering is not to be had.
+/// or an interval's ends do not enclose a value that has a place on the axis, or when `size` is too small;
+/// std::runtime_error when offscreen rendering is not to be had.
 Image render(const IntervalChart& chart, Size size = {1200, 700});
 
 }  // namespace stiffscope::render

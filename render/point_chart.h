@@ -16,6 +16,13 @@ struct PlotPoint {
 
 enum class PointMark { disc, ring, diamond, square, none };
 
+/// What a point says to a pointer.
+struct PointValue {
+  double value = 0.0;
+  double at = 0.0;         ///< on the axis of numbers that it belongs to
+  std::string category{};  ///< instead of that: the posture, say
+};
+
 /// Points of one kind. A point that is not finite is left out, and breaks the line.
 struct PointSeries {
   std::string name;  ///< in the legend; what has the same name in several panels stands there once; empty: not
@@ -25,6 +32,9 @@ struct PointSeries {
   std::vector<PlotPoint> points;
   std::vector<PlotPoint> line = {};  ///< of a shape: under the points, where what joins them is not straight
   std::vector<double> errors;        ///< half-length of each whisker along y; empty, or one a point (0: none)
+  /// Empty, or one a point. Points of a diagram say their y without; those of a shape, and lines without marks,
+  /// nothing.
+  std::vector<PointValue> values = {};
 };
 
 /// One diagram. `categories` name the places x = 0, 1, 2, ...; without them x is a number.
@@ -45,6 +55,7 @@ struct ShapePanel {
   std::vector<PointSeries> series;
   double scale_bar = 0.0;
   std::string scale_name;
+  std::string value_name{};  ///< what the values of its points are, with their unit
 };
 
 /// Points and lines in panels, all diagrams or all shapes, side by side in rows of `columns`. From 1 to 60
@@ -59,8 +70,8 @@ struct PointChart {
   std::vector<ShapePanel> shapes;
 };
 
-/// Draws the chart. Throws std::invalid_argument when there is no panel or both kinds, when errors and points
-/// of a series differ in number, or when `size` is too small; std::runtime_error when offscreen rendering is
+/// Draws the chart. Throws std::invalid_argument when there is no panel or both kinds, when errors or values and
+/// points of a series differ in number, or when `size` is too small; std::runtime_error when offscreen rendering is
 /// not to be had.
 Image render(const PointChart& chart, Size size = {1200, 700});
 

@@ -5,8 +5,11 @@ and what PROGRAM writes now of the commands that have no record. Ends with 77 (s
 """
 
 import copy
+import csv
 import json
 import pathlib
+import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -55,6 +58,21 @@ LIVE = [
     ("import_points", "import points {source}/tests/fuzz/corpus/point_file/leica.csv"),
 ]
 
+# What every kind of day can be asked, and by which definition its answer is; `sweeps` is a day of sweeps alone.
+KINDS = {
+    "unloaded": {"identify": "identify", "diagnose": "diagnose_unloaded"},
+    "sweeps": {"audit": "audit", "frames": "frames", "identify": "identify", "diagnose": "diagnose",
+               "calibrate": "calibrate"},
+    # Displacements alone: no positions to hold them against, and one method out of three.
+    "displacements": {"identify --step all": "identify", "diagnose": "diagnose", "compensate": "compensate"}}
+
+# Numbers that there are not on a day without a load are null, not zero.
+NUMBERS_OF_LOAD = [
+    ("step",), ("shown_first",), ("noise_share",), ("servo_change_deg",), ("posture_stiffness",),
+    ("geometric_stiffness", "torque_change_share"), ("identifiability", "load_hangs"),
+    ("identifiability", "force_to_gravity_rms_deg"), ("identifiability", "joints", 0, "torque_rms_nm"),
+    ("identifiability", "joints", 0, "trusted_torque_rms_nm"), ("identifiability", "joints", 0, "torque_uncertainty_nm")]
+
 CERTIFICATE = (
     '<certificate number="1" country="DE" languages="en" place="laboratory"><laboratory name="L" city="C"/>'
     '<customer name="K" city="C"/><responsible name="R"/><item serial="S"/></certificate>')
@@ -83,6 +101,75 @@ BALANCERS = (
     'pressure_bar="150" area_cm2="17" volume_l="6" length_mm="773"/>'
     '<balancer kind="spring" from_link="link_1" from_mm="-500 0 0" to_link="link_2" to_mm="-160 0 190" '
     'rate_n_per_m="42000" tension_n="-1800" length_mm="773"/>')
+
+
+def day_of_kind(kind, out):
+    """The folder of a day: the sample's without a load, or one of the sample with loads with only what the kind has."""
+    if kind == "unloaded":
+        return SAMPLES / "unloaded"
+    folder = out / kind
+    shutil.copytree(SAMPLES / "active", folder)
+    xml = (folder / "campaign.xml").read_text(encoding="utf-8")
+    if kind == "displacements":
+        write_displacements(folder)
+        xml = xml.replace("</campaign>", '<displacements file="displacements.csv" frame="tracker"/></campaign>')
+        places = re.findall(r'<target id="(\w+)" xyz_mm="(\S+) (\S+) (\S+)"', (SAMPLES / "active.xml").read_text(encoding="utf-8"))
+        assert len(places) == 3, places
+        for target, *place in places:
+            xml = xml.replace('<target id="{}"/>'.format(target),
+                              '<target id="{}" x_mm="{}" y_mm="{}" z_mm="{}"/>'.format(target, *place))
+    for name in ["loading", "nests"] + (["load_cell", "tool", "states"] if kind == "sweeps" else []):
+        xml, count = re.subn("<{} [^>]*/>".format(name), "", xml)
+        assert count == 1, name
+        (folder / (name + ".csv")).unlink(missing_ok=True)
+    (folder / "campaign.xml").write_text(xml, encoding="utf-8")
+    return folder
+
+
+def write_displacements(folder):
+    """Positions less those of step 0: means of the readings, as a user has who kept only differences."""
+    positions = {}
+    with open(folder / "loading.csv", encoding="utf-8", newline="") as file:
+        for row in csv.DictReader(file):
+            point = [float(row[axis]) for axis in ("x_mm", "y_mm", "z_mm")]
+            positions.setdefault((row["pose"], row["step"], row["target"]), []).append(point)
+    means = {key: [sum(axis) / len(points) for axis in zip(*points)] for key, points in positions.items()}
+    lines = ["pose,step,target,dx_mm,dy_mm,dz_mm"]
+    for (pose, step, target), point in means.items():
+        if step != "0":
+            moved = [one - at_rest for one, at_rest in zip(point, means[pose, "0", target])]
+            lines.append(",".join([pose, step, target, *("{:.6f}".format(one) for one in moved)]))
+    (folder / "displacements.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+
+def kinds_of_day(program, out):
+    """What commands say of the kinds of day, `report` among them."""
+    for kind, commands in KINDS.items():
+        day = day_of_kind(kind, out)
+        for words, definition in commands.items():
+            result = out / "kind.json"
+            result.unlink(missing_ok=True)
+            ran = subprocess.run([program, *words.split(), str(day), "--json", str(result)], capture_output=True, check=False)
+            if ran.returncode not in (0, 1) or not result.exists():
+                raise AssertionError("{} of {}: {}".format(words, kind, ran.stderr.decode()))
+            yield [words, kind], definition, json.loads(result.read_text(encoding="utf-8"))
+        report = out / (kind + "-report")
+        subprocess.run([program, "report", str(day), "--out", str(report)], capture_output=True, check=True)
+        yield ["report", kind], "report", json.loads((report / "results.json").read_text(encoding="utf-8"))
+
+
+def zeros_for_nothing(case, definition, value):
+    """Of an identification without postures under load: numbers that are not null."""
+    if definition != "identify" or value["postures"] != 0:
+        return []
+    wrong = []
+    for path in NUMBERS_OF_LOAD:
+        number = value
+        for key in path:
+            number = number[key]
+        if number is not None:
+            wrong.append("{}: {} is {}, expected null".format(" ".join(case), "/".join(map(str, path)), number))
+    return wrong
 
 
 def validator(definition):
@@ -152,8 +239,9 @@ def live(program):
                 if ran.returncode not in (0, 1) or not ran.stdout:
                     raise AssertionError("{} of {}: {}".format(definition, kind, ran.stderr.decode()))
                 yield [definition, kind], definition, json.loads(result.read_text(encoding="utf-8"))
+        yield from kinds_of_day(program, out)
         for spec in ("active", "unloaded"):
-            folder = out / spec
+            folder = out / ("simulated-" + spec)
             subprocess.run([program, "simulate", str(SAMPLES / (spec + ".xml")), "--out", str(folder)],
                            capture_output=True, check=True)
             yield ["simulate", spec], "truth", json.loads((folder / "truth.json").read_text(encoding="utf-8"))
@@ -195,6 +283,7 @@ def main():
                 continue
             count += 1
             failures += ["{}: {}".format(" ".join(case), error) for error in errors_of(definition, value)]
+            failures += zeros_for_nothing(case, definition, value)
             seen.setdefault(definition, value)
     for definition, value in seen.items():
         for what, wrong in spoilt(value):

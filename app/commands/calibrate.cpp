@@ -38,7 +38,7 @@ int calibrateCampaign(CalibrateRequest request, const CampaignSource& source, co
   const preparation::PreparedCampaign& prepared = *opened;
   const campaign::Campaign& campaign = prepared.campaign;
   requireCommanded(campaign, request.options.angles);
-  const calibration::Calibration calibration = calibration::calibrate(campaign, request.options);
+  const calibration::Calibration calibration = calibration::calibrate(prepared, request.options);
   const bool done = calibration.reason.empty();
   outlet.deliver(
       [&] {

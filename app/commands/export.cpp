@@ -58,7 +58,7 @@ int exportUrdf(const UrdfArguments& arguments) {
   const preparation::PreparedCampaign prepared =
       openPrepared(arguments.campaign, arguments.raw, hashesFor(arguments.json));
   const campaign::Campaign& campaign = prepared.campaign;
-  const calibration::Calibration calibration = calibration::calibrate(campaign, {});
+  const calibration::Calibration calibration = calibration::calibrate(prepared, {});
   const bool by_postures = calibration.reason.empty();
   std::optional<robot::Robot> arm;
   if (by_postures) {

@@ -54,10 +54,12 @@ render::PointSeries curveOf(const std::vector<ReadingError>& errors, CalibratedM
     const double share = static_cast<double>(i + 1) / static_cast<double>(lengths.size());
     curve.points.push_back({lengths[i] / io::kMillimetre, 100.0 * share});
   }
+  for (const render::PlotPoint& corner : curve.points) curve.values.push_back({corner.y, corner.x});
   return curve;
 }
 
-/// The calibrated models whose largest errors are half of the largest of all at most: what a second panel shows larger.
+/// Of the `models` drawn the calibrated ones whose largest errors are half of the largest of all at most: what a second
+/// panel shows larger.
 std::vector<CalibratedModel> enlargedModels(const std::vector<ReadingError>& errors,
                                             const std::vector<CalibratedModel>& models) {
   const auto largest = [&errors](CalibratedModel model) { return calibration::errorLengths(errors, model).back(); };
@@ -177,8 +179,9 @@ Extent extentOf(const std::vector<ReadingError>& errors, const Projection& proje
   return {box.center(), 0.5 * box.sizes().maxCoeff()};
 }
 
-render::ShapePanel mapPanel(const std::vector<ReadingError>& errors, CalibratedModel model,
-                            const std::vector<double>& limits, const Projection& projection, double reach) {
+render::ShapePanel mapPanel(const calibration::UnloadedDay& day, const std::vector<ReadingError>& errors,
+                            CalibratedModel model, const std::vector<double>& limits, const Projection& projection,
+                            double reach) {
   const Extent extent = extentOf(errors, projection);
   render::ShapePanel panel;
   panel.title = fmt::format("{}, {}", reports::capitalised(reports::shortModelWords(model)), projection.words);
@@ -198,7 +201,11 @@ render::ShapePanel mapPanel(const std::vector<ReadingError>& errors, CalibratedM
                                              limits.begin());
     panel.series[1 + at].points.push_back(
         {error.position[projection.right] - extent.middle.x(), error.position[projection.up] - extent.middle.y()});
+    const auto pose = static_cast<std::size_t>(day.postures[error.posture].pose);
+    panel.series[1 + at].values.push_back(
+        {error.of(model).norm() / io::kMillimetre, 0.0, reports::asIs(day.pose_ids[pose])});
   }
+  panel.value_name = "Position error, 3-D (mm)";
   render::PointSeries base;
   base.name = "base_link";
   base.colour = render::colours::kSeries[1];  // ink and the largest errors are one white in the dark
@@ -227,7 +234,7 @@ render::PointChart accuracyMap(const reports::ReportCampaign& one) {
   chart.columns = static_cast<int>(models.size());
   for (const Projection& projection : kProjections) {
     for (const CalibratedModel model : models)
-      chart.shapes.push_back(mapPanel(errors, model, limits, projection, reach));
+      chart.shapes.push_back(mapPanel(calibration.day, errors, model, limits, projection, reach));
   }
   return chart;
 }
@@ -247,6 +254,7 @@ reports::Figure describeAccuracyMap(const reports::ReportCampaign& one) {
       reports::millimetres(worst.of(best).norm()),
       reports::pointName(calibration.day.targets[static_cast<std::size_t>(worst.target)]),
       reports::asIs(calibration.day.pose_ids[static_cast<std::size_t>(pose)]));
+  figure.category_name = "Posture";
   figure.alt = "Maps from above and from the side, one a model: places of the reflectors, coloured by position error.";
   return figure;
 }
@@ -264,10 +272,9 @@ double placeInDay(const calibration::UnloadedDay& day, std::size_t posture) {
 }
 
 render::PointPanel dayPanel(const calibration::Calibration& calibration, const std::vector<ReadingError>& errors,
-                            bool beam, int direction) {
+                            const std::vector<CalibratedModel>& models, bool beam, int direction) {
   render::PointPanel panel;
-  for (const CalibratedModel model : drawnModels(calibration)) {
-    if (model == CalibratedModel::nominal) continue;
+  for (const CalibratedModel model : models) {
     std::vector<render::PlotPoint> points;
     for (const ReadingError& error : errors) {
       const Eigen::Matrix3d axes = beam ? beamDirections(error.station, error.position) : Eigen::Matrix3d::Identity();
@@ -303,15 +310,23 @@ render::PointChart residualsOverDay(const reports::ReportCampaign& one) {
   chart.subtitle = fmt::format("{}; {}", reports::asIs(one.campaign.name), judgedWords(calibration));
   chart.note = drawnWords(errors.size(), kMostOverDay, "readings");
   if (!chart.note.empty()) chart.note = chart.note.substr(1) + " The means are of all.";
-  chart.columns = 1;
+  std::vector<CalibratedModel> models = drawnModels(calibration);
+  std::erase(models, CalibratedModel::nominal);
+  // What effects leave would be a flat line beside what the geometry leaves: then it has panels of its own.
+  const std::vector<CalibratedModel> enlarged = enlargedModels(errors, models);
+  chart.columns = enlarged.empty() ? 1 : 2;
   constexpr std::array<const char*, 3> kBeam{"Along the beam", "Across it, level", "Across it, upright"};
   constexpr std::array<const char*, 3> kAxes{"Along x of base_link", "Along y of base_link", "Along z of base_link"};
   for (int d = 0; d < 3; ++d) {
-    render::PointPanel panel = dayPanel(calibration, errors, beam, d);
-    panel.title = (beam ? kBeam : kAxes)[static_cast<std::size_t>(d)];
-    panel.y_title = "Left (µm)";
-    if (d == 2) panel.x_title = calibration.day.times_known ? "Time (h)" : "Posture, in the order of the day";
-    chart.diagrams.push_back(std::move(panel));
+    const auto add = [&](const std::vector<CalibratedModel>& of, const std::string& which) {
+      render::PointPanel panel = dayPanel(calibration, errors, of, beam, d);
+      panel.title = (beam ? kBeam : kAxes)[static_cast<std::size_t>(d)] + which;
+      panel.y_title = "Left (µm)";
+      if (d == 2) panel.x_title = calibration.day.times_known ? "Time (h)" : "Posture, in the order of the day";
+      chart.diagrams.push_back(std::move(panel));
+    };
+    add(models, "");
+    if (!enlarged.empty()) add(enlarged, fmt::format(": {}, enlarged", reports::shortModelWords(enlarged.back())));
   }
   return chart;
 }

@@ -109,11 +109,19 @@ std::optional<render::DotRowChart> effectClasses(const reports::ReportCampaign& 
 
 namespace {
 
-/// Effects that the verdict names as one although the postures would part them: the readings, with their noise, do not.
+/// What is said as one, in the verdict and, where the classes beside it are candidates of these readings, among them.
+const std::vector<diagnosis::VerdictEntry>& saidAsOne(const diagnosis::Diagnosis& diagnosis) {
+  return diagnosis.verdict.entries;
+}
+const std::vector<accuracy::AccuracyClass>& saidAsOne(const accuracy::AccuracyDiagnosis& accuracy) {
+  return accuracy.classes;
+}
+
+/// Effects that are said as one although the postures would part them: the readings, with their noise, do not.
 template <class Answer>
 std::vector<std::string> notParted(const Answer& answer) {
   std::vector<std::string> names;
-  for (const auto& entry : entriesOf(answer)) {
+  for (const auto& entry : saidAsOne(answer)) {
     const bool joined = std::any_of(answer.aliases.begin(), answer.aliases.end(), [&entry](const auto& alias) {
       return std::all_of(entry.effects.begin(), entry.effects.end(), [&alias](const auto effect) {
         return std::find(alias.begin(), alias.end(), effect) != alias.end();

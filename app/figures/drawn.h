@@ -1,8 +1,12 @@
 #pragma once
 
+#include <fmt/format.h>
+#include <optional>
+#include <stdexcept>
 #include <type_traits>
 #include <utility>
 
+#include "app/output.h"
 #include "render/arm_scene.h"
 #include "render/dot_row_chart.h"
 #include "render/grouped_bar_chart.h"
@@ -52,6 +56,19 @@ reports::Figure drawn(reports::Figure figure, const Picture& picture, render::Si
   figure.width = image.width;
   figure.height = image.height;
   return figure;
+}
+
+/// The same; none, with a warning, where the renderer refuses what is to be drawn: a report without one of its figures
+/// serves better than none.
+template <class Picture>
+std::optional<reports::Figure> drawnOrLeftOut(const reports::Figure& figure, const Picture& picture,
+                                              render::Size size) {
+  try {
+    return drawn(figure, picture, size);
+  } catch (const std::invalid_argument& refused) {
+    printWarnings({fmt::format("figure '{}' is left out: {}", figure.title, refused.what())});
+    return std::nullopt;
+  }
 }
 
 }  // namespace stiffscope::app

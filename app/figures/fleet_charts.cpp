@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "render/point_chart.h"
+#include "reports/words/fleet_words.h"
 #include "reports/words/names.h"
 #include "reports/words/numbers.h"
 #include "reports/words/rich_text.h"
@@ -70,7 +71,7 @@ reports::Figure controlFigure(const fleet::Fleet& fleet, const fleet::SeriesChar
   const fleet::DaySeries& series = fleet.series[charts.series];
   const std::string encoders = reports::encoderWords(series.encoders);
   render::PointChart chart;
-  chart.title = reports::asIs(series.machine) + (encoders.empty() ? "" : ", " + encoders);
+  chart.title = reports::asIs(reports::machineWords(fleet, series)) + (encoders.empty() ? "" : ", " + encoders);
   chart.subtitle = (charts.method ? reports::longName(*charts.method) + ", joint springs alone"
                                   : std::string("Calibration, by the arm's own weight")) +
                    (charts.same_postures ? "" : "; postures are not the same on all dates");
@@ -88,7 +89,8 @@ reports::Figure controlFigure(const fleet::Fleet& fleet, const fleet::SeriesChar
   figure.id = fmt::format("control-{}", number);
   figure.title = chart.title;
   figure.caption = reports::asIs(changesOf(fleet, charts.series));
-  figure.alt = "Control charts of " + series.machine + ", joint by joint. " + changesOf(fleet, charts.series);
+  figure.alt = "Control charts of " + reports::machineWords(fleet, series) + ", joint by joint. " +
+               changesOf(fleet, charts.series);
   return figure;
 }
 

@@ -11,6 +11,8 @@
 #include "reports/report_content.h"
 #include "reports/words/effect_words.h"
 #include "reports/words/names.h"
+#include "reports/words/numbers.h"
+#include "reports/words/workspace_words.h"
 
 namespace stiffscope::app {
 
@@ -30,8 +32,8 @@ class FigureList {
 
   template <class Picture>
   void add(const char* section, reports::Figure figure, const Picture& picture, render::Size size = kChart) {
-    figures_.push_back(drawn(std::move(figure), picture, size));
-    figures_.back().section = section;
+    figure.section = section;
+    if (auto finished = drawnOrLeftOut(figure, picture, size)) figures_.push_back(*std::move(finished));
   }
 
   /// How good the readings are that everything else stands on.
@@ -61,11 +63,13 @@ class FigureList {
     const render::SpreadChart spreads = subsetSpreads(one_, options.with_paper);
     if (!spreads.panels.empty()) add("subsets", describeSubsetSpreads(one_), spreads);
     const render::IntervalChart intervals = stiffnessIntervals(one_);
-    if (!intervals.series.empty()) add("stiffness", describeStiffnessIntervals(one_), intervals);
+    if (reports::anyPositiveStiffness(one_.identification))
+      add("stiffness", describeStiffnessIntervals(one_), intervals);
   }
 
   void addWorkspace() {
-    add("workspace", describeStiffnessSlice(one_), stiffnessSliceChart(one_), kScene);
+    if (reports::givesInSlice(one_.workspace->slice))
+      add("workspace", describeStiffnessSlice(one_), stiffnessSliceChart(one_), kScene);
     const render::IntervalChart by_posture = postureStiffnessChart(one_);
     if (!by_posture.series.empty()) add("workspace", describePostureStiffness(one_), by_posture);
   }
@@ -158,8 +162,9 @@ std::vector<reports::Figure> makeFigures(const std::vector<reports::ReportCampai
     }
   }
   if (avoided && avoided->available) {
-    figures.push_back(drawn(describeEncoderBars(*avoided), encoderBars(*avoided), kChart));
-    figures.back().section = "compensation";
+    reports::Figure figure = describeEncoderBars(*avoided);
+    figure.section = "compensation";
+    if (auto finished = drawnOrLeftOut(figure, encoderBars(*avoided), kChart)) figures.push_back(*std::move(finished));
   }
   return figures;
 }

@@ -157,7 +157,9 @@ reports::Figure describeResidualBars(const reports::ReportCampaign& one, bool wi
       reports::fixed(reports::kMmPerM * reports::mean(reports::displacementAt(one.identification, point.at_wrist)), 2));
   const std::string left = leftWords(one, {identification::Method::complete_pose, identification::Method::partial_pose,
                                            identification::Method::decoupled_partial_pose});
-  if (!left.empty()) figure.caption += fmt::format(" Left after compensation, in mm: {}.", left);
+  if (!left.empty())
+    figure.caption +=
+        fmt::format(" Left after compensation, by stiffnesses identified without the posture, in mm: {}.", left);
   figure.caption += drawnOf(one, reports::displacementAt(one.identification, point.at_wrist));
   figure.caption += with_paper ? " The counterpart of the paper's Fig. 7."
                                : " Bars: how far it moves in each posture, and what each method leaves of that.";

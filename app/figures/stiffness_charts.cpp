@@ -108,7 +108,10 @@ std::optional<render::Spread> spreadIn(const identification::MethodResult& metho
                                        const reports::StiffnessUnit& unit) {
   if (!hasSpread(method, joint)) return std::nullopt;
   const identification::StiffnessSpread spread = identification::spreadOf(method.subsets, joint);
-  if (!std::isfinite(spread.mean)) return std::nullopt;
+  // A compliance of zero in one subset is an infinite stiffness there.
+  for (const double one :
+       {spread.low, spread.quartile_low, spread.median, spread.quartile_high, spread.high, spread.mean})
+    if (!std::isfinite(one)) return std::nullopt;
   return render::Spread{spread.low / unit.size,           spread.quartile_low / unit.size, spread.median / unit.size,
                         spread.quartile_high / unit.size, spread.high / unit.size,         spread.mean / unit.size};
 }

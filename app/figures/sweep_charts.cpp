@@ -105,8 +105,11 @@ render::ShapePanel circlePanel(const reports::ReportCampaign& one, const frames:
   }
   const double apart = 1.0 / static_cast<double>(rings + 1);
   const double magnified = largest > 0.0 ? 0.45 * apart / largest : 1.0;  // rings do not touch
+  const double bar = io::kMicrometre * render::roundUp125(std::max(1e-3, largest / io::kMicrometre));
+  const reports::LengthUnit unit = reports::lengthUnit(bar);
   render::ShapePanel panel;
   panel.title = fmt::format("Axis {}", axis + 1);
+  panel.value_name = fmt::format("Radial residual ({})", unit.name);
   for (std::size_t ring = 0; ring < rings; ++ring) {
     const double radius = 1.0 - apart * static_cast<double>(ring);
     panel.series.push_back(fullRing(radius));
@@ -116,12 +119,13 @@ render::ShapePanel circlePanel(const reports::ReportCampaign& one, const frames:
     for (const std::size_t i : preparation::evenlySpreadIndices(residuals[ring].size(), kMostOnRing))
       shown.push_back(residuals[ring][i]);
     const auto radiusOf = [&](const RadialResidual& at) { return radius + magnified * at.residual; };
-    for (const RadialResidual& at : shown) series.points.push_back(polar(radiusOf(at), at.angle));
+    for (const RadialResidual& at : shown) {
+      series.points.push_back(polar(radiusOf(at), at.angle));
+      series.values.push_back({at.residual / unit.size, at.angle / io::kDegree});
+    }
     series.line = alongRing(shown, radiusOf);
     panel.series.push_back(std::move(series));
   }
-  const double bar = io::kMicrometre * render::roundUp125(std::max(1e-3, largest / io::kMicrometre));
-  const reports::LengthUnit unit = reports::lengthUnit(bar);
   panel.scale_bar = magnified * bar;
   panel.scale_name = fmt::format("{} {}", render::shortNumber(bar / unit.size), unit.name);
   return panel;
@@ -162,6 +166,7 @@ reports::Figure describeSweepCircles(const reports::ReportCampaign& one) {
       "{}, of axis {}. Scatter is noise; a ring that is bent the same way for all reflectors is an axis that "
       "moves as it turns.",
       reports::shownLength(worst, 2), at + 1);
+  figure.category_name = "Angle of the joint (°)";
   figure.alt = "Rings by axis and reflector: readings of the sweeps about the fitted circles, residuals magnified.";
   return figure;
 }

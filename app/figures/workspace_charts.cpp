@@ -146,6 +146,8 @@ render::PointChart stiffnessSliceChart(const campaign::Campaign& campaign, const
   const DrawnPlaces drawn = drawnPlaces(slice);
   const double scale = outlineScale(slice, drawn.apart);
   render::PointSeries springs = outline("by joint springs alone (K_{x})", render::colours::kNone);
+  render::PointSeries centres = outline("", render::colours::kNone);  // nothing to see: what a pointer reads there
+  centres.joined = false;
   std::vector<render::PointSeries> classes;
   const std::array<double, 3> bounds = stiffness.empty() ? std::array<double, 3>{} : classBounds(stiffness);
   for (std::size_t k = 0; k < kStiffnessColours.size(); ++k)
@@ -159,6 +161,9 @@ render::PointChart stiffnessSliceChart(const campaign::Campaign& campaign, const
     const auto k =
         static_cast<std::size_t>(std::count_if(bounds.begin(), bounds.end(), [&](double b) { return own >= b; }));
     addEllipse(model, centre, scale, classes[k].points);
+    if (!(own > 0.0)) continue;
+    centres.points.push_back(centre);
+    centres.values.push_back({own});
   }
   // The arm in the slice's posture, seen at right angles to the plane.
   const render::ArmPose pose = bareArm(frames, robot::postureAt(frames.arm.arm, slice.q));
@@ -168,6 +173,8 @@ render::PointChart stiffnessSliceChart(const campaign::Campaign& campaign, const
   for (const Eigen::Vector3d& point : pose.joint_points)
     arm.points.push_back({point.dot(slice.outward), point.z() - height});
   panel.series.push_back(std::move(arm));
+  panel.series.push_back(std::move(centres));
+  panel.value_name = fmt::format("Softest in the plane ({})", unit.name);
   if (!springs.points.empty()) panel.series.push_back(std::move(springs));
   for (render::PointSeries& one : classes) {
     if (!one.points.empty()) panel.series.push_back(std::move(one));

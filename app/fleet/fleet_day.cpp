@@ -152,6 +152,8 @@ CampaignResult fleetDay(const std::string& folder, bool springs_only) {
   CampaignResult result(campaign.robot.joints());
   result.name = campaign.name, result.date = campaign.date, result.robot = campaign.robot.name;
   result.encoders = campaign.double_encoder;
+  const robot::ArmAxes& axes = campaign.robot.axes_in_base_at_zero;
+  result.axes.assign(axes.begin(), axes.end());
   keepAudit(audit::audit(prepared), result);
   if (identification::whatLoadsLack(campaign).empty()) {
     ModelChoice choice;

@@ -61,7 +61,7 @@ FoundCampaign foundIn(const fs::path& folder, bool springs_only) {
   FoundCampaign found;
   found.campaign.folder = folder.string();
   found.campaign.machine = fleet::machineOf({}, {}, folder.string());
-  constexpr int kKept = 2;  // of what is kept of a campaign (reports::keptJson): one more where that changes
+  constexpr int kKept = 3;  // of what is kept of a campaign (reports::keptJson): one more where that changes
   std::string key =
       fmt::format("stiffscope {} {} {}\n", STIFFSCOPE_VERSION, kKept, springs_only ? "springs" : "supported");
   try {

@@ -37,7 +37,7 @@ struct AccuracyClass {
 struct AccuracyGap {
   double nominal = 0.0;  ///< base and reflectors alone fitted to the URDF's arm
   double before = 0.0;   ///< geometry calibrated, held out
-  double after = 0.0;    ///< with the verdict's effects, held out
+  double after = 0.0;    ///< with all effects that were fitted, the verdict's among them, held out
   double noise = 0.0;    ///< of the readings
 };
 
@@ -55,6 +55,7 @@ struct UntestableEffect {
 struct AccuracyDiagnosis {
   bool usable = false;
   Remark unusable_reason;
+  bool effects_asked = true;           ///< false: fewer postures than that takes; then `unknown` is not looked into
   std::vector<AccuracyEntry> verdict;  ///< empty: none
   std::vector<Remark> reasons;
   std::vector<AccuracyClass> classes;                ///< the verdict's first, then the others; best first
@@ -62,12 +63,12 @@ struct AccuracyDiagnosis {
   std::vector<DetectableEffect> detectable;
   std::vector<UntestableEffect> not_testable;
   AccuracyGap gap;
-  diagnosis::Shrink shrink_together;  ///< by all of the verdict
-  /// Where the residual of the geometry lies, and that of the geometry with the verdict's effects.
+  diagnosis::Shrink shrink_together;  ///< by all effects that were fitted
+  /// Where the residual of the geometry lies, and that of the geometry with all effects that were fitted.
   std::vector<diagnosis::WhereTable> where, where_after;
   std::vector<Remark> next;
   double size_limit = 0.0;            ///< below it an effect is too small to matter, m rms per coordinate
-  double left_over = 0.0;             ///< chi2 per equation with the verdict's effects
+  double left_over = 0.0;             ///< chi2 per equation with all effects that were fitted
   double left_over_limit = 0.0;       ///< what chance makes of it
   bool geometry_off_nominal = false;  ///< kinematic_error is named: the URDF misses by more than its limit
   double geometry_limit = 0.0;        ///< that limit, m rms per coordinate

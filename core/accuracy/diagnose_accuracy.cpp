@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 #include <random>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "core/accuracy/where_next.h"
@@ -27,15 +29,6 @@ constexpr double kEnoughForHalf = 60.0;
 
 /// Beside `unknown` an effect is named where no more than this share of the gap's squares beyond noise stays.
 constexpr double kMostLeft = 0.25;
-
-/// With the noise that the day was found to have.
-campaign::Campaign asNoisyAsFound(campaign::Campaign campaign, const preparation::PreparedCampaign& prepared) {
-  if (prepared.preparation.declared && prepared.noise.known && prepared.noise.degrees > 0.0) {
-    campaign.tracker = preparation::asNoisyAs(*prepared.preparation.declared,
-                                              {prepared.noise.along_factor, prepared.noise.across_factor});
-  }
-  return campaign;
-}
 
 double rmsOf(const std::vector<double>& squares) {
   return std::sqrt(std::accumulate(squares.begin(), squares.end(), 0.0));
@@ -232,7 +225,8 @@ class Decider {
     }
     if (left <= limit) return;
     unknown_ = true;
-    result_.reasons.emplace_back(RemarkId::not_explained, left, limit);
+    result_.reasons.emplace_back(result_.effects_asked ? RemarkId::not_explained : RemarkId::not_looked_into, left,
+                                 limit);
     const double stays = 1.0 - explainedOf(before_, std::min(before_, std::hypot(after_, withdrawn_)), noise);
     if (stays <= kMostLeft) return;
     std::vector<std::string> candidates;
@@ -246,7 +240,11 @@ class Decider {
 
   void explain() {
     std::vector<Remark> first{Remark(RemarkId::left_by_geometry, before_, result_.gap.noise)};
-    if (calibration_.selected.effects.empty()) first.emplace_back(RemarkId::no_effect_passes, result_.size_limit);
+    if (!result_.effects_asked) {
+      first.emplace_back(RemarkId::effects_not_asked, result_.postures, calibration::kFewestForEffects);
+    } else if (calibration_.selected.effects.empty()) {
+      first.emplace_back(RemarkId::no_effect_passes, result_.size_limit);
+    }
     const preparation::DriftModel& nests = prepared_.drift;
     if (nests.moved()) {
       first.emplace_back(RemarkId::nests_show_station, nests.course == preparation::StationCourse::jumped,
@@ -256,6 +254,19 @@ class Decider {
     }
     first.insert(first.end(), result_.reasons.begin(), result_.reasons.end());
     result_.reasons = std::move(first);
+  }
+
+  /// The station from which all is read since the frame moved, and nothing before; empty where there is none such.
+  std::string stationTakenUp(const AccuracyClass& one) const {
+    const calibration::UnloadedDay& day = calibration_.day;
+    if (day.stations.size() < 2 || one.parts.empty() || !one.parts.front().from) return {};
+    std::set<int> before, since;
+    for (const calibration::Posture& posture : day.postures) {
+      for (const calibration::Reading& reading : posture.readings)
+        (posture.time < *one.parts.front().from ? before : since).insert(reading.place);
+    }
+    if (since.size() != 1 || before.contains(*since.begin())) return {};
+    return preparation::shownStation(day.stations[static_cast<std::size_t>(*since.begin())]);
   }
 
   /// What the verdict names before what it does not, each by score; the verdict is made of the former.
@@ -270,6 +281,9 @@ class Decider {
       if (one.effects.front() == UnloadedEffect::frame_error) {
         if (prepared_.drift.moved()) entry.detail = "station";
         if (prepared_.drift.course == preparation::StationCourse::still) entry.detail = "robot";
+        // The nests, too, may have moved between two stations, which then do not stand as they were joined.
+        const std::string taken_up = stationTakenUp(one);
+        if (!taken_up.empty() && entry.detail != "station") entry.detail = "robot or " + taken_up;
       }
       result_.verdict.push_back(std::move(entry));
     }
@@ -301,16 +315,16 @@ void addUntestable(const calibration::UnloadedDay& day, AccuracyDiagnosis& resul
 AccuracyDiagnosis diagnoseAccuracy(const preparation::PreparedCampaign& prepared,
                                    const calibration::CalibrationOptions& options) {
   AccuracyDiagnosis result;
-  result.calibration = calibration::calibrate(asNoisyAsFound(prepared.campaign, prepared), options);
+  result.calibration = calibration::calibrate(prepared, options);
   // A station that moved is a cause, which is not there any more where it was taken off.
   if (prepared.preparation.drift.taken_off)
-    result.as_read =
-        calibration::calibrate(asNoisyAsFound(preparation::asMeasured(prepared).campaign, prepared), options);
+    result.as_read = calibration::calibrate(preparation::asMeasured(prepared), options);
   const Calibration& calibration = result.ofCause();
   result.unusable_reason = result.calibration.reason.empty() ? calibration.reason : result.calibration.reason;
   result.usable = result.unusable_reason.empty();
   if (!result.usable) return result;
   result.postures = static_cast<int>(calibration.day.postures.size());
+  result.effects_asked = calibration.day.postures.size() >= calibration::kFewestForEffects;
   result.readings = static_cast<int>(calibration.day.readings());
   addUntestable(calibration.day, result);
   Decider(prepared, result).run();

@@ -56,11 +56,12 @@ std::vector<Remark> nextMeasurements(const AccuracyDiagnosis& diagnosis) {
     want(measurementFor(one.effect), std::string(idOf(one.effect)));
   const bool unknown = std::any_of(diagnosis.verdict.begin(), diagnosis.verdict.end(),
                                    [](const AccuracyEntry& entry) { return entry.effects.empty(); });
-  if (unknown) {
+  if (unknown && diagnosis.effects_asked) {
     want(RemarkId::measure_repeats, "unknown");
     want(RemarkId::measure_more_postures, "unknown");
   }
   std::vector<Remark> next;
+  if (!diagnosis.effects_asked) next.emplace_back(RemarkId::measure_enough, calibration::kFewestForEffects);
   for (const auto& [what, ids] : wanted) next.emplace_back(what, ids);
   return next;
 }

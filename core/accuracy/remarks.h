@@ -7,8 +7,10 @@ enum class RemarkId {
   // why
   left_by_geometry,      ///< rms per coordinate m, of noise alone m
   no_effect_passes,      ///< least size m
+  effects_not_asked,     ///< postures, postures that it takes
   geometry_off_nominal,  ///< rms per coordinate m, limit m
   not_explained,         ///< rms per coordinate m beyond noise, limit m
+  not_looked_into,       ///< the same, where no effect was asked for
   candidates_only,       ///< ids of effects; share of the gap's squares beyond noise that stays, share that may
   not_in_every_fold,     ///< id of the effect
   less_than_unknown,     ///< id of the effect; its rms per coordinate m, that of what is not explained m
@@ -25,6 +27,7 @@ enum class RemarkId {
   measure_scale_bar,      ///< ids: a known length
   measure_more_postures,  ///< ids: more shapes of the arm
   measure_temperature,    ///< ids: temperatures beside the postures
+  measure_enough,         ///< postures that it takes to ask for effects
 };
 
 }  // namespace stiffscope::accuracy

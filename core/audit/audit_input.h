@@ -23,10 +23,10 @@ struct PostureReadBack {
   JointVector significance;       ///< each in parts of its uncertainty by the reading noise
   int joint = 0;                  ///< that explains most on its own
   double joint_correction = 0.0;  ///< of that joint alone, rad
-  double sag_doubt = 0.0;         ///< of that joint: what a wrong sag could put there, rad
-  double explained = 0.0;         ///< share of the posture's misfit that joint angles explain
-  double score = 0.0;             ///< largest significance in parts of the campaign's own scatter
-  bool outlier = false;           ///< score beyond its limit, and more than the sag leaves in doubt
+  double sag_doubt = 0.0;  ///< of that joint: what a wrong sag, or a spring that is not straight, puts there, rad
+  double explained = 0.0;  ///< share of the posture's misfit that joint angles explain
+  double score = 0.0;      ///< largest significance in parts of the campaign's own scatter
+  bool outlier = false;    ///< score beyond its limit, and more than the sag leaves in doubt
 
   /// Of an arm of so many joints, whose angles are right as far as is known.
   PostureReadBack(int of_pose, int joints)

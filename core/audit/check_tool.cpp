@@ -131,6 +131,10 @@ class Inquiry {
     check_.message = says();
     findExchanges();
     const Sum all = sumOf(tool_, [&](const ToolDistance& one) { return counts(one); });
+    constexpr int kEnough = 20;
+    constexpr double kFarBelow = 0.01;  // of the variance: repeats within seconds do not keep this well either
+    if (all.dof >= kEnough && all.ratio() < kFarBelow)
+      check_.details.push_back(Remark(RemarkId::distances_keep_too_well, std::sqrt(all.ratio())));
     const bool spread = all.ratio() > all.limit();
     if (*check_.value <= *check_.limit && !spread) return check_;
     const bool doubled = all.ratio() > preparation::kFailVarianceRatio;

@@ -177,6 +177,12 @@ preparation::AuditCheck missCheck(const AuditInput& input) {
   check.where = Remark(RemarkId::at_axes, worst.first + 1, worst.first + 2);
   check.limit_source = leak ? ofWrist(input, LimitId::leak_that_decoupling_bears) : Remark(LimitId::places_or_sweeps);
   std::vector<Remark> more;
+  if (wrist.offset()) {
+    check.value = wrist.apart;
+    check.limit = frames::WristCentre::kOffsetWrist;
+    check.limit_source = Remark(LimitId::centre_of_wrist);
+    more.push_back(Remark(RemarkId::wrist_meets_apart, wrist.misses.front().first + 1, wrist.apart));
+  }
   if (leak) more.push_back(ofWrist(input, RemarkId::wrist_leak, *leak));
   if (*check.value > *check.limit) {
     check.verdict = preparation::AuditVerdict::warn;

@@ -173,15 +173,54 @@ PostureReadBack readBackOf(const std::vector<const frames::AbsoluteRow*>& rows, 
   return result;
 }
 
+/// By which a joint's compliance changes at most from no torque to the largest that the own weight makes, where its
+/// spring is not straight. A choice: gears of arms are a third to a half stiffer at full load than at their first
+/// loads.
+constexpr double kMostCurved = 0.6;
+
+/// What springs c tau - h tau |tau| with h at that bound put into each posture's angles that a straight spring and a
+/// joint's zero by the other postures do not: much where the own weight hardly turns the joint, or turns it the other
+/// way than in the others.
+std::vector<JointVector> curvedSprings(const std::vector<JointVector>& sags, int joints) {
+  std::vector<JointVector> apart(sags.size(), JointVector::Zero(joints));
+  const double count = static_cast<double>(sags.size());
+  for (int j = 0; j < joints; ++j) {
+    double largest = 0.0, mean = 0.0, mean_curved = 0.0;
+    for (const JointVector& sag : sags) {
+      largest = std::max(largest, std::abs(sag[j]));
+      mean += sag[j] / count;
+      mean_curved += sag[j] * std::abs(sag[j]) / count;
+    }
+    double squares = 0.0, product = 0.0;
+    for (const JointVector& sag : sags) {
+      squares += (sag[j] - mean) * (sag[j] - mean);
+      product += (sag[j] - mean) * (sag[j] * std::abs(sag[j]) - mean_curved);
+    }
+    if (!(squares > 1e-12 * largest * largest)) continue;
+    for (std::size_t i = 0; i < sags.size(); ++i) {
+      const double off = sags[i][j] - mean;
+      const double left = sags[i][j] * std::abs(sags[i][j]) - mean_curved - product / squares * off;
+      const double leverage = 1.0 / count + off * off / squares;  // a posture pulls its own line
+      apart[i][j] = kMostCurved * std::abs(left) / (largest * std::max(1e-6, 1.0 - leverage));
+    }
+  }
+  return apart;
+}
+
 /// Of every posture that has rows, in the order of `rows.poses`.
 std::vector<PostureReadBack> readBacks(const frames::AbsoluteRows& rows, const Eigen::VectorXd& parameters) {
   std::map<int, std::vector<const frames::AbsoluteRow*>> by_pose;
   for (const frames::AbsoluteRow& row : rows.rows) by_pose[row.pose].push_back(&row);
   std::vector<PostureReadBack> postures;
+  std::vector<JointVector> sags;
   for (const int pose : rows.poses) {
     const auto own = by_pose.find(pose);
     postures.push_back(own == by_pose.end() ? PostureReadBack(pose, rows.joints) : readBackOf(own->second, parameters));
+    sags.push_back(own == by_pose.end() ? JointVector::Zero(rows.joints) : own->second.front()->sag);
   }
+  const std::vector<JointVector> curved = curvedSprings(sags, rows.joints);
+  for (std::size_t i = 0; i < postures.size(); ++i)
+    postures[i].sag_doubt = std::max(postures[i].sag_doubt, curved[i][postures[i].joint]);
   return postures;
 }
 

@@ -68,6 +68,7 @@ enum class RemarkId {
   declare_load_cell_noise,  ///< the same, of all figures
   take_step_0_off,          ///< drift over the day, N and Nm; hours between its first reading and its last
   unloaded_scatter,         ///< before, after: in parts of the declared noise
+  distances_keep_too_well,  ///< their rms in parts of the declared noise
   distance_changes,         ///< both reflectors, m, state, more
   distances_scatter,        ///< in parts of the noise
   reflectors_exchanged,     ///< row, state, reflectors in pairs: what it is called, what it is; states in a row, last
@@ -115,6 +116,7 @@ enum class RemarkId {
   wrist_residuals,    ///< rms m, of it without the axes' missing each other m, in parts of the noise, more
   wrist_reading_off,  ///< row
   wrist_axes_miss,    ///< of each two that follow each other: distance, its sd, m; more; the first axis of them
+  wrist_meets_apart,  ///< the first of its axes; how far apart the first two and the last two meet, m
   wrist_leak,         ///< share of the displacement; first and last joint of the wrist
   decoupling_needs_one_point,
 
@@ -215,6 +217,7 @@ enum class LimitId {
   turns_as_reported,
   reflector_radius,
   built_to_drawing,
+  centre_of_wrist,             ///< of no wrist that is made to have one
   leak_that_decoupling_bears,  ///< first and last joint of the wrist
   places_or_sweeps,
   trusted_places,

@@ -40,6 +40,7 @@ class Fitting {
     for (const EffectPart& part : fit_.parts) {
       for (const EffectTerm& term : part.terms) prior_[k++] = 1.0 / (term.most * term.most);
     }
+    for (const EffectTerm& term : fit_.stations) prior_[k++] = 1.0 / (term.most * term.most);
   }
 
   /// `known`: the scale is that of an earlier fit, which is where this one starts.
@@ -91,9 +92,12 @@ class Fitting {
     return sum;
   }
 
+  /// What is free but for the stations' poses, of which each is known beforehand by an equation of its own.
+  double machineUnknowns() const { return static_cast<double>(fit_.free.size() - fit_.stations.size()); }
+
   double dofShare() const {
     const double rows = 3.0 * static_cast<double>(usedReadings());
-    return std::max(0.05, (rows - static_cast<double>(fit_.free.size())) / std::max(1.0, rows));
+    return std::max(0.05, (rows - machineUnknowns()) / std::max(1.0, rows));
   }
 
   void startScale() {
@@ -316,7 +320,7 @@ class Fitting {
     fit_.design_effect = sum.squares_apart > 0.0 ? std::max(1.0, sum.squares_together / sum.squares_apart) : 1.0;
     const double factor = std::max(1.0, fit_.chi2_per_dof) * (fit_.model_sd > 0.0 ? fit_.design_effect : 1.0);
     fit_.covariance = factor * solveSymmetric(matrix, Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols()));
-    fit_.parameters = static_cast<int>(fit_.free.size());
+    fit_.parameters = static_cast<int>(machineUnknowns());
     fit_.done = fit_.steps.allFinite() && fit_.sizes.allFinite();
   }
 
@@ -340,6 +344,8 @@ ArmFit fitArm(const UnloadedDay& day, const ArmPlace& place, const std::vector<E
   fit.parts = parts;
   Eigen::Index terms = 0;
   for (const EffectPart& part : parts) terms += static_cast<Eigen::Index>(part.terms.size());
+  fit.stations = stationPoses(day, place.base_from_points);
+  terms += static_cast<Eigen::Index>(fit.stations.size());
   fit.sizes = Eigen::VectorXd::Zero(terms);
   fit.refused.assign(static_cast<std::size_t>(terms), false);
   fit.steps = Eigen::VectorXd::Zero(fit.places().count(day.targets.size()));

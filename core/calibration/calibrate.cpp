@@ -38,6 +38,7 @@ bool worthAnotherLook(const ArmFit& geometry, const ArmFit& effects, const Selec
 /// Readings as an arm would show them that has the axes, base and reflectors of a fit and no effects.
 UnloadedDay asRigid(const UnloadedDay& day, ArmFit fit) {
   fit.parts.clear();
+  fit.stations.clear();
   fit.sizes.resize(0);
   const Eigen::Isometry3d points_from_base = fit.place.base_from_points.inverse();
   const FittedDay fitted(day, fit);
@@ -272,6 +273,15 @@ Calibration calibrate(const campaign::Campaign& campaign, const CalibrationOptio
   result.angles->joints = commandedJoints(campaign);
   result.angles->largest = largest;
   return result;
+}
+
+Calibration calibrate(const preparation::PreparedCampaign& prepared, const CalibrationOptions& options) {
+  const preparation::NoiseModel& noise = prepared.noise;
+  if (!prepared.preparation.declared || !noise.known || !(noise.degrees > 0.0))
+    return calibrate(prepared.campaign, options);
+  campaign::Campaign campaign = prepared.campaign;
+  campaign.tracker = preparation::asNoisyAs(*prepared.preparation.declared, {noise.along_factor, noise.across_factor});
+  return calibrate(campaign, options);
 }
 
 }  // namespace stiffscope::calibration

@@ -14,6 +14,7 @@
 #include "core/calibration/remarks.h"
 #include "core/calibration/unloaded_day.h"
 #include "core/preparation/finding.h"
+#include "core/preparation/prepare.h"
 #include "metrology/remark.h"
 
 namespace stiffscope::calibration {
@@ -86,6 +87,9 @@ struct Calibration {
 /// left. Held out: postures of one fold are predicted by models of which nothing was fitted or chosen with them. A
 /// reading that is rejected by the fit to all is left out of every figure.
 Calibration calibrate(const campaign::Campaign& campaign, const CalibrationOptions& options);
+
+/// With the noise that the repeats of the day show, where there are enough of them, in place of the declared one.
+Calibration calibrate(const preparation::PreparedCampaign& prepared, const CalibrationOptions& options);
 
 /// Three numbers with their standard uncertainties by all that was fitted, m or rad; 0: held.
 struct UncertainPoint {

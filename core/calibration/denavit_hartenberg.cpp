@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "metrology/lines.h"
 
@@ -102,6 +103,23 @@ DenavitHartenberg denavitHartenberg(const robot::Robot& arm, const robot::Robot&
   }
   result.last_from_flange = frame.inverse() * arm.base_from_flange_at_zero;
   return result;
+}
+
+PerJoint<LinkParameters> withoutRounding(PerJoint<LinkParameters> uncertainties) {
+  using Numbers = std::vector<double LinkParameters::*>;
+  const Numbers lengths{&LinkParameters::d, &LinkParameters::a},
+      angles{&LinkParameters::theta, &LinkParameters::alpha, &LinkParameters::beta};
+  constexpr double kRounding = 1e-6;  // a quotient over steps of a micrometre leaves 1e-10 of a metre
+  for (const Numbers& kind : {lengths, angles}) {
+    double largest = 0.0;
+    for (const LinkParameters& link : uncertainties)
+      for (const auto number : kind) largest = std::max(largest, link.*number);
+    for (LinkParameters& link : uncertainties) {
+      for (const auto number : kind)
+        if (link.*number < kRounding * largest) link.*number = 0.0;
+    }
+  }
+  return uncertainties;
 }
 
 }  // namespace stiffscope::calibration

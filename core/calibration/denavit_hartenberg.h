@@ -34,4 +34,9 @@ struct DenavitHartenberg {
 /// it, and axes are as near to parallel as those of `nominal`, so that the two can be compared line by line.
 DenavitHartenberg denavitHartenberg(const robot::Robot& arm, const robot::Robot& nominal);
 
+/// Uncertainties of link parameters by a difference quotient (linkUncertainties), with 0 for what is its rounding
+/// alone: below a millionth of the largest of lengths, or of angles. Such a parameter is fixed, held or a choice of
+/// frame.
+PerJoint<LinkParameters> withoutRounding(PerJoint<LinkParameters> uncertainties);
+
 }  // namespace stiffscope::calibration

@@ -6,6 +6,7 @@
 
 #include "core/effects/effect.h"
 #include "core/numerics/resampling.h"
+#include "metrology/linear_algebra.h"
 
 namespace stiffscope::calibration {
 
@@ -350,6 +351,29 @@ EffectFamily readBackError(int joints) {
 }
 
 }  // namespace
+
+std::vector<EffectTerm> stationPoses(const UnloadedDay& day, const Eigen::Isometry3d& base_from_points) {
+  std::vector<EffectTerm> terms;
+  for (std::size_t s = 0; s < day.stations.size(); ++s) {
+    const campaign::StationPlace& station = day.stations[s];
+    if (station.covariance.isZero()) continue;  // the first: the others stand against it
+    const Eigen::MatrixXd root = covarianceRoot(station.covariance);
+    const Eigen::Vector3d centre = base_from_points * station.centre;
+    for (Eigen::Index k = 0; k < root.cols(); ++k) {
+      const Eigen::Vector3d turn = base_from_points.linear() * root.block<3, 1>(0, k),
+                            shift = base_from_points.linear() * root.block<3, 1>(3, k);
+      if (turn.isZero() && shift.isZero()) continue;
+      constexpr double kOneSd = 1.0;
+      terms.push_back(
+          moving(fmt::format("pose of station {}, {}", station.id, k + 1), "", kOneSd,
+                 [=, place = static_cast<int>(s)](const Posture&, const ReflectorAt& at) -> Eigen::Vector3d {
+                   if (at.place != place) return Eigen::Vector3d::Zero();
+                   return turn.cross(at.position - centre) + shift;
+                 }));
+    }
+  }
+  return terms;
+}
 
 EffectPart frameError(double from) {
   EffectPart part{UnloadedEffect::frame_error, "",

@@ -48,6 +48,7 @@ struct ReflectorAt {
   int target = 0;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   Eigen::Vector3d station = Eigen::Vector3d::Zero();  ///< the tracker
+  int place = 0;                                      ///< of UnloadedDay::stations, where it stood
 };
 
 /// One unknown of an effect. By a unit of it joints turn (`angles`, rad), or a reflector is seen elsewhere (`offset`,
@@ -94,6 +95,11 @@ std::vector<EffectPart> jointCompliances(const UnloadedDay& day);
 
 /// a sin(k q_j) + b cos(k q_j) on joint j (from 0): an eccentric gear or encoder ring (k 1, 2), a gear's own order.
 EffectPart transmissionError(int joint, double order);
+
+/// The poses of the day's stations, each in up to six parts that are independent of each other and of which one is a
+/// standard uncertainty: what a later station's readings may all be off by. They are unknowns of every fit and no
+/// effect. `base_from_points`: of the table's frame, in which the stations were joined.
+std::vector<EffectTerm> stationPoses(const UnloadedDay& day, const Eigen::Isometry3d& base_from_points);
 
 /// From `from` (Posture::time) on: station or robot elsewhere, a reflector elsewhere on the flange, another scale.
 EffectPart frameError(double from);

@@ -78,7 +78,7 @@ void FamilyFit::prepareColumns() {
 
 void FamilyFit::prepareStarts() {
   const std::vector<PostureEquations>& equations = day_.equations();
-  Eigen::MatrixXd motions(day_.rows(), 6);
+  Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(day_.rows(), 6);
   for (std::size_t k = 0; k < equations.size(); ++k)
     motions.middleRows(day_.firstRow(k), equations[k].residual.size()) = equations[k].by_motion;
   frame_start_ = startOf<6>(std::move(motions));

@@ -82,7 +82,8 @@ struct LinearisationOptions {
 };
 
 /// A day's readings as linear equations about a fit of the geometry, whitened by the noise of that fit, with what the
-/// geometry can do projected off. Readings of weight 0 in the fit take no part.
+/// geometry can do (and the poses of several stations, of which the nests' equations stand behind the readings')
+/// projected off. Readings of weight 0 in the fit take no part.
 class LinearisedDay {
  public:
   /// Keeps references to both.
@@ -136,11 +137,13 @@ class LinearisedDay {
   };
   std::vector<Run> runsOf(const std::vector<int>& fold) const;
   Eigen::MatrixXd allColumns(const LinearModel& model, Eigen::Index from, Eigen::Index rows) const;
+  /// To normal equations by all columns: what every fold knows of the stations' poses beforehand.
+  void addStations(const LinearModel& model, Eigen::MatrixXd& matrix, Eigen::VectorXd& right) const;
   double plainSquares(std::size_t p, const Eigen::Ref<const Eigen::VectorXd>& residual) const;  ///< m^2
   /// Calls with each posture's whitened residual, its fold predicted by the others: a direction that these do not see
-  /// is left alone.
+  /// is left alone. Returns the squares of the stations' equations, the mean over the folds.
   template <class Use>
-  void holdOut(const LinearModel& model, int folds, const std::vector<int>& fold, const Use& use) const;
+  double holdOut(const LinearModel& model, int folds, const std::vector<int>& fold, const Use& use) const;
 
   const UnloadedDay& day_;
   const ArmFit& fit_;
@@ -152,6 +155,7 @@ class LinearisedDay {
   std::vector<int> inner_fold_, outer_fold_;  ///< of each posture
   Eigen::MatrixXd basis_;
   Eigen::VectorXd residual_;
+  Eigen::Index rows_of_postures_ = 0;  ///< an equation for each part of a station's pose stands behind them
 };
 
 /// Each effect of the vocabulary fitted on its own beside a given model: its best parts, or its best whole form.

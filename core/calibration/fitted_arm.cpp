@@ -24,6 +24,10 @@ std::vector<Eigen::Vector3d> ArmFit::targetsAtZero() const {
   return all;
 }
 
+Eigen::Index ArmFit::stationsAt() const {
+  return steps.size() + sizes.size() - static_cast<Eigen::Index>(stations.size());
+}
+
 double ArmFit::sd(int parameter) const {
   const auto found = std::find(free.begin(), free.end(), parameter);
   if (found == free.end()) return 0.0;

@@ -19,6 +19,7 @@ FittedDay::FittedDay(const UnloadedDay& day, const ArmFit& fit)
   for (const EffectPart& part : fit.parts) {
     for (const EffectTerm& term : part.terms) terms_.push_back(&term);
   }
+  for (const EffectTerm& term : fit.stations) terms_.push_back(&term);
 }
 
 AnglesByTerms FittedDay::anglesByTerms(const Posture& posture) const {
@@ -33,7 +34,8 @@ ReflectorAt FittedDay::reflector(const frames::PlacedPosture& placed, const Read
   const auto target = static_cast<std::size_t>(reading.target);
   const Eigen::Vector3d at_zero =
       fit_.place.targets_at_zero[target] + fit_.steps.segment<3>(fit_.places().targetAt(target));
-  return {placed, reading.target, placed.position(at_zero), fit_.place.base_from_points * day_.stationOf(reading)};
+  return {placed, reading.target, placed.position(at_zero), fit_.place.base_from_points * day_.stationOf(reading),
+          reading.place};
 }
 
 Eigen::Vector3d FittedDay::residual(const Posture& posture, const Reading& reading, const ReflectorAt& at) const {
@@ -205,6 +207,7 @@ PostureEquations equationsOf(const FittedDay& fitted, const Posture& posture, st
     equations.whitening.push_back(white);
     equations.positions.push_back(at.position);
     equations.stations.push_back(at.station);
+    equations.places.push_back(at.place);
     row += 3;
   }
   equations.by_parameters.conservativeResize(row, Eigen::NoChange);
@@ -226,7 +229,8 @@ Eigen::MatrixXd columnsOf(const FittedDay& fitted, const Posture& posture, const
     }
     if (!placed) placed.emplace(fitted.arm(), fitted.anglesOf(posture));
     for (std::size_t r = 0; r < equations.targets.size(); ++r) {
-      const ReflectorAt at{*placed, equations.targets[r], equations.positions[r], equations.stations[r]};
+      const ReflectorAt at{*placed, equations.targets[r], equations.positions[r], equations.stations[r],
+                           equations.places[r]};
       columns.col(column).segment<3>(3 * static_cast<Eigen::Index>(r)).noalias() =
           equations.whitening[r] * terms[k].offset(posture, at);
     }

@@ -87,6 +87,7 @@ struct PostureEquations {
   std::vector<Eigen::Matrix3d> whitening;  ///< of each reading
   std::vector<Eigen::Vector3d> positions;  ///< of each reading, as modelled
   std::vector<Eigen::Vector3d> stations;   ///< of each reading: from where it was read, in base_link
+  std::vector<int> places;                 ///< of each reading: which of the day's stations that is
 };
 PostureEquations equationsOf(const UnloadedDay& day, const ArmFit& fit, std::size_t posture, std::size_t first_reading);
 PostureEquations equationsOf(const FittedDay& fitted, const Posture& posture, std::size_t first_reading);

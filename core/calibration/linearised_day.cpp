@@ -49,11 +49,21 @@ void LinearisedDay::gather(const ArmFit& geometry) {
     outer_fold_.push_back(options_.outer_fold(day_.postures[postures_[k]].pose));
   }
   const auto parameters = static_cast<Eigen::Index>(geometry.free.size());
+  rows_of_postures_ = rows;
+  rows += static_cast<Eigen::Index>(geometry.stations.size());
   Eigen::MatrixXd jacobian(rows, parameters);
   residual_.resize(rows);
   for (std::size_t k = 0; k < postures_.size(); ++k) {
     jacobian.middleRows(first_row_[k], equations_[k].residual.size()) = equations_[k].by_parameters;
     residual_.segment(first_row_[k], equations_[k].residual.size()) = equations_[k].residual;
+  }
+  // What is known of the stations' poses beforehand: an equation each, in parts of its standard uncertainty.
+  jacobian.bottomRows(rows - rows_of_postures_).setZero();
+  for (Eigen::Index k = 0; k < parameters; ++k) {
+    const Eigen::Index pose = geometry.free[static_cast<std::size_t>(k)] - geometry.stationsAt();
+    if (pose < 0) continue;
+    jacobian(rows_of_postures_ + pose, k) = 1.0;
+    residual_[rows_of_postures_ + pose] = -geometry.sizes[geometry.stationsAt() - geometry.steps.size() + pose];
   }
   // Orthonormal basis of what geometry can do, by way of the normal matrix of columns of length one.
   const Eigen::VectorXd length = jacobian.colwise().norm();
@@ -87,6 +97,7 @@ LinearModel LinearisedDay::geometryAlone() const {
 
 Eigen::MatrixXd LinearisedDay::columnsOf(const std::vector<EffectTerm>& terms) const {
   Eigen::MatrixXd columns(residual_.size(), static_cast<Eigen::Index>(terms.size()));
+  columns.bottomRows(residual_.size() - rows_of_postures_).setZero();
   const FittedDay fitted(day_, fit_);
   numerics::smallWorkOnAllCores(postures_.size(), [&](std::size_t k) {
     columns.middleRows(first_row_[k], equations_[k].residual.size()) =
@@ -197,6 +208,14 @@ Eigen::MatrixXd LinearisedDay::allColumns(const LinearModel& model, Eigen::Index
   return columns;
 }
 
+void LinearisedDay::addStations(const LinearModel& model, Eigen::MatrixXd& matrix, Eigen::VectorXd& right) const {
+  const Eigen::Index rows = residual_.size() - rows_of_postures_;
+  if (rows == 0) return;
+  const Eigen::MatrixXd columns = allColumns(model, rows_of_postures_, rows);
+  matrix.noalias() += columns.transpose() * columns;
+  right.noalias() += columns.transpose() * residual_.tail(rows);
+}
+
 std::vector<LinearisedDay::Run> LinearisedDay::runsOf(const std::vector<int>& fold) const {
   std::vector<Run> runs;
   for (std::size_t k = 0; k < postures_.size();) {
@@ -210,7 +229,7 @@ std::vector<LinearisedDay::Run> LinearisedDay::runsOf(const std::vector<int>& fo
 }
 
 template <class Use>
-void LinearisedDay::holdOut(const LinearModel& model, int folds, const std::vector<int>& fold, const Use& use) const {
+double LinearisedDay::holdOut(const LinearModel& model, int folds, const std::vector<int>& fold, const Use& use) const {
   const Eigen::Index width = basis_.cols() + model.directions.cols();
   std::vector<Normal> normals(static_cast<std::size_t>(folds),
                               {Eigen::MatrixXd::Zero(width, width), Eigen::VectorXd::Zero(width)});
@@ -221,20 +240,29 @@ void LinearisedDay::holdOut(const LinearModel& model, int folds, const std::vect
     normal.matrix.noalias() += columns.transpose() * columns;
     normal.right.noalias() += columns.transpose() * residual_.segment(run.row, run.rows);
   }
-  const std::vector<Eigen::VectorXd> sizes = solvedByOthers(normals, sumOf(normals));
+  Normal all = sumOf(normals);
+  addStations(model, all.matrix, all.right);
+  const std::vector<Eigen::VectorXd> sizes = solvedByOthers(normals, all);
   for (const Run& run : runs) {
     const Eigen::VectorXd left = residual_.segment(run.row, run.rows) -
                                  allColumns(model, run.row, run.rows) * sizes[static_cast<std::size_t>(run.fold)];
     for (std::size_t p = run.first; p < run.end; ++p)
       use(p, left.segment(first_row_[p] - run.row, equations_[p].residual.size()));
   }
+  const Eigen::Index of_stations = residual_.size() - rows_of_postures_;
+  if (of_stations == 0) return 0.0;
+  const Eigen::MatrixXd columns = allColumns(model, rows_of_postures_, of_stations);
+  double squares = 0.0;
+  for (const Eigen::VectorXd& found : sizes) squares += (residual_.tail(of_stations) - columns * found).squaredNorm();
+  return squares / static_cast<double>(sizes.size());
 }
 
 double LinearisedDay::heldOut(const LinearModel& model) const {
   double sum = 0.0;
-  holdOut(model, options_.inner_folds, inner_fold_,
-          [&](std::size_t, const auto& residual) { sum += residual.squaredNorm(); });
-  return sum;
+  // A model that needs a station far from where the nests have it does not predict that.
+  const double of_stations = holdOut(model, options_.inner_folds, inner_fold_,
+                                     [&](std::size_t, const auto& residual) { sum += residual.squaredNorm(); });
+  return sum + of_stations;
 }
 
 double LinearisedDay::plainSquares(std::size_t p, const Eigen::Ref<const Eigen::VectorXd>& residual) const {
@@ -262,7 +290,8 @@ std::vector<double> LinearisedDay::heldOutByDivision(const LinearModel& model, i
     const Eigen::MatrixXd columns = allColumns(model, run.row, run.rows);
     normals.push_back({columns.transpose() * columns, columns.transpose() * residual_.segment(run.row, run.rows)});
   }
-  const Normal all = sumOf(normals);
+  Normal all = sumOf(normals);
+  addStations(model, all.matrix, all.right);
   const auto folds = static_cast<std::size_t>(options_.outer_folds);
   const Normal none{Eigen::MatrixXd::Zero(all.matrix.rows(), all.matrix.cols()),
                     Eigen::VectorXd::Zero(all.right.size())};

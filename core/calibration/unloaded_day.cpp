@@ -199,6 +199,7 @@ UnloadedDay unloadedDay(const campaign::Campaign& campaign, JointAngles angles) 
   day.masses_known = day.weight.links_known && day.weight.any();
   day.pose_ids = campaign.pose_ids;
   for (const campaign::Target& target : campaign.targets) day.targets.push_back(target.id);
+  day.stations = campaign.stations;
   if (!campaign.loading || !campaign.states) return day;
   std::optional<metrology::TrackerNoise> noise;
   if (campaign.tracker) {
@@ -237,9 +238,9 @@ UnloadedDay unloadedDay(const campaign::Campaign& campaign, JointAngles angles) 
     posture.q = at->q;
     posture.pulls = pullsOf(day, posture.q, campaign.gravity_in_base);
     for (const campaign::ReflectorMean& mean : points.reflectors) {
-      posture.readings.push_back(
-          {mean.target, mean.line, mean.point,
-           noise ? mean.absoluteCovariance(campaign, *noise) : Eigen::Matrix3d(Eigen::Matrix3d::Zero()), mean.from});
+      posture.readings.push_back({mean.target, mean.line, mean.point,
+                                  noise ? mean.covariance(*noise) : Eigen::Matrix3d(Eigen::Matrix3d::Zero()), mean.from,
+                                  mean.station});
     }
     times.push_back(at->state->time_s);
     temperatures.push_back(at->state->extras().temperature_c);

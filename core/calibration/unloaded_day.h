@@ -19,11 +19,14 @@ enum class JointAngles {
 /// One reflector in one unloaded posture: the mean of its readings.
 struct Reading {
   int target = 0;
-  std::size_t line = 0;                                  ///< of its first reading in the table
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();       ///< m, in the frame of the table
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< by the declared tracker, m^2; zero: not declared
+  std::size_t line = 0;                             ///< of its first reading in the table
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< m, in the frame of the table
+  /// By the declared tracker, m^2; zero: not declared. What its station's pose is uncertain by is not in it: it is
+  /// common to all that was read from there (UnloadedDay::stations).
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   /// Where the instrument stood, in the frame of the table; not a number: at UnloadedDay::station.
   Eigen::Vector3d from = campaign::kStationOfTracker;
+  int place = 0;  ///< of UnloadedDay::stations
 };
 
 struct Posture {
@@ -74,6 +77,7 @@ struct UnloadedDay {
   std::vector<BendingTerm> bending;
   std::vector<FreeMoment> free_moments;
   Eigen::Vector3d station = Eigen::Vector3d::Zero();  ///< of the tracker, in the frame of the table
+  std::vector<campaign::StationPlace> stations;       ///< of a day of several: as they were joined
   std::vector<Posture> postures;
 
   std::size_t readings() const;

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <set>
 
 #include "core/campaign/stated_balancer.h"
@@ -265,6 +267,37 @@ void checkCarriage(const Campaign& campaign, const std::optional<Table<Row>>& ta
   if (table->frame == PointFrame::tracker) in_tracker_frame.see(table->rows);
 }
 
+/// Where the reflectors went as much farther than rail_mm says as another unit would explain, that unit; else empty.
+std::string otherUnitOf(const RailSweep& sweep) {
+  struct Stops {
+    const RailReading *lowest = nullptr, *highest = nullptr;
+  };
+  std::map<int, Stops> by_target;
+  for (const RailReading& row : sweep.rows) {
+    Stops& stops = by_target[row.target];
+    if (stops.lowest == nullptr || row.rail < stops.lowest->rail) stops.lowest = &row;
+    if (stops.highest == nullptr || row.rail > stops.highest->rail) stops.highest = &row;
+  }
+  double stated = 0.0, went = 0.0;
+  for (const auto& [target, stops] : by_target) {
+    const double span = stops.highest->rail - stops.lowest->rail;
+    if (span <= stated) continue;
+    stated = span;
+    went = (stops.highest->point - stops.lowest->point).norm();
+  }
+  struct Unit {
+    const char* name;
+    double millimetres;
+  };
+  constexpr std::array<Unit, 2> kUnits{{{"metres", 1000.0}, {"inches", 25.4}}};
+  constexpr double kNear = 0.05;  // rails travel as reported to a few per mille
+  for (const Unit& unit : kUnits) {
+    if (stated > 0.0 && std::abs(went / (unit.millimetres * stated) - 1.0) < kNear)
+      return fmt::format("; the reflectors went {:.1f} mm, as if these were {}", went / io::kMillimetre, unit.name);
+  }
+  return {};
+}
+
 /// The line along which the carriage goes is by the farthest stops.
 void checkRailSweep(const Campaign& campaign, const RailSweep& sweep) {
   std::set<double> stops;
@@ -272,11 +305,12 @@ void checkRailSweep(const Campaign& campaign, const RailSweep& sweep) {
   constexpr std::size_t kFewestStops = 3;  // of a line through two stops nothing tells whether it is straight
   constexpr double kShortest = 0.1;        // m; 10 um at both ends then turn it by 0.1 mrad
   if (stops.size() >= kFewestStops && *stops.rbegin() - *stops.begin() >= kShortest) return;
-  throw io::InputError({shown(campaign, sweep.file), 0, "rail_mm"}, "",
-                       fmt::format("expected at least {} positions of the carriage over 100 mm or more; there are {} "
-                                   "over {:.1f} mm",
-                                   kFewestStops, stops.size(),
-                                   stops.empty() ? 0.0 : (*stops.rbegin() - *stops.begin()) / io::kMillimetre));
+  throw io::InputError(
+      {shown(campaign, sweep.file), 0, "rail_mm"}, "",
+      fmt::format("expected at least {} positions of the carriage over 100 mm or more; there are {} "
+                  "over {:.1f} mm{}",
+                  kFewestStops, stops.size(),
+                  stops.empty() ? 0.0 : (*stops.rbegin() - *stops.begin()) / io::kMillimetre, otherUnitOf(sweep)));
 }
 
 void checkRail(const Campaign& campaign, std::vector<std::string>& warnings) {

@@ -258,17 +258,20 @@ StiffnessChange compareStiffness(const campaign::Campaign& before_campaign,
     const int joint = static_cast<int>(j);
     stateStiffnesses(first.estimate, second.estimate, joint, change);
     judge(fit, joint, by_unit[joint], change);
+    if (modelled) {
+      const identification::StiffnessEstimate& model_before = models.before->of(method).estimate;
+      const identification::StiffnessEstimate& model_after = models.after->of(method).estimate;
+      if (model_before.identifiable[j] && model_after.identifiable[j]) {
+        stateModels(model_before, model_after, models.effects, joint, change);
+        if (result.by_models) differByModels(model_before, model_after, joint, by_unit[joint], change);
+      }
+    }
+    // Held against the difference that is stated, whichever of the two it is.
     const bool taken_away = heldSide(before_campaign, before, j) == identification::HeldSide::motor &&
                             heldSide(after_campaign, after, j) == identification::HeldSide::link;
     if (const auto gear = gearOf(before, after, joint); gear && taken_away) {
       change.gear = checkOf(*gear, change.difference);
     }
-    if (!modelled) continue;
-    const identification::StiffnessEstimate& model_before = models.before->of(method).estimate;
-    const identification::StiffnessEstimate& model_after = models.after->of(method).estimate;
-    if (!model_before.identifiable[j] || !model_after.identifiable[j]) continue;
-    stateModels(model_before, model_after, models.effects, joint, change);
-    if (result.by_models) differByModels(model_before, model_after, joint, by_unit[joint], change);
   }
   correctForJoints(result.joints);
   if (!result.available) result.reason = Remark(RemarkId::no_joint_in_both);

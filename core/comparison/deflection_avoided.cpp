@@ -50,8 +50,9 @@ DeflectionAvoided shareAvoided(std::vector<PostureDeflection> postures, const Bo
     if (sum_before > 0.0) shares.push_back(1.0 - sum_after / sum_before);
   }
   std::sort(shares.begin(), shares.end());
-  result.low = numerics::quantile(shares, 0.025);
-  result.high = numerics::quantile(shares, 0.975);
+  const double middle = numerics::quantile(shares, 0.5), wider = numerics::spreadOfFew(static_cast<double>(n));
+  result.low = result.share + wider * (numerics::quantile(shares, 0.025) - middle);
+  result.high = result.share + wider * (numerics::quantile(shares, 0.975) - middle);
   return result;
 }
 

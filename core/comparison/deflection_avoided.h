@@ -54,8 +54,8 @@ JointVector avoidedByUnit(const campaign::Campaign& before_campaign, const ident
                           const campaign::Campaign& after_campaign, const identification::Identification& after,
                           identification::Method method, const MatchedPostures& matched);
 
-/// The share of sums and its percentile bootstrap over postures (seeded): what other postures would have
-/// given.
+/// The share of sums and its bootstrap over postures (seeded), what other postures would have given: quantiles about
+/// the median, as far as few postures ask for (numerics::spreadOfFew), put on the share.
 DeflectionAvoided shareAvoided(std::vector<PostureDeflection> postures, const BootstrapOptions& options = {});
 
 }  // namespace stiffscope::comparison

@@ -181,7 +181,7 @@ class Diagnoser {
     result_.noise_factor_across = start_.noise.across_factor;
     result_.significance_limit = fit_.rules.detect;
     result_.size_limit = sizeOfDrop(fit_, fit_.rules.least_drop);
-    result_.lack_of_fit = alone_.left_before.perEquation();
+    result_.lack_of_fit = fit_.left_before.perEquation();  // as identification states it
     result_.left_over = leftPerEquation(fit_);
     result_.left_over_limit = fit_.left_limit;
     result_.model_error = fit_.model_error;
@@ -207,6 +207,7 @@ class Diagnoser {
     if (given_.empty()) return;
     std::optional<GapAsMeasured> raw = gapAsMeasured(prepared_, input_, fit_, after_);
     if (!raw) return;
+    with_motion_ = raw->deflection.has_value();
     if (raw->deflection) result_.gap.before = *raw->deflection;
     if (raw->position) result_.positions.before = *raw->position;
     result_.as_measured = std::move(raw->by_posture);
@@ -230,8 +231,8 @@ class Diagnoser {
 
   void decide() {
     result_.geometry = geometryError(input_, fit_.state);
-    const VerdictInput input{input_,           fit_,         allowed_,    start_.station,
-                             result_.geometry, start_.noise, result_.gap, result_.positions};
+    const VerdictInput input{input_,       fit_,        allowed_,          start_.station, result_.geometry,
+                             start_.noise, result_.gap, result_.positions, with_motion_};
     Decision decision = decideVerdict(input);
     result_.verdict = std::move(decision.verdict);
     result_.classes = std::move(decision.classes);
@@ -295,7 +296,8 @@ class Diagnoser {
   Eigen::VectorXd after_;
   std::vector<std::vector<ChosenModel>> recipes_;
   std::vector<HeldOut>
-      station_;  // by posture: readings as they are, and with the station's motion off and the verdict in
+      station_;               // by posture: readings as they are, and with the station's motion off and the verdict in
+  bool with_motion_ = false;  ///< the gap before is of readings with the station's motion
   Diagnosis result_;
 };
 

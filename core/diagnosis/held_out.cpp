@@ -68,18 +68,11 @@ double quantileOf(std::vector<double> drawn, double share) {
   return numerics::quantile(drawn, share);
 }
 
-/// What the spread of a bootstrap over `postures` lacks: drawing with replacement shrinks the variance by
-/// (n - 1) / n, and a quantile of draws knows nothing of the variance's own error, which Student's t does.
-double fewPostures(double postures) {
-  return std::sqrt(postures / (postures - 1.0)) * identification::studentFactor(postures - 1.0, 0.95) /
-         identification::studentFactor(1e6, 0.95);
-}
-
 /// Spread of the bootstrap about its median, narrowed by the root of judged over all postures and widened for
 /// their small number, put on the value.
 Shrink withInterval(double value, const std::vector<double>& drawn, double judged_share, std::size_t postures) {
   const double middle = quantileOf(drawn, 0.5);
-  const double scale = std::sqrt(judged_share) * fewPostures(std::max(2.0, static_cast<double>(postures)));
+  const double scale = std::sqrt(judged_share) * numerics::spreadOfFew(std::max(2.0, static_cast<double>(postures)));
   return {value, value + scale * (quantileOf(drawn, 0.025) - middle),
           value + scale * (quantileOf(drawn, 0.975) - middle)};
 }

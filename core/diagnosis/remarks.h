@@ -13,7 +13,7 @@ enum class RemarkId {
   fitted_part,       ///< its name (empty: none), unit, its parameters in that unit
   axes_off_nominal,  ///< largest shift m, largest tilt rad
   // Why the verdict is what it is: full sentences.
-  left_by_stiffnesses,       ///< rms m, of noise alone m, chi2 per equation
+  left_by_stiffnesses,       ///< rms m, of noise alone m, chi2 per equation, with positions, motion only there off
   no_effect_passes,          ///< least fall of BIC, least rms m
   geometry_off_nominal,      ///< rms m, tolerance m
   follows_from_geometry,     ///< id of the effect, its parameters

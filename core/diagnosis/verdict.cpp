@@ -348,7 +348,7 @@ class Decider {
     std::vector<Remark>& reasons = decision_.verdict.reasons;
     const auto& rules = from_.fit.rules;
     reasons.emplace_back(RemarkId::left_by_stiffnesses, from_.gap.before, from_.gap.noise,
-                         from_.fit.left_before.perEquation());
+                         from_.fit.left_before.perEquation(), from_.input.absolute, from_.as_measured);
     if (decision_.verdict.entries.empty()) {
       reasons.emplace_back(RemarkId::no_effect_passes, rules.detect,
                            std::sqrt(rules.least_drop / rules.loading_rows) * from_.fit.data->state_noise);

@@ -20,6 +20,7 @@ struct VerdictInput {
   const preparation::NoiseModel& noise;
   const Gap& gap;
   const Gap& positions;
+  bool as_measured = false;  ///< `gap` before is of readings with the station's motion, the fit's is not
 };
 
 /// A chosen model (by its place in the set) with the effects that cannot be told from it.

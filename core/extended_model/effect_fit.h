@@ -35,6 +35,9 @@ EffectFit fitEffects(const campaign::Campaign& campaign, const RequestedEffects&
 /// What was fitted to diagnosis::spreadForDiagnosis(whole), for the whole day: `day` in the numbers of its postures.
 EffectFit overWholeDay(EffectFit spread, const preparation::PreparedCampaign& whole);
 
+/// Puts sizes that were changed after the fit into what is stated of the effects.
+void describeSizes(EffectFit& effects);
+
 /// The effects of the machine with their sizes at `parameters`, without those that are zero: what an ElasticArm bears.
 std::vector<effects::PresentEffect> machineEffects(const EffectFit& effects, const Eigen::VectorXd& parameters);
 

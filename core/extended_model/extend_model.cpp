@@ -142,6 +142,39 @@ void cautionBeside(const CourseOfDay& course, ExtendedModel& model) {
                                    model.hidden->unexplained);
 }
 
+/// The effects in sizes that leave no stiffness negative (HiddenEffects::to_possible), or none where hardly any do: the
+/// readings are then corrected for what the stiffnesses are stated with.
+EffectFit inPossibleSizes(const diagnosis::GapStudy& study, const HiddenEffects& hidden, EffectFit fitted) {
+  const EffectColumns& columns = hidden.draws.columns;
+  const diagnosis::GapLayout& layout = study.fit.data->layout;
+  Eigen::VectorXd& sizes = fitted.fit.set.effects;
+  bool any = false;
+  for (std::size_t i = 0; i < fitted.fit.set.models.size(); ++i) {
+    const diagnosis::ChosenModel& one = fitted.fit.set.models[i];
+    const effects::EffectModel& model = fitted.input->models[one.model];
+    for (const std::size_t m : columns.models) {
+      if (study.input->models[m].effect != model.effect || study.input->models[m].shape != model.shape) continue;
+      const Eigen::Index first = layout.model_at[m] - layout.effects;
+      for (std::size_t k = 0; k < columns.parameters.size(); ++k) {
+        const Eigen::Index own = columns.parameters[k] - first;
+        if (own < 0 || own >= static_cast<Eigen::Index>(model.parameters())) continue;
+        const Eigen::Index at = fitted.firstOf(one) + own;
+        if (sizes[at] == 0.0) continue;  // a part that was not chosen
+        sizes[at] += (*hidden.to_possible)[static_cast<Eigen::Index>(k)];
+        any = any || std::abs(sizes[at]) > 1e-9 * std::abs((*hidden.to_possible)[static_cast<Eigen::Index>(k)]);
+      }
+    }
+  }
+  if (!any) {
+    EffectFit none;
+    none.notes.emplace_back(RemarkId::effects_make_negative);
+    return none;
+  }
+  describeSizes(fitted);
+  fitted.notes.emplace_back(RemarkId::sizes_leave_none_negative);
+  return fitted;
+}
+
 /// Whether joint springs come out negative one and all: then no model of the machine is to be looked for.
 bool contradicted(const identification::Identification& springs) {
   bool any = false;
@@ -193,12 +226,21 @@ ExtendedModel supportedModel(const preparation::PreparedCampaign& prepared, cons
     none.notes.emplace_back(RemarkId::springs_contradicted);
     return extendModel(campaign, std::move(none), options);
   }
-  Declared declared = declaredOf(model.campaign, model.with, options);
-  const CourseOfDay course = courseOfDay(model.campaign, model.with);
-  addCourse(course, model.with, declared);
+  CourseOfDay course;
+  const auto weigh = [&] {
+    Declared declared = declaredOf(model.campaign, model.with, options);
+    course = courseOfDay(model.campaign, model.with);
+    addCourse(course, model.with, declared);
+    model.hidden = weighHiddenEffects(study, model.effects, thinned ? seen : model.campaign,
+                                      thinned ? seen_by_springs : model.with, model.without, declared, model.with);
+  };
+  weigh();
+  // A long day's `seen` has been corrected for the fitted sizes.
+  if (model.hidden->to_possible && !thinned) {
+    model = extendModel(campaign, inPossibleSizes(study, *model.hidden, std::move(model.effects)), options);
+    weigh();
+  }
   model.study = std::move(whole);
-  model.hidden = weighHiddenEffects(study, model.effects, thinned ? seen : model.campaign,
-                                    thinned ? seen_by_springs : model.with, model.without, declared, model.with);
   // What is known from elsewhere is held against the intervals that are stated.
   if (!model.campaign.known_stiffness.empty())
     model.with.cautions = identification::warningsOf(model.campaign, model.with);

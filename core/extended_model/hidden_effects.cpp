@@ -210,6 +210,29 @@ std::vector<Eigen::Index> possibleDraws(const StiffnessEstimate& estimate, const
   return kept.size() < kFew ? all : kept;
 }
 
+/// HiddenEffects::to_possible, of a method whose estimate has a negative stiffness.
+Eigen::VectorXd toPossible(const HiddenDraws& hidden, const JointsByColumn& gain, const StiffnessEstimate& estimate,
+                           const std::vector<effects::Effect>& in_model) {
+  Eigen::MatrixXd off = hidden.off;
+  Eigen::VectorXd to_nothing = Eigen::VectorXd::Zero(off.rows());
+  for (Eigen::Index k = 0; k < off.rows(); ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    if (std::find(in_model.begin(), in_model.end(), hidden.effect[at]) == in_model.end()) {
+      off.row(k).setZero();
+    } else {
+      to_nothing[k] = -hidden.named[at].fit;
+    }
+  }
+  const Eigen::MatrixXd moved = gain * off;
+  std::vector<Eigen::Index> possible;
+  for (Eigen::Index d = 0; d < moved.cols(); ++d) {
+    if (allPositive(estimate.compliance + moved.col(d), estimate.identifiable)) possible.push_back(d);
+  }
+  constexpr Eigen::Index kOneOf = 20;  // draws: with fewer the data refuse the effects rather than their sizes
+  if (kOneOf * static_cast<Eigen::Index>(possible.size()) < moved.cols()) return to_nothing;
+  return off(Eigen::all, possible).rowwise().mean();
+}
+
 JointVector meanSquare(const Eigen::MatrixXd& rows) {
   if (rows.cols() == 0) return JointVector::Zero(rows.rows());
   return rows.rowwise().squaredNorm() / static_cast<double>(rows.cols());
@@ -400,11 +423,16 @@ HiddenEffects weighHiddenEffects(const diagnosis::GapStudy& study, const EffectF
   const MethodWeigher weigher(hidden, declared, result.unexplained);
   const Method of_sag =
       with.of(Method::decoupled_partial_pose).available ? Method::decoupled_partial_pose : Method::partial_pose;
+  const Method shown = identification::bestMethod(with);
   for (const Method which : identification::kMethods) {
     const auto at = static_cast<std::size_t>(which);
     if (!with.of(which).available || !seen.of(which).available || !without.of(which).available) continue;
     const auto gain = gains(cases, seen, which, hidden.off.rows());
     if (gain.cols() == 0) continue;
+    const StiffnessEstimate& fit_of_method = with.of(which).estimate;
+    if (which == shown && !in_model.empty() && !allPositive(fit_of_method.compliance, fit_of_method.identifiable) &&
+        allPositive(without.of(which).estimate.compliance, without.of(which).estimate.identifiable))
+      result.to_possible = toPossible(hidden, gain, fit_of_method, in_model);
     if (which == of_sag) {
       const Eigen::MatrixXd moved = gain * hidden.off;
       const std::vector<Eigen::Index> kept = possibleDraws(seen.of(which).estimate, moved);

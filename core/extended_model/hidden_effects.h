@@ -121,6 +121,10 @@ struct HiddenEffects {
   std::array<std::vector<SeenCombination>, 3> combinations;
   HiddenDraws draws;
   double gain_sd = 0.0;  ///< of the load cell's scale, as declared
+  /// Where the fitted sizes of the model's effects make a stiffness of the method shown first negative, and joint
+  /// springs alone do not: by how much each parameter of `draws` changes, on the mean, in the draws whose effects in
+  /// the model leave none negative; to nothing where hardly a draw does.
+  std::optional<Eigen::VectorXd> to_possible;
 };
 
 /// Puts into the estimates of `with` the intervals that hold what could still hide.

@@ -8,9 +8,11 @@ enum class RemarkId {
   diagnosis_names_none,
   diagnosis_finds_unknown,  ///< besides what it names
   diagnosis_finds_only_unknown,
-  effects_do_not_help,   ///< what was chosen leaves more than springs alone on postures held out
-  springs_contradicted,  ///< every stiffness is negative: wrench and readings contradict each other
-  taken_of_a_class,      ///< id of the effect, ids of those that cannot be told from it
+  effects_do_not_help,        ///< what was chosen leaves more than springs alone on postures held out
+  effects_make_negative,      ///< with what was chosen a stiffness is negative, and hardly any size of it leaves none
+  sizes_leave_none_negative,  ///< not where the fit is best
+  springs_contradicted,       ///< every stiffness is negative: wrench and readings contradict each other
+  taken_of_a_class,           ///< id of the effect, ids of those that cannot be told from it
   // Why an effect cannot be fitted.
   no_gap_to_fit,        ///< why
   lacks_what_shows_it,  ///< what is missing

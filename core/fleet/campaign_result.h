@@ -11,6 +11,7 @@
 #include "core/comparison/paired_fit.h"
 #include "core/identification/identification.h"
 #include "core/preparation/finding.h"
+#include "metrology/lines.h"
 
 namespace stiffscope::fleet {
 
@@ -67,6 +68,7 @@ struct CampaignResult {
   std::string name, date, robot;
   DayKind kind = DayKind::loaded;
   campaign::DoubleEncoder encoders = campaign::DoubleEncoder::unspecified;
+  PerJoint<metrology::Line> axes;  ///< of the URDF's arm, as robot::Robot has them: days of others are not compared
 
   preparation::AuditVerdict audit = preparation::AuditVerdict::not_testable;
   std::vector<std::string> failed_checks, warned_checks;  ///< ids

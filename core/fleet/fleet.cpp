@@ -30,33 +30,6 @@ bool inOrder(const FleetCampaign& a, const FleetCampaign& b) {
 
 void sortCampaigns(std::vector<FleetCampaign>& campaigns) { std::sort(campaigns.begin(), campaigns.end(), inOrder); }
 
-std::vector<DaySeries> seriesOf(const std::vector<FleetCampaign>& campaigns) {
-  std::map<std::tuple<std::string, DayKind, campaign::DoubleEncoder, int>, DaySeries> series;
-  for (std::size_t i = 0; i < campaigns.size(); ++i) {
-    const std::optional<CampaignResult>& result = campaigns[i].result;
-    if (!result || result->kind == DayKind::sweeps) continue;
-    DaySeries& own = series[{campaigns[i].machine, result->kind, result->encoders, result->joints()}];
-    own.machine = campaigns[i].machine, own.kind = result->kind, own.encoders = result->encoders;
-    own.joints = result->joints();
-    own.campaigns.push_back(i);
-  }
-  std::vector<DaySeries> all;
-  for (auto& [key, one] : series) all.push_back(std::move(one));
-  return all;
-}
-
-std::vector<FleetPair> pairsOf(const std::vector<DaySeries>& series) {
-  std::vector<FleetPair> pairs;
-  for (const DaySeries& one : series) {
-    for (std::size_t i = 1; i < one.campaigns.size(); ++i) {
-      FleetPair pair;
-      pair.before = one.campaigns[i - 1], pair.after = one.campaigns[i];
-      pairs.push_back(pair);
-    }
-  }
-  return pairs;
-}
-
 namespace {
 
 /// Corrects the pairs' p-values for their number; returns it.
@@ -377,12 +350,31 @@ void addScatter(const Fleet& fleet, const SeriesCharts& charts, std::vector<Need
   }
 }
 
+/// Where several machines bear the name; returns their last days.
+std::set<std::size_t> addSeveralMachines(const Fleet& fleet, const std::string& name, std::vector<Need>& needs) {
+  std::vector<const Arm*> arms;
+  std::set<std::size_t> last;
+  for (const Arm& one : fleet.arms) {
+    if (one.machine == name) arms.push_back(&one), last.insert(one.campaigns.back());
+  }
+  if (arms.size() < 2) return {};
+  const std::size_t other = arms[1]->campaigns.front();
+  needs.push_back({NeedId::several_machines,
+                   Remark(RemarkId::several_machines, arms.size(), fleet.campaigns[arms[1]->differs_from].folder,
+                          fleet.campaigns[other].folder, arms[1]->difference),
+                   Remark(RemarkId::tell_machines_apart), other});
+  return last;
+}
+
 Machine studiedMachine(const Fleet& fleet, const std::string& name, std::vector<std::size_t> campaigns) {
   Machine machine{name, std::move(campaigns), {}};
   const std::size_t last = machine.campaigns.back();
+  std::set<std::size_t> last_days = addSeveralMachines(fleet, name, machine.needs);
+  last_days.insert(last);
   // Earlier days without a result miss in the series, which somebody should know.
   for (const std::size_t one : machine.campaigns) {
-    if (one == last || !fleet.campaigns[one].result) addNeedsOfDay(fleet.campaigns[one], one, machine.needs);
+    if (last_days.contains(one) || !fleet.campaigns[one].result)
+      addNeedsOfDay(fleet.campaigns[one], one, machine.needs);
   }
   // Effects first: a base that gives looks like softer joints as well.
   for (const bool effects : {true, false}) {
@@ -420,6 +412,7 @@ Fleet studyFleet(std::vector<FleetCampaign> campaigns, std::vector<FleetPair> pa
   Fleet fleet;
   fleet.campaigns = std::move(campaigns);
   fleet.pairs = std::move(pairs);
+  fleet.arms = armsOf(fleet.campaigns);
   fleet.series = seriesOf(fleet.campaigns);
   fleet.pair_questions = correctPairs(fleet.campaigns, fleet.pairs);
   studySeries(fleet);

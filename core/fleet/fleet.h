@@ -141,10 +141,21 @@ struct FleetPair {
   double machine_p_holm = kUnknown;
 };
 
-/// Days of one machine that can be held against each other: of one kind, the double encoders in one state, as many
-/// joints in the URDF.
+/// Campaigns under one machine's name whose URDFs describe one arm, none refused by `compare` beside another. Several
+/// arms under one name are of different machines, which nothing is asked of together.
+struct Arm {
+  std::string machine;
+  std::vector<std::size_t> campaigns;  ///< those with a result, in order of date
+  // Of its first campaign, where it is not the first arm under this name:
+  Remark difference;             ///< what `compare` says
+  std::size_t differs_from = 0;  ///< beside this campaign of the first arm
+};
+
+/// Days of one machine that can be held against each other: of one kind, the double encoders in one state, and of one
+/// arm.
 struct DaySeries {
   std::string machine;
+  std::size_t arm = 0;  ///< of the fleet's
   DayKind kind = DayKind::loaded;
   campaign::DoubleEncoder encoders = campaign::DoubleEncoder::unspecified;
   int joints = 0;
@@ -184,6 +195,7 @@ struct SeriesCharts {
 /// What a machine needs, the most urgent first in the order of this list.
 enum class NeedId {
   no_result,
+  several_machines,  ///< under one name
   audit_failed,
   changed,
   unknown_gap,
@@ -209,6 +221,7 @@ struct Machine {
 
 struct Fleet {
   std::vector<FleetCampaign> campaigns;  ///< by machine, date, folder
+  std::vector<Arm> arms;                 ///< by machine, date of the first campaign
   std::vector<DaySeries> series;
   std::vector<FleetPair> pairs;
   std::vector<SeriesCharts> charts;
@@ -222,6 +235,10 @@ struct Fleet {
 /// The order of machine, date (as texts: 2026-11-24) and folder, which is that of everything that follows.
 bool inOrder(const FleetCampaign& a, const FleetCampaign& b);
 void sortCampaigns(std::vector<FleetCampaign>& campaigns);
+
+/// The arms of sorted campaigns: each is of the first arm under its name with all of whose campaigns it can be
+/// compared.
+std::vector<Arm> armsOf(const std::vector<FleetCampaign>& campaigns);
 
 /// The series of sorted campaigns, of those with a result.
 std::vector<DaySeries> seriesOf(const std::vector<FleetCampaign>& campaigns);

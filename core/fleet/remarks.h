@@ -5,6 +5,7 @@ namespace stiffscope::fleet {
 enum class RemarkId {
   // Why a machine needs something.
   no_result,           ///< date, what the program said
+  several_machines,    ///< how many under one name, folders of two that are not of one, the difference
   audit_failed,        ///< date, ids of the checks
   audit_not_testable,  ///< date
   effect_appeared,     ///< effects that may be it, date of the first day with it
@@ -20,6 +21,7 @@ enum class RemarkId {
   audit_warned,      ///< date, ids of the checks
   // What to do next.
   mend_campaign,
+  tell_machines_apart,
   measure_again,   ///< after what failed
   inspect_joint,   ///< joint
   inspect_effect,  ///< effects

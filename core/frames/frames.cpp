@@ -187,13 +187,14 @@ std::vector<std::optional<Eigen::Vector3d>> targetsAtZero(const campaign::Campai
 
 namespace {
 
-/// Where the last axis pierces the plane z = 0 of the flange, in flange axes.
-Eigen::Vector3d tcpInFlange(const robot::Robot& arm) {
+/// Where the last axis pierces the plane z = 0 of the flange, in flange axes; empty where it runs along the plane.
+std::optional<Eigen::Vector3d> tcpInFlange(const robot::Robot& arm) {
   const Eigen::Isometry3d flange_from_base = arm.base_from_flange_at_zero.inverse();
   const metrology::Line& last = arm.axes_in_base_at_zero.back();
   const Eigen::Vector3d point = flange_from_base * last.point;
   const Eigen::Vector3d direction = flange_from_base.linear() * last.direction;
-  if (direction.z() == 0.0) return Eigen::Vector3d::Zero();
+  constexpr double kAlong = 0.1736;  // sine of ten degrees: an error of the axis moves the point by six times itself
+  if (std::abs(direction.z()) < kAlong) return std::nullopt;
   return point - point.z() / direction.z() * direction;
 }
 
@@ -206,7 +207,9 @@ Frames measureOnce(const campaign::Campaign& campaign, const RigidPoints& points
   frames.links = linkGeometry(campaign.robot, frames.arm);
   frames.targets_in_r0_at_zero = targetsAtZero(campaign, frames.arm, points);
   frames.wrist = measureWristCentre(campaign, frames.arm, points, frames.targets_in_r0_at_zero);
-  frames.tcp_in_flange = tcpInFlange(frames.arm.arm);
+  const std::optional<Eigen::Vector3d> tcp = tcpInFlange(frames.arm.arm);
+  frames.tcp_in_flange = tcp.value_or(Eigen::Vector3d::Zero());
+  frames.tcp_at_origin = !tcp;
   frames.weight = robot::gravityLoad(campaign.robot, campaign.tool, campaign.gravity_in_base, frames.arm.arm,
                                      frames.arm.r0_from_base_link);
   return frames;

@@ -59,6 +59,11 @@ struct WristCentre {
   Eigen::Vector3d nearest_last_axes_in_r0 = Eigen::Vector3d::Zero();
   /// From the wrist's first axis on: of axes 4 and 5, 5 and 6 of six.
   PerJoint<WristAxesMiss> misses;
+  /// Of a wrist of three axes: how far along the second one meets the third from where it meets the first, m. No wrist
+  /// has a centre whose axes meet two and two at places of their own, as those of an arm with an offset wrist do.
+  double apart = 0.0;
+  bool offset() const { return apart > kOffsetWrist; }
+  static constexpr double kOffsetWrist = 2e-3;  ///< m: ten times what wrists are made to
 };
 
 /// Fits concentric spheres to the wrist sweep, on the readings referred to the rigid arm.
@@ -152,13 +157,16 @@ struct Frames {
   Links links;
   std::vector<std::optional<Eigen::Vector3d>> targets_in_r0_at_zero;
   WristCentre wrist;
-  Eigen::Vector3d tcp_in_flange = Eigen::Vector3d::Zero();  ///< P_TCP: where the last axis pierces the flange plane
-  robot::GravityLoad weight;                                ///< in R0
-  bool sag_removed = false;                                 ///< readings were referred to the rigid arm
-  double largest_sag = 0.0;                                 ///< largest correction of a reading of the sweeps, m
-  Remark sag_note;                                          ///< why not, or with which stiffnesses
-  bool sag_in_uncertainty = false;                          ///< what is not taken off, or how well, is in `covariance`
-  FramesCovariance covariance;  ///< of R0, links and wrist; the arm's own sag is in it as far as stiffnesses tell
+  /// P_TCP: where the last axis pierces the plane z = 0 of the flange; the flange's origin where the axis runs within
+  /// ten degrees of that plane, as with an angled tool, and would pierce it anywhere.
+  Eigen::Vector3d tcp_in_flange = Eigen::Vector3d::Zero();
+  bool tcp_at_origin = false;       ///< because of that
+  robot::GravityLoad weight;        ///< in R0
+  bool sag_removed = false;         ///< readings were referred to the rigid arm
+  double largest_sag = 0.0;         ///< largest correction of a reading of the sweeps, m
+  Remark sag_note;                  ///< why not, or with which stiffnesses
+  bool sag_in_uncertainty = false;  ///< what is not taken off, or how well, is in `covariance`
+  FramesCovariance covariance;      ///< of R0, links and wrist; the arm's own sag is in it as far as stiffnesses tell
 };
 
 /// With the arm taken as rigid under its own weight.

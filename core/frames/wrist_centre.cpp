@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "core/frames/joint_axes.h"
 #include "core/frames/remarks.h"
@@ -85,10 +86,13 @@ void fillTable(const SweepOfTargets& sweep, WristCentre& wrist) {
 
 void compareWithAxes(const ArmInR0& arm, const robot::ArmPosture& posture, WristCentre& wrist) {
   const int last = arm.arm.axes() - 1;
+  std::optional<Eigen::Vector3d> met;  // on the axis that the next pair shares
   for (int first = arm.arm.armAxes(); first < last; ++first) {
     const metrology::CommonPerpendicular between = metrology::commonPerpendicular(
         robot::axisAt(arm.arm, posture, first), robot::axisAt(arm.arm, posture, first + 1));
     wrist.misses.push_back({first, between.distance});
+    if (met) wrist.apart = std::max(wrist.apart, (between.foot_on_first - *met).norm());
+    met = between.foot_on_second;
     wrist.nearest_last_axes_in_r0 = 0.5 * (between.foot_on_first + between.foot_on_second);
   }
 }

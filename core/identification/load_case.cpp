@@ -113,7 +113,18 @@ const char* expectationOf(const Remark& lacking) {
   if (lacking.is(RemarkId::no_load_cell)) {
     return "no 'load_cell': where the measured wrench acts is needed to identify";
   }
-  return "neither 'loading' nor 'displacements': readings under load are needed to identify";
+  if (lacking.is(RemarkId::no_wrench)) {
+    return "no wrench in 'states' (fx_n to mz_nm): force and moment of each load step are needed to identify";
+  }
+  return "no readings under load in 'loading' or 'displacements': they are needed to identify";
+}
+
+/// Whether load steps were read of which no wrench is given. No cell reads zero in every row.
+bool lacksWrenches(const campaign::Campaign& campaign) {
+  const std::vector<campaign::State>& states = campaign.states->rows;
+  return std::any_of(states.begin(), states.end(), [](const campaign::State& state) { return state.step != 0; }) &&
+         std::all_of(states.begin(), states.end(),
+                     [](const campaign::State& state) { return state.wrench_in_cell.isZero(); });
 }
 
 }  // namespace
@@ -121,8 +132,9 @@ const char* expectationOf(const Remark& lacking) {
 Remark whatLoadsLack(const campaign::Campaign& campaign) {
   if (!campaign.states) return Remark(RemarkId::no_states);
   if (!campaign.load_cell) return Remark(RemarkId::no_load_cell);
-  if ((!campaign.loading && !campaign.displacements) || campaign::isUnloadedDay(campaign))
-    return Remark(RemarkId::no_readings_under_load);
+  if (!campaign.loading && !campaign.displacements) return Remark(RemarkId::no_readings_under_load);
+  if (lacksWrenches(campaign)) return Remark(RemarkId::no_wrench);
+  if (campaign::isUnloadedDay(campaign)) return Remark(RemarkId::no_readings_under_load);
   return {};
 }
 

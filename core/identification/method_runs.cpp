@@ -124,6 +124,7 @@ std::vector<double> missesOf(const frames::WristCentre& wrist) {
 }  // namespace
 
 Remark whyNotDecoupled(const frames::WristCentre& wrist, double leak) {
+  if (wrist.offset()) return Remark(RemarkId::wrist_is_offset, wrist.misses.front().first + 1, wrist.apart);
   if (leak <= kWristLeakBorne) return {};
   return Remark(RemarkId::wrist_axes_apart, missesOf(wrist), leak, kWristLeakBorne, wrist.misses.front().first + 1);
 }

@@ -8,6 +8,7 @@ enum class RemarkId {
   no_states,
   no_load_cell,
   no_readings_under_load,
+  no_wrench,
   // why a method is not available
   displacements_not_placed,
   loading_not_placed,
@@ -19,6 +20,7 @@ enum class RemarkId {
   wrist_centre_not_measured,  ///< why
   wrist_sweep_wanted,         ///< why there is no P_wrist, first and last of the wrist's axes
   wrist_sweep_wanted_too,     ///< why there are no positions, first and last of the wrist's axes
+  wrist_is_offset,            ///< the first of its axes; how far apart the first two and the last two meet, m
   wrist_axes_apart,  ///< distances of consecutive wrist axes m, share of P_wrist's motion, most share, the first of
                      ///< those axes
   geometry_not_calibrated,      ///< why

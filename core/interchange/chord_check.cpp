@@ -217,11 +217,9 @@ std::string shownMeaning(const OtherMeaning& meaning) {
 }  // namespace
 
 void requireMeaning(const JoinTask& task, const std::vector<PlacedReading>& placed, double misfit) {
-  // Arms differ from their nominal geometry, and bend, by a few millimetres; a wrong sign makes decimetres.
-  constexpr double kMisfit = 0.01, kClearly = 4.0;
-  if (misfit < kMisfit) return;
+  if (misfit < kAsArmsDiffer) return;
   const auto others = otherMeanings(task.robot, task.day.xml.campaign.joint_readings, placed);
-  if (others.empty() || others.front().misfit * kClearly > misfit) return;
+  if (others.empty() || kExplains * others.front().misfit > misfit) return;
   std::vector<std::string> shown;
   for (const OtherMeaning& other : others) shown.push_back(shownMeaning(other));
   throw io::InputError(

@@ -1,10 +1,12 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <tuple>
 
+#include "core/interchange/state_join.h"
 #include "core/interchange/state_samples.h"
 #include "core/io/input_error.h"
 
@@ -160,6 +162,28 @@ std::string shownOffset(const ClockOffset& offset) {
   return fmt::format("{:.3f} +- {:.3f} s", offset.offset_s, offset.uncertainty_s);
 }
 
+/// How far distances between the reflectors' places are off by an offset, m, and its place among all.
+using OffsetMisfit = std::pair<double, std::size_t>;
+
+/// The least first; without offsets by which too few postures were read to tell.
+std::vector<OffsetMisfit> misfitsBy(const JoinTask& task, const std::vector<DayReading>& readings,
+                                    const std::vector<Standstill>& standstills,
+                                    const std::vector<ClockOffset>& offsets) {
+  std::vector<OffsetMisfit> fits;
+  for (std::size_t i = 0; i < offsets.size(); ++i) {
+    const auto fit = misfitAt(task, readings, standstills, offsets[i].offset_s);
+    if (fit) fits.emplace_back(*fit, i);
+  }
+  std::sort(fits.begin(), fits.end());
+  return fits;
+}
+
+/// Whether distances tell the first from all others.
+bool isDecided(const std::vector<OffsetMisfit>& fits) {
+  constexpr double kClearly = 2.0;
+  return fits.size() == 1 || (fits.size() > 1 && fits[1].first >= kClearly * fits[0].first);
+}
+
 /// Of several offsets the one by which distances agree.
 ClockOffset chosenOffset(const JoinTask& task, const std::vector<DayReading>& readings,
                          const std::vector<Standstill>& standstills, const std::vector<ClockOffset>& offsets,
@@ -172,12 +196,7 @@ ClockOffset chosenOffset(const JoinTask& task, const std::vector<DayReading>& re
     refuse(fmt::format("none puts half of the {} readings into the {} standstills of {}", readings.size(),
                        standstills.size(), task.source.file));
   }
-  std::vector<std::pair<double, std::size_t>> fits;
-  for (std::size_t i = 0; i < offsets.size(); ++i) {
-    const auto fit = misfitAt(task, readings, standstills, offsets[i].offset_s);
-    if (fit) fits.emplace_back(*fit, i);
-  }
-  std::sort(fits.begin(), fits.end());
+  const std::vector<OffsetMisfit> fits = misfitsBy(task, readings, standstills, offsets);
   if (offsets.size() == 1) {
     if (!fits.empty()) misfit = fits.front().first;
     return offsets.front();
@@ -187,8 +206,7 @@ ClockOffset chosenOffset(const JoinTask& task, const std::vector<DayReading>& re
         "{} puts {} of {} readings into standstills, {} {}, and too few postures are there to tell by "
         "distances: state it (offset_s)",
         shownOffset(offsets[0]), offsets[0].inside, readings.size(), shownOffset(offsets[1]), offsets[1].inside));
-  constexpr double kClearly = 2.0;
-  if (fits[1].first < kClearly * fits[0].first) {
+  if (!isDecided(fits)) {
     const ClockJoin join = joinedAt(task, readings, standstills, offsets.front().offset_s);
     requireMeaning(task, placedReadings(join.states, readings), fits[0].first);
     refuse(
@@ -227,18 +245,56 @@ std::vector<ClockOffset> notInMotion(const JoinTask& task, const std::vector<Rea
   return offsets;
 }
 
+/// The offsets that a user may state: the one that distances tell, else all that serve.
+std::string shownServing(const std::vector<ClockOffset>& offsets, const std::vector<OffsetMisfit>& fits) {
+  const auto shown = [](const ClockOffset& offset) {
+    return fmt::format("{} of {}", shownOffset(offset), offset.inside);
+  };
+  if (offsets.size() == 1) return shown(offsets.front());
+  if (fits.size() > 1 && isDecided(fits))
+    return fmt::format("{}, by which distances between the reflectors' places are off by {:.1f} mm",
+                       shown(offsets[fits.front().second]), 1e3 * fits.front().first);
+  constexpr std::size_t kNamed = 5;
+  std::vector<std::string> named;
+  for (std::size_t i = 0; i < std::min(kNamed, offsets.size()); ++i) named.push_back(shown(offsets[i]));
+  return fmt::format("{}{}, which distances between the reflectors' places do not tell apart",
+                     fmt::join(named, ", or "),
+                     offsets.size() > kNamed ? fmt::format(", or {} more", offsets.size() - kNamed) : std::string());
+}
+
 /// An offset that was stated must put nearly as many readings into standstills as the best does.
-void requireStatedServes(const JoinTask& task, const std::vector<ReadingTime>& times,
-                         const std::vector<Standstill>& standstills, const std::vector<ClockOffset>& offsets) {
+void requireStatedServes(const JoinTask& task, const std::vector<DayReading>& readings,
+                         const std::vector<ReadingTime>& times, const std::vector<Standstill>& standstills,
+                         const std::vector<ClockOffset>& offsets) {
   constexpr double kNearly = 0.9;
   const std::size_t inside = insideBy(times, standstills, *task.day.clock.offset_s);
   if (offsets.empty() || static_cast<double>(inside) >= kNearly * static_cast<double>(offsets.front().inside)) return;
   throw io::InputError(
       {task.day.file, task.source.line, "offset_s"}, fmt::format("{:g}", *task.day.clock.offset_s),
-      fmt::format(
-          "expected an offset that puts the readings into standstills of the joints; this one does of {} of {}, "
-          "{} of {}",
-          inside, times.size(), shownOffset(offsets.front()), offsets.front().inside));
+      fmt::format("expected an offset that puts the readings into standstills of the joints; this one does of {} of "
+                  "{}, {}",
+                  inside, times.size(), shownServing(offsets, misfitsBy(task, readings, standstills, offsets))));
+}
+
+/// Where stays are alike another offset serves as well and gives each posture the joints of the one beside. Distances
+/// contradict it, and agree by the right one.
+void requireStatedAgrees(const JoinTask& task, const std::vector<DayReading>& readings,
+                         const std::vector<Standstill>& standstills, const std::vector<ClockOffset>& offsets,
+                         const ClockReport& report) {
+  if (!report.misfit || *report.misfit < kAsArmsDiffer) return;
+  const std::vector<OffsetMisfit> fits = misfitsBy(task, readings, standstills, offsets);
+  if (fits.empty() || kExplains * fits.front().first > *report.misfit) return;
+  const ClockOffset& other = offsets[fits.front().second];
+  if (fits.front().first >= kAsArmsDiffer) {
+    // Neither agrees: the figures may mean something else.
+    const ClockJoin join = joinedAt(task, readings, standstills, report.offset_s);
+    requireMeaning(task, placedReadings(join.states, readings), *report.misfit);
+  }
+  throw io::InputError(
+      {task.day.file, task.source.line, "offset_s"}, fmt::format("{:g}", report.offset_s),
+      fmt::format("expected the offset by which readings find the joints of their postures; distances between the "
+                  "reflectors' places are off by {:.1f} mm, with {} by {:.1f} mm",
+                  1e3 * *report.misfit, shownOffset(other), 1e3 * fits.front().first));
 }
 
 }  // namespace
@@ -256,10 +312,11 @@ StateJoin joinByClock(const JoinTask& task, const std::vector<DayReading>& readi
   report.readings = readings.size();
   report.standstills = standstills.size();
   if (task.day.clock.offset_s) {
-    requireStatedServes(task, times, standstills, offsets);
+    requireStatedServes(task, readings, times, standstills, offsets);
     report.stated = true;
     report.offset_s = *task.day.clock.offset_s;
     report.misfit = misfitAt(task, readings, standstills, report.offset_s);
+    requireStatedAgrees(task, readings, standstills, offsets, report);
   } else {
     const ClockOffset chosen = chosenOffset(task, readings, standstills, offsets, report.misfit);
     report.offset_s = chosen.offset_s;

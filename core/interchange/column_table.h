@@ -40,6 +40,11 @@ class ColumnTable {
   /// fx, fy, fz, mx, my, mz, of a table that has them.
   Vector6d wrench(const Row& row) const;
   bool hasNumber(const std::string& quantity) const { return numbers_.contains(quantity); }
+  /// Whether its column has this name, with the unit.
+  bool isNamed(const std::string& quantity, const std::string& column) const {
+    const auto found = numbers_.find(quantity);
+    return found != numbers_.end() && found->second.name == column;
+  }
   bool hasNumbers(const std::vector<std::string>& quantities) const;
   /// Whether the table has them. Throws InputError where it has some of them only.
   bool hasAllOrNone(const std::vector<std::string>& quantities) const;

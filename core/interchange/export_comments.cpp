@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <initializer_list>
+#include <iterator>
 #include <vector>
 
 #include "core/interchange/length_unit.h"
@@ -125,6 +126,67 @@ int uncertaintiesNamed(std::string_view comment) {
   return count;
 }
 
+/// x, y or z in a comment, as a coordinate or behind U as its uncertainty.
+struct AxisLabel {
+  int axis = 0;
+  std::size_t word = 0;  ///< which one of the comment's, but for those of units
+  bool capital = false, negative = false, uncertainty = false;
+};
+
+std::vector<AxisLabel> axisLabels(std::string_view comment) {
+  const auto isWordAt = [&](std::size_t i) { return isLetter(lowered(comment.substr(i, 1)).front()); };
+  std::vector<AxisLabel> labels;
+  std::string before;
+  std::size_t words = 0;
+  for (std::size_t at = 0; at < comment.size();) {
+    if (const char open = comment[at]; open == '(' || open == '[') {
+      const std::size_t close = comment.find(open == '(' ? ')' : ']', at);
+      at = close == std::string_view::npos ? comment.size() : close + 1;
+      continue;
+    }
+    if (!isWordAt(at)) {
+      ++at;
+      continue;
+    }
+    const std::size_t from = at;
+    while (at < comment.size() && isWordAt(at)) ++at;
+    const std::string word = lowered(comment.substr(from, at - from));
+    if (metresIn(word)) continue;
+    const bool together = word.size() == 2 && word.front() == 'u';
+    const std::string letter = together ? word.substr(1) : word;
+    const auto axis = std::find(kAxisLetters.begin(), kAxisLetters.end(), letter);
+    if (axis != kAxisLetters.end()) {
+      AxisLabel label{static_cast<int>(axis - kAxisLetters.begin()), words};
+      label.capital = comment[from] >= 'A' && comment[from] <= 'Z';
+      label.uncertainty = together || before == "u";
+      // Of "Points - X, Y, Z" and "Achse-X" the stroke is no sign.
+      label.negative = from > 0 && comment[from - 1] == '-' &&
+                       (from == 1 || std::string_view(" \t,;").find(comment[from - 2]) != std::string_view::npos);
+      labels.push_back(label);
+    }
+    before = word;
+    ++words;
+  }
+  return labels;
+}
+
+/// In which order labels name all three axes; nullopt where one lacks. `listed`: they follow one another with nothing
+/// but units between them, and no fourth follows.
+std::optional<AxisOrder> orderOf(const std::vector<AxisLabel>& labels, bool& listed) {
+  AxisOrder order{};
+  std::size_t found = 0;
+  for (const AxisLabel& label : labels) {
+    const auto end = order.begin() + static_cast<std::ptrdiff_t>(found);
+    if (found < order.size() && std::find(order.begin(), end, label.axis) == end) order[found++] = label.axis;
+  }
+  if (found < order.size()) return std::nullopt;
+  listed = labels[2].word == labels[0].word + 2 &&
+           std::equal(order.begin(), order.end(), labels.begin(),
+                      [](int axis, const AxisLabel& label) { return axis == label.axis; }) &&
+           (labels.size() == order.size() || labels[3].word > labels[2].word + 1);
+  return order;
+}
+
 /// The number that ends where `end` is; NaN where there is none.
 double numberBefore(std::string_view text, std::size_t end) {
   while (end > 0 && text[end - 1] == ' ') --end;
@@ -208,6 +270,15 @@ double coverageIn(std::string_view comment) {
   return 0.0;
 }
 
+/// Coverage beside the columns that it is of, "U-mag (95%)" or "U-mag [mm] (2 sigma)", and no unit.
+bool isLevel(const std::string& small) {
+  const bool level = small.find('%') != std::string::npos || small.find("sigm") != std::string::npos ||
+                     small.find("\xCF\x83") != std::string::npos;
+  const std::vector<std::string> words = wordsOf(small);
+  return level &&
+         std::none_of(words.begin(), words.end(), [](const std::string& word) { return metresIn(word).has_value(); });
+}
+
 /// Words of a unit, of which deg and C are no angle.
 bool isAngleUnit(const std::string& small) {
   const std::vector<std::string> words = wordsOf(small);
@@ -233,6 +304,43 @@ bool isAboutAxes(const std::vector<std::string>& words, const std::vector<std::s
     const std::vector<std::string> parts = wordsOf(unit);
     return std::any_of(parts.begin(), parts.end(), [](const std::string& part) { return metresIn(part).has_value(); });
   });
+}
+
+/// Takes the order in which a comment lists the axes of points and of their uncertainties. `of_columns`: it says units
+/// or uncertainties, and is of the columns; another one may speak of axes in any order.
+void readAxisOrder(const FileText& text, const TextLine& line, std::string_view comment, bool of_columns,
+                   ExportComments& header) {
+  std::vector<AxisLabel> coordinates = axisLabels(comment), uncertainties;
+  std::copy_if(coordinates.begin(), coordinates.end(), std::back_inserter(uncertainties),
+               [](const AxisLabel& label) { return label.uncertainty; });
+  std::erase_if(coordinates, [](const AxisLabel& label) { return label.uncertainty; });
+  // Small letters are words of some languages: y in Spanish, z in Polish.
+  std::vector<AxisLabel> capitals = coordinates;
+  std::erase_if(capitals, [](const AxisLabel& label) { return !label.capital; });
+  bool listed = false, uncertainties_listed = false;
+  std::optional<AxisOrder> order = orderOf(capitals, listed);
+  if (order)
+    coordinates = capitals;
+  else
+    order = orderOf(coordinates, listed);
+  if (const auto own = orderOf(uncertainties, uncertainties_listed)) header.uncertainty_axes = own;
+  if (!order) return;
+  const bool negative =
+      std::any_of(coordinates.begin(), coordinates.end(), [](const AxisLabel& l) { return l.negative; });
+  if ((of_columns || listed) && negative)
+    throw io::InputError({text.file, line.number, ""}, std::string(comment),
+                         "expected the axes without a sign: export x, y, z");
+  if (!listed) {
+    if (of_columns && *order != kUsualOrder)
+      throw io::InputError({text.file, line.number, ""}, std::string(comment),
+                           "expected the axes in the order of their columns, as X, Y, Z: export x, y, z, or name the "
+                           "columns (format columns)");
+    return;
+  }
+  if (header.axes && *header.axes != *order)
+    throw io::InputError({text.file, line.number, ""}, std::string(comment),
+                         "expected the axes in one order; those above are in another");
+  header.axes = order;
 }
 
 void readExportComment(const FileText& text, const TextLine& line, std::string_view comment, ExportComments& header) {
@@ -261,6 +369,7 @@ void readExportComment(const FileText& text, const TextLine& line, std::string_v
     *header.uncertainties += uncertaintiesNamed(comment);
   const std::vector<std::string_view> units = bracketed(comment);
   const bool about_axes = isAboutAxes(words, units);
+  readAxisOrder(text, line, comment, !units.empty() || uncertaintiesNamed(comment) > 0, header);
   for (const std::string_view unit : units) {
     const std::string small = lowered(unit);
     if (about_axes && isAngleUnit(small)) {
@@ -269,8 +378,8 @@ void readExportComment(const FileText& text, const TextLine& line, std::string_v
     }
     if (!axes) continue;
     // Several of one axis comment: "X (mm), Y (mm), Z (mm)".
-    const std::string first = small.substr(0, small.find_first_of(",; "));
-    const std::optional<double> metres = metresIn(first);
+    const std::optional<double> metres = metresIn(small.substr(0, small.find_first_of(",; ")));
+    if (!metres && isLevel(small)) continue;
     if (!metres) {
       throw io::InputError({text.file, line.number, "unit"}, std::string(unit),
                            "expected mm, m or inch in the comment of the axes");

@@ -65,6 +65,8 @@ class DayImport {
       if (const auto warning = warningOf(*stated, day_.file)) result_.warnings.push_back(*warning);
     }
     campaign::checkCampaign(result_.campaign, result_.warnings);
+    if (const auto warning = leaveWrenchesOut(result_.campaign, without_wrench_, day_.file))
+      result_.warnings.push_back(*warning);
     return std::move(result_);
   }
 
@@ -295,7 +297,9 @@ class DayImport {
       row.extras().motor_side = convention.anglesBeside(means.motor_side, state.figures);
     if (givenAngles(means.commanded)) row.extras().commanded = convention.anglesBeside(means.commanded, state.figures);
     row.line = table->rows.size() + 2;
-    if (means.wrench.allFinite()) row.wrench_in_cell = means.wrench;
+    const bool in_log = means.wrench.allFinite();
+    if (in_log) row.wrench_in_cell = means.wrench;
+    if (!in_log && files_.loads.empty()) ++without_wrench_;
     if (!files_.loads.empty()) {
       const auto load = files_.loads.find({state.pose, state.step});
       if (load == files_.loads.end())
@@ -434,6 +438,7 @@ class DayImport {
   std::vector<std::set<std::size_t>> used_samples_;                       ///< by log, the first of each state
   std::vector<std::set<std::pair<std::size_t, std::size_t>>> stretches_;  ///< by log, what could be joined
   std::set<std::pair<std::string, int>> used_loads_;
+  std::size_t without_wrench_ = 0;  ///< states that neither a log nor a file of loads gives one
   std::vector<std::pair<std::size_t, SkippedRow>> skipped_;
   std::map<std::string, std::vector<bool>> used_;  ///< by the file's name, its lines
 };

@@ -40,6 +40,7 @@ struct TextSpan {
 
 struct RobotLog {
   LogFormat format = LogFormat::columns;
+  bool radians = false;  ///< the file states angles of joints in radians, not in degrees
   Encoding encoding = Encoding::utf8;
   std::vector<JointSample> samples;
   /// Of a program: where the figures of each sample stand in the text, joint by joint.

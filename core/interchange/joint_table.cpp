@@ -218,9 +218,10 @@ RobotLog readJointTable(const LogText& text, LogFormat format) {
             : fmt::format("expected a header line that names {} joints, as actual_q_0", countedJoints(joints)));
   }
   const DecimalSign sign = text.options.table.decimal_comma ? DecimalSign::comma : DecimalSign::point;
-  const double angle = format == LogFormat::fanuc_karel ? io::kDegree : 1.0;
   RobotLog log;
   log.format = format;
+  log.radians = format == LogFormat::ur;
+  const double angle = log.radians ? 1.0 : io::kDegree;
   if (!header.unread.empty()) log.warnings.push_back(notRead(text, header));
   if (!header.beyond.empty()) log.warnings.push_back(leftOut(text, header.line, header.beyond));
   // A cell and what parts it from the next are a byte each at least.
@@ -263,6 +264,8 @@ RobotLog readJointColumns(const LogText& text) {
                          "expected px, py and pz with their unit beside pw, pp and pr");
   RobotLog log;
   log.format = LogFormat::columns;
+  log.radians = std::any_of(columns.names.begin(), columns.names.end(),
+                            [&](const std::string& name) { return table.isNamed(name, name + "_rad"); });
   log.warnings = table.warnings();
   for (const char* kind : {"q", "m", "c"}) {
     const std::string beyond = kind + std::to_string(joints + 1);

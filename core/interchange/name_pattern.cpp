@@ -15,6 +15,7 @@ const std::vector<std::string>& patternFields() {
 
 // A name's part never holds what separates parts.
 constexpr char kBetweenParts = ':';
+const std::string kPartsApart = "::";
 
 }  // namespace
 
@@ -81,10 +82,18 @@ std::optional<std::map<std::string, std::string>> NamePattern::fieldsIn(const st
 }
 
 std::optional<std::map<std::string, std::string>> NamePattern::fieldsIn(const PointReading& point) const {
-  std::string name = point.name;
-  if (parts_ > 1) name = point.group() + "::" + name;
-  if (parts_ > 2) name = point.collection() + "::" + name;
-  return fieldsIn(name);
+  if (parts_ == 1) return fieldsIn(point.name);
+  std::string name = point.group() + kPartsApart + point.name;
+  if (parts_ > 2) name = point.collection() + kPartsApart + name;
+  // From the right, as one cell may hold several parts: "A::P1::T1".
+  std::size_t from = name.size();
+  for (std::size_t part = 0; part < parts_; ++part) {
+    const std::size_t mark =
+        from < kPartsApart.size() ? std::string::npos : name.rfind(kPartsApart, from - kPartsApart.size());
+    if (mark == std::string::npos) return fieldsIn(name);
+    from = mark;
+  }
+  return fieldsIn(name.substr(from + kPartsApart.size()));
 }
 
 }  // namespace stiffscope::interchange

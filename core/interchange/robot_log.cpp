@@ -79,12 +79,14 @@ void requireOrder(const std::string& file, const RobotLog& log) {
 
 void requirePlausible(const std::string& file, const RobotLog& log) {
   constexpr double kMost = 720.0 * io::kDegree;
+  // Figures in degrees are too large as radians; those in radians are small as degrees, and plausible.
+  const char* const meant = log.radians ? "degrees read as radians, or another column?" : "another column?";
   for (const JointSample& sample : log.samples) {
     for (Eigen::Index j = 0; j < sample.figures.size(); ++j) {
       if (std::abs(sample.figures[j]) <= kMost) continue;
       throw io::InputError({file, sample.line, fmt::format("joint {}", j + 1)},
                            fmt::format("{:.6g} deg", sample.figures[j] / io::kDegree),
-                           "expected an angle within +-720 deg: radians read as degrees, or another column?");
+                           fmt::format("expected an angle within +-720 deg: {}", meant));
     }
     // As the campaign's tables have it; of poses that are not stated both are false.
     constexpr double kFarthest = 200.0;

@@ -22,17 +22,27 @@ bool isXyzRow(const std::vector<std::string_view>& cells, DecimalSign sign) {
   return std::all_of(cells.begin() + kLeastCells, cells.end(), [](std::string_view cell) { return cell.empty(); });
 }
 
+/// Names of columns, where numbers stand below.
+bool isHeader(const std::vector<std::string_view>& cells) {
+  return std::all_of(cells.begin(), cells.end(), [](std::string_view cell) {
+    return std::isnan(decimalOrNan(cell, DecimalSign::point)) && std::isnan(decimalOrNan(cell, DecimalSign::comma));
+  });
+}
+
 }  // namespace
 
+// By most of the first rows, whatever decimal sign they have: what is wrong in one is said of its line.
 bool looksLikeSemicolonXyz(const FileText& text) {
   constexpr std::size_t kLook = 20;
-  std::size_t rows = 0;
+  std::size_t rows = 0, fitting = 0;
   for (const TextLine& line : linesOf(text.text)) {
     if (line.number <= text.options.skip || trimmed(line.text).empty()) continue;
-    if (!isXyzRow(cellsBetween(line.text, ';'), text.decimalSign())) return false;
+    const std::vector<std::string_view> cells = cellsBetween(line.text, ';');
+    if (rows == 0 && isHeader(cells)) return false;
+    if (isXyzRow(cells, DecimalSign::point) || isXyzRow(cells, DecimalSign::comma)) ++fitting;
     if (++rows == kLook) break;
   }
-  return rows > 0;
+  return 2 * fitting >= std::max<std::size_t>(rows, 1);
 }
 
 PointFile readSemicolonXyz(const FileText& text) {

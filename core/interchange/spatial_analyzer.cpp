@@ -286,8 +286,10 @@ void findUncertainties(const FileText& text, const SaSeparator& separator, std::
   columns.of_them = kCells;
 }
 
-PointReading saPointOf(const SaRow& row, const SaColumns& columns, double unit, double coverage, DecimalSign sign,
-                       PointGroups& groups) {
+PointReading saPointOf(const SaRow& row, const SaColumns& columns, double unit, const ExportComments& header,
+                       DecimalSign sign, PointGroups& groups) {
+  const AxisOrder axes = header.axes.value_or(kUsualOrder), uncertainty_axes = header.uncertainty_axes.value_or(axes);
+  const double coverage = header.coverage == 0.0 ? 1.0 : header.coverage;
   PointReading point;
   point.line = row.line;
   point.time = row.time;
@@ -295,11 +297,11 @@ PointReading saPointOf(const SaRow& row, const SaColumns& columns, double unit, 
   if (names >= 1) point.name = row.cells[names - 1];
   if (names >= 2) point.of = groups.of(names >= 3 ? row.cells[0] : std::string_view(), row.cells[names - 2]);
   const auto number = [&](std::size_t at) { return decimalOrNan(row.cells[at], sign); };
-  for (std::size_t k = 0; k < 3; ++k) point.point[static_cast<Eigen::Index>(k)] = number(names + k) * unit;
+  for (std::size_t k = 0; k < 3; ++k) point.point[axes[k]] = number(names + k) * unit;
   if (!columns.uncertainties || row.cells.size() < names + 3 + *columns.uncertainties + 3) return point;
   Eigen::Vector3d sigma;
   for (std::size_t k = 0; k < 3; ++k)
-    sigma[static_cast<Eigen::Index>(k)] = number(names + 3 + *columns.uncertainties + k) * unit / coverage;
+    sigma[uncertainty_axes[k]] = number(names + 3 + *columns.uncertainties + k) * unit / coverage;
   // Of constructed points the columns are there and hold nothing.
   if (!sigma.isZero(0.0)) point.sigma = sigma;
   return point;
@@ -379,8 +381,7 @@ PointFile readSpatialAnalyzer(const FileText& text) {
   points.points.reserve(survey.rows);
   PointGroups groups;
   forEachRow(text, separator, [&](const SaRow& row) {
-    points.points.push_back(
-        saPointOf(row, columns, unit, header.coverage == 0.0 ? 1.0 : header.coverage, text.decimalSign(), groups));
+    points.points.push_back(saPointOf(row, columns, unit, header, text.decimalSign(), groups));
   });
   return points;
 }

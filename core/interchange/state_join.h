@@ -26,6 +26,10 @@ struct PlacedReading {
 std::optional<double> chordMisfit(const robot::Robot& robot, const std::vector<campaign::JointReading>& convention,
                                   const std::vector<PlacedReading>& readings, double scale = 1.0);
 
+/// Arms differ from their nominal geometry, and bend, by a few millimetres, m; a wrong sign, or the joints of another
+/// posture, make decimetres. What explains these makes distances agree so many times better.
+inline constexpr double kAsArmsDiffer = 0.01, kExplains = 4.0;
+
 /// What else the figures or the points could mean.
 struct OtherMeaning {
   enum class Kind { sign, coupling, offset, unit };
@@ -83,7 +87,7 @@ StateJoin posturesOf(const JoinTask& task);
 /// Readings by the standstill that they fall into, with the offset of the clocks that puts most of them into one. Where
 /// several offsets put nearly as many there, and leave hardly more in motion, distances between the reflectors' places
 /// decide (chord check above). Throws InputError where a time is missing, no offset serves, several do alike, the one
-/// stated does not, or the wrench changes while a state is read.
+/// stated does not or distances contradict it and agree by another, or the wrench changes while a state is read.
 StateJoin joinByClock(const JoinTask& task, const std::vector<DayReading>& readings);
 
 /// One reading of each reflector and state, for the check of distances. Loads move reflectors by millimetres; readings

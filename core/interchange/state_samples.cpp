@@ -144,6 +144,24 @@ StateMeans meansOf(const RobotLog& log, std::size_t first, std::size_t last) {
           meanOfGiven(log.commanded, first, last)};
 }
 
+std::optional<std::string> leaveWrenchesOut(campaign::Campaign& campaign, std::size_t without, const std::string& day) {
+  if (without == 0 || !campaign.states) return std::nullopt;
+  std::vector<campaign::State>& rows = campaign.states->rows;
+  for (campaign::State& row : rows) row.wrench_in_cell.setConstant(campaign::kNotGiven);
+  if (without < rows.size())
+    return io::inputMessage(
+        {day, 0, "log"}, "",
+        fmt::format("wrenches are not taken: {} of {} states have none, and a table has them in all "
+                    "rows or in none",
+                    without, rows.size()));
+  const bool loaded = std::any_of(rows.begin(), rows.end(), [](const campaign::State& row) { return row.step != 0; });
+  if (!loaded) return std::nullopt;
+  return io::inputMessage(
+      {day, 0, "loads"}, "",
+      "the load steps have no wrench: neither a file of loads nor the log gives one, and without it "
+      "no stiffness can be identified");
+}
+
 std::optional<std::string> warningOfUntaken(const RobotLog& log, const std::string& file, bool gives_states,
                                             bool loads_elsewhere) {
   std::vector<std::string> untaken;

@@ -64,6 +64,11 @@ struct StateMeans {
 
 StateMeans meansOf(const RobotLog& log, std::size_t first, std::size_t last);
 
+/// What was not read is not zero: where states have no wrench (`without` of them) all lose theirs, so that the table is
+/// written without the columns. Returns the warning of load steps that are left without, or of wrenches that are lost
+/// as others have none.
+std::optional<std::string> leaveWrenchesOut(campaign::Campaign& campaign, std::size_t without, const std::string& day);
+
 /// The warning of what a log has and no table takes: motor-side and commanded angles of one that gives joints to sweeps
 /// alone (no state is of it), the wrench beside a file of loads.
 std::optional<std::string> warningOfUntaken(const RobotLog& log, const std::string& file, bool gives_states,

@@ -1,8 +1,11 @@
 #include "core/numerics/resampling.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
+
+#include "core/numerics/distributions.h"
 
 namespace stiffscope::numerics {
 
@@ -50,6 +53,11 @@ Weights drawWeights(std::mt19937_64& random, std::size_t count) {
   Weights weights(count, 0.0);
   drawWithReplacement(random, count, [&](std::size_t index) { weights[index] += 1.0; });
   return weights;
+}
+
+double spreadOfFew(double count) {
+  constexpr double kTail = 0.05;
+  return std::sqrt(count / (count - 1.0)) * studentLimit(kTail, count - 1.0) / normalLimit(kTail);
 }
 
 Weights leaveOneOut(std::size_t count, std::size_t left_out) {

@@ -43,6 +43,10 @@ void drawWithReplacement(std::mt19937_64& random, std::size_t count, const Visit
 /// The same sample as weights.
 Weights drawWeights(std::mt19937_64& random, std::size_t count);
 
+/// What the spread of a bootstrap over `count` lacks: drawing with replacement shrinks the variance by (n - 1) / n, and
+/// a 95 % quantile of draws knows nothing of the variance's own error, which Student's t does. Two at least.
+double spreadOfFew(double count);
+
 /// All but one.
 Weights leaveOneOut(std::size_t count, std::size_t left_out);
 

@@ -13,6 +13,16 @@ namespace stiffscope::render {
 
 namespace {
 
+// What can stand on the axis: on a logarithmic one only what is positive.
+bool placeable(double value, bool logarithmic) { return std::isfinite(value) && (!logarithmic || value > 0); }
+
+// Where the value has no place on the axis, its interval may be of what is possible: "at least 5" of a fit of -4.
+bool fits(const Interval& i, bool logarithmic) {
+  if (!std::isfinite(i.value)) return true;
+  if (i.lower > i.upper) return false;
+  return !placeable(i.value, logarithmic) || !(i.lower > i.value || i.upper < i.value);
+}
+
 void requireConsistent(const IntervalChart& chart) {
   const std::size_t count = chart.categories.size();
   if (count == 0 || chart.series.empty()) {
@@ -30,16 +40,13 @@ void requireConsistent(const IntervalChart& chart) {
                                               chart.title, series.name, series.intervals.size(), count));
     }
     for (const Interval& i : series.intervals) {
-      if (std::isfinite(i.value) && (i.lower > i.value || i.upper < i.value)) {
+      if (!fits(i, chart.logarithmic)) {
         throw std::invalid_argument(fmt::format("interval chart '{}': series '{}' has {} in an interval from {} to {}",
                                                 chart.title, series.name, i.value, i.lower, i.upper));
       }
     }
   }
 }
-
-// What can stand on the axis: on a logarithmic one only what is positive.
-bool placeable(double value, bool logarithmic) { return std::isfinite(value) && (!logarithmic || value > 0); }
 
 YAxis axisFor(const Canvas& canvas, const IntervalChart& chart, double height) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();

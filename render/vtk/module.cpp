@@ -23,7 +23,7 @@ class VtkBackend : public Backend {
 }  // namespace stiffscope::render
 
 // The name must be that of kBackendSymbol.
-extern "C" __attribute__((visibility("default"))) stiffscope::render::Backend* stiffscope_render_backend_7() {
+extern "C" __attribute__((visibility("default"))) stiffscope::render::Backend* stiffscope_render_backend_8() {
   static stiffscope::render::VtkBackend backend;
   return &backend;
 }

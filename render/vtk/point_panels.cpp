@@ -27,6 +27,15 @@ void drawPointMark(Canvas& canvas, Spot centre, double radius, Colour colour, Po
 
 namespace {
 
+/// Notes what the points of a series say to a pointer.
+void noteValues(Canvas& canvas, const PointSeries& series, const std::vector<Spot>& spots, const std::string& what,
+                const std::string& quantity) {
+  for (std::size_t i = 0; i < series.values.size(); ++i) {
+    const PointValue& own = series.values[i];
+    canvas.mark(spots[i], what, own.category, own.value, own.at, quantity);
+  }
+}
+
 template <class Panel>
 std::vector<LegendEntry> legendOf(const std::vector<Panel>& panels);
 
@@ -104,11 +113,15 @@ void drawSeries(Canvas& canvas, const Box& plot, const Range& x_range, const YAx
     drawWhisker(canvas, spots[i].x, axis.at(y - error), axis.at(y + error), 0.8 * radius, series.colour, true, true);
   }
   drawMarks(canvas, series, spots, radius);
+  const std::string what = panel.title.empty() ? series.name : panel.title + ": " + series.name;
+  if (!series.values.empty()) {
+    noteValues(canvas, series, spots, what, panel.y_title);
+    return;
+  }
   for (std::size_t i = 0; i < spots.size() && series.mark != PointMark::none; ++i) {
     const double x = series.points[i].x;
     const auto category = static_cast<std::size_t>(std::lround(std::max(x, 0.0)));
     const bool named = !panel.categories.empty() && category < panel.categories.size();
-    const std::string what = panel.title.empty() ? series.name : panel.title + ": " + series.name;
     canvas.mark(spots[i], what, named ? panel.categories[category] : "", series.points[i].y, x, panel.y_title);
   }
 }
@@ -189,7 +202,10 @@ void drawShape(Canvas& canvas, const Box& cell, const ShapePanel& panel) {
     };
     const std::vector<Spot> line = spotsOf(series.line);
     for (std::size_t i = 1; i < line.size(); ++i) canvas.line(line[i - 1], line[i], series.colour, 1.5 * u);
-    drawMarks(canvas, series, spotsOf(series.points), radius);
+    const std::vector<Spot> spots = spotsOf(series.points);
+    drawMarks(canvas, series, spots, radius);
+    const bool both = !panel.title.empty() && !series.name.empty();
+    noteValues(canvas, series, spots, panel.title + (both ? ": " : "") + series.name, panel.value_name);
   }
   if (panel.scale_name.empty()) return;
   const double bar = scale * panel.scale_bar, y = cell.bottom - canvas.measure("0", label).y / 2;
@@ -211,9 +227,14 @@ void requireConsistent(const PointChart& chart) {
   const auto check = [&chart](const auto& panels) {
     for (const auto& panel : panels) {
       for (const PointSeries& series : panel.series) {
-        if (series.errors.empty() || series.errors.size() == series.points.size()) continue;
-        throw std::invalid_argument(fmt::format("point chart '{}': series '{}' has {} errors for {} points",
-                                                chart.title, series.name, series.errors.size(), series.points.size()));
+        const std::size_t points = series.points.size();
+        const auto requireOneAPoint = [&](std::size_t count, const char* what) {
+          if (count == 0 || count == points) return;
+          throw std::invalid_argument(fmt::format("point chart '{}': series '{}' has {} {} for {} points", chart.title,
+                                                  series.name, count, what, points));
+        };
+        requireOneAPoint(series.errors.size(), "errors");
+        requireOneAPoint(series.values.size(), "values");
       }
     }
   };

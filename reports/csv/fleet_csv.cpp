@@ -97,7 +97,7 @@ std::string changesCsv(const fleet::Fleet& fleet) {
 
 std::string detectableCsv(const fleet::Fleet& fleet) {
   DataTable table{{"machine", "kind", "double_encoders", "joint", "dates", "same_postures", "compliance_rad_per_nm",
-                   "in_the_middle", "on_the_last_date"},
+                   "in_the_middle", "on_the_last_date", "machine_of_name"},
                   {}};
   for (const fleet::SeriesCharts& charts : fleet.charts) {
     const fleet::DaySeries& series = fleet.series[charts.series];
@@ -106,7 +106,7 @@ std::string detectableCsv(const fleet::Fleet& fleet) {
       table.rows.push_back({series.machine, std::string(keyOf(series.kind)), std::string(nameOf(series.encoders)),
                             static_cast<double>(j + 1), static_cast<double>(series.campaigns.size()),
                             std::string(charts.same_postures ? "yes" : "no"), charts.joints[j].centre, one.middle,
-                            one.last});
+                            one.last, static_cast<double>(machineNumber(fleet, series))});
     }
   }
   return csvTable(table);

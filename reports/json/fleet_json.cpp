@@ -71,6 +71,10 @@ JointVector vectorOf(const Json& json, int joints) {
   return values;
 }
 
+Eigen::Vector3d pointOf(const Json& json) {
+  return {keptNumber(json.at(0)), keptNumber(json.at(1)), keptNumber(json.at(2))};
+}
+
 Json methodJson(const std::optional<identification::Method>& method) {
   return method ? Json(namesOf(*method).key) : Json(nullptr);
 }
@@ -135,9 +139,9 @@ const char* keyOf(fleet::DayKind kind) {
 }
 
 const char* keyOf(fleet::NeedId id) {
-  constexpr std::array kNames{"no_result",          "audit_failed",    "changed",       "unknown_gap",
-                              "audit_not_testable", "perhaps_changed", "dates_scatter", "joint_imprecise",
-                              "audit_warned",       "nothing"};
+  constexpr std::array kNames{"no_result",       "several_machines",   "audit_failed",    "changed",
+                              "unknown_gap",     "audit_not_testable", "perhaps_changed", "dates_scatter",
+                              "joint_imprecise", "audit_warned",       "nothing"};
   return kNames[static_cast<std::size_t>(id)];
 }
 
@@ -150,6 +154,9 @@ Json keptJson(const CampaignResult& result) {
   json["loaded_postures"] = Json::array();
   for (const fleet::LoadedPosture& one : result.loaded_postures)
     json["loaded_postures"].push_back({{"pose", one.pose}, {"q_rad", array(one.q)}, {"force_n", array(one.force)}});
+  json["axes"] = Json::array();
+  for (const metrology::Line& axis : result.axes)
+    json["axes"].push_back({{"point_m", array(axis.point)}, {"direction", array(axis.direction)}});
   return json;
 }
 
@@ -177,10 +184,12 @@ CampaignResult keptCampaign(const Json& json) {
   for (std::size_t m = 0; m < 3; ++m) result.springs[m] = springsOf(json.at("springs").at(m), joints);
   result.own_weight = springsOf(json.at("own_weight"), joints);
   for (const Json& one : json.at("loaded_postures")) {
-    const Json& force = one.at("force_n");
-    result.loaded_postures.push_back({one.at("pose"),
-                                      vectorOf(one.at("q_rad"), joints),
-                                      {keptNumber(force.at(0)), keptNumber(force.at(1)), keptNumber(force.at(2))}});
+    result.loaded_postures.push_back({one.at("pose"), vectorOf(one.at("q_rad"), joints), pointOf(one.at("force_n"))});
+  }
+  for (const Json& one : json.at("axes")) {
+    if (result.axes.size() == result.axes.capacity())
+      throw std::runtime_error("no result of a fleet's campaign: more axes than an arm has");
+    result.axes.push_back({pointOf(one.at("point_m")), pointOf(one.at("direction"))});
   }
   return result;
 }

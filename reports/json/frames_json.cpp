@@ -117,6 +117,7 @@ Json wristJson(const campaign::Campaign& campaign, const frames::Frames& frames)
   for (int joint = 1; joint <= arm; ++joint) carried += "_q" + std::to_string(joint);
   json[carried + "_deg"] = array(JointVector(wrist.q.head(arm)), 1.0 / io::kDegree);
   json["miss_mm"] = missesJson(frames);
+  if (wrist.offset()) json["meet_apart_mm"] = wrist.apart / io::kMillimetre;
   const auto last = static_cast<std::size_t>(campaign.robot.axes()) - 1;
   const std::string nearest = "nearest_" + axesKey(campaign.robot.axes() - 2);
   json[nearest + "_from"] = sourceOf(frames, {last - 1, last});

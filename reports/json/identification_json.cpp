@@ -209,19 +209,21 @@ Json methodJson(const identification::MethodResult& method) {
   return json;
 }
 
-Json identifiabilityJson(const identification::Identifiability& judged) {
+/// `loaded`: whether there are postures under load; without them nothing is known of any load.
+Json identifiabilityJson(const identification::Identifiability& judged, bool loaded) {
+  const auto ofLoad = [loaded](double value) { return loaded ? number(value) : Json(nullptr); };
   Json joints = Json::array();
   for (std::size_t j = 0; j < judged.joints.size(); ++j) {
     const identification::JointIdentifiability& joint = judged.joints[j];
     Json one{{"joint", j + 1}, {"identifiable", joint.identifiable}};
     if (!joint.identifiable) one["reason"] = words(joint.reason);
-    one["torque_rms_nm"] = joint.torque_rms;
-    one["trusted_torque_rms_nm"] = joint.trusted_rms;
-    one["torque_uncertainty_nm"] = joint.uncertainty_rms;
+    one["torque_rms_nm"] = ofLoad(joint.torque_rms);
+    one["trusted_torque_rms_nm"] = ofLoad(joint.trusted_rms);
+    one["torque_uncertainty_nm"] = ofLoad(joint.uncertainty_rms);
     joints.push_back(one);
   }
-  return {{"load_hangs", judged.load_hangs},
-          {"force_to_gravity_rms_deg", judged.gravity_angle_rms / io::kDegree},
+  return {{"load_hangs", loaded ? Json(judged.load_hangs) : Json(nullptr)},
+          {"force_to_gravity_rms_deg", ofLoad(judged.gravity_angle_rms / io::kDegree)},
           {"joints", joints}};
 }
 
@@ -303,7 +305,8 @@ JsonDocument identificationJson(const campaign::Campaign& campaign, const identi
   JsonDocument document(Json::object());
   Json& json = document.json;
   json["campaign"] = campaignJson(campaign);
-  json["step"] = result.step;
+  const bool loaded = !result.cases.empty();
+  json["step"] = result.steps.empty() ? Json(nullptr) : Json(result.step);
   json["steps"] = result.steps;
   json["postures"] = identification::postureCount(result);
   json["left_out"] = Json::array();
@@ -314,15 +317,19 @@ JsonDocument identificationJson(const campaign::Campaign& campaign, const identi
   for (const identification::Method which : methods) by_method[namesOf(which).key] = methodJson(result.of(which));
   json["methods"] = by_method;
   json["shown_first"] = shownFirstJson(identification::shownFirstOf(result, methods));
-  json["identifiability"] = identifiabilityJson(result.identifiability);
+  json["identifiability"] = identifiabilityJson(result.identifiability, loaded);
   json["noise_share"] = result.noise
                             ? Json{{"wrist", result.noise->at_wrist ? number(*result.noise->at_wrist) : Json(nullptr)},
                                    {"targets", number(result.noise->at_targets)},
                                    {"per_coordinate_um", result.noise->per_coordinate / io::kMicrometre}}
                             : Json(nullptr);
-  json["geometric_stiffness"] = {{"included", result.finite_deflection},
-                                 {"torque_change_share", result.geometric_stiffness_share}};
-  json["servo_change_deg"] = result.servo_change / io::kDegree;
+  // Of what joint stiffnesses make of the load: without one there is no share.
+  const bool identified = std::any_of(result.methods.begin(), result.methods.end(),
+                                      [](const identification::MethodResult& one) { return one.available; });
+  json["geometric_stiffness"] = {
+      {"included", result.finite_deflection},
+      {"torque_change_share", identified ? number(result.geometric_stiffness_share) : Json(nullptr)}};
+  json["servo_change_deg"] = loaded ? number(result.servo_change / io::kDegree) : Json(nullptr);
   json["calibration"] = geometryCalibrationJson(result.calibration);
   if (result.transmission) json["transmission"] = transmissionJson(result, methods);
   json["own_weight"] = {{"removed", result.frames.sag_removed}, {"note", words(result.frames.sag_note)}};

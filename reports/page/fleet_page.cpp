@@ -157,7 +157,7 @@ void writeDetectable(Html& html, const Fleet& fleet) {
       const fleet::DaySeries& series = fleet.series[charts.series];
       if (series.machine != machine.name || series.campaigns.size() < 2) continue;
       if (table.groups[0].rows.size() == kMostMachinesShown) break;
-      reports::Row row{asIs(series.machine), std::to_string(series.campaigns.size()),
+      reports::Row row{asIs(reports::machineWords(fleet, series)), std::to_string(series.campaigns.size()),
                        std::string(series.kind == fleet::DayKind::unloaded ? "without a load" : "with loads") +
                            (charts.same_postures ? "" : ", other postures")};
       for (const fleet::Detectable& one : charts.detectable) row.push_back(detectableCell(one));

@@ -82,6 +82,8 @@ KeyNumber compensated(const reports::ReportContent& content, const reports::Repo
   const bool paper = content.compare_with_paper;
   const auto shown = reports::shownMethod(one.identification);
   if (!shown) return {"–", "compensated: no method is available, see @{Stiffness}"};
+  if (const std::string negative = reports::negativeFitWords(one.identification); !negative.empty())
+    return {"–", "compensated: " + negative + stateOf(content, one)};
   const identification::MethodResult& method = one.identification.of(*shown);
   const bool wrist = reports::compensationAt(method, true).has_value(), first_at_wrist = wrist && paper;
   const auto share = [&](bool at_wrist) {

@@ -81,6 +81,12 @@ void writeWorkspace(Html& html, const reports::ReportContent& content) {
                  constexpr bool kPostures = true, kSlice = true;
                  html.keepTable("stiffness-slice",
                                 reports::csvTable(reports::stiffnessPlaces(found, joints, !kPostures, kSlice)));
+                 if (!reports::givesInSlice(found.slice)) {
+                   html.paragraph(
+                       "There is no picture of a slice of the workspace: no joint whose stiffness is known moves "
+                       "P_{TCP} in its plane.");
+                   return;
+                 }
                  html.paragraph(fmt::format("By {}; the slice is in the {}.", reports::longName(found.method),
                                             reports::asIs(withDegrees(reports::sliceWords(found.slice)))),
                                 "faint");

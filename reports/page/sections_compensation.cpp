@@ -249,6 +249,8 @@ void writeCompensation(Html& html, const reports::ReportContent& content) {
       html.paragraph("No method is available, so nothing is compensated.");
       return;
     }
+    if (const std::string negative = reports::negativeFitWords(one.identification); !negative.empty())
+      html.paragraph(reports::capitalised(negative) + ": these shares say how well the readings are fitted.");
     if (one.identification.shown_first)
       html.paragraph(
           reports::withSubscripts(reports::shownFirstWords(one.identification, *one.identification.shown_first)));

@@ -103,7 +103,8 @@ reports::Table gapTable(const diagnosis::Diagnosis& diagnosis) {
   return whereTable(caption, "Deflection", diagnosis.where, {diagnosis.where_positions, "Unloaded"});
 }
 
-reports::Table stiffnessTable(const diagnosis::Diagnosis& diagnosis) {
+reports::Table stiffnessTable(const reports::ReportCampaign& one) {
+  const diagnosis::Diagnosis& diagnosis = *one.diagnosis;
   const bool stated = diagnosis.stated.has_value();
   const reports::StiffnessUnit unit = reports::stiffnessUnit(diagnosis);
   reports::Table table{
@@ -124,16 +125,25 @@ reports::Table stiffnessTable(const diagnosis::Diagnosis& diagnosis) {
     if (!diagnosis.identifiable[static_cast<std::size_t>(j)]) continue;
     const double sd = diagnosis.stiffness_after_sd[j];
     const double u = stated ? diagnosis.stated->expanded[j] : reports::expanded(sd);
+    // As the tables of stiffnesses have them, whose numbers these are.
+    const auto stiffness = [&](const identification::Identification& result) {
+      return reports::uncertainStiffness(result.of(diagnosis.stated->method).estimate, j, unit.size);
+    };
+    const bool as_elsewhere = stated && one.improved != nullptr;
     group.rows.push_back({reports::jointName(j),
-                          reports::toPlaceOf(diagnosis.stiffness_before[j] / unit.size, u / unit.size),
-                          reports::withUncertainty(diagnosis.stiffness_after[j] / unit.size, u / unit.size)});
+                          as_elsewhere ? stiffness(one.improved->without)
+                                       : reports::toPlaceOf(diagnosis.stiffness_before[j] / unit.size, u / unit.size),
+                          as_elsewhere
+                              ? stiffness(one.improved->with)
+                              : reports::withUncertainty(diagnosis.stiffness_after[j] / unit.size, u / unit.size)});
     data.rows.push_back({j + 1.0, diagnosis.stiffness_before[j], diagnosis.stiffness_after[j], stated ? u : sd});
   }
   table.groups.push_back(std::move(group));
   return table;
 }
 
-void writeDiagnosis(Html& html, const diagnosis::Diagnosis& diagnosis) {
+void writeDiagnosis(Html& html, const reports::ReportCampaign& one) {
+  const diagnosis::Diagnosis& diagnosis = *one.diagnosis;
   if (!diagnosis.usable) {
     html.paragraph(fmt::format("No diagnosis: {}.", reports::asIs(reports::words(diagnosis.unusable_reason))));
     return;
@@ -145,7 +155,7 @@ void writeDiagnosis(Html& html, const diagnosis::Diagnosis& diagnosis) {
   html.list(actions);
   writeTable(html, classesTable(diagnosis.classes, &fallOf));
   if (!reports::namedWords(diagnosis.verdict).empty()) {
-    writeTable(html, stiffnessTable(diagnosis));
+    writeTable(html, stiffnessTable(one));
     if (!diagnosis.stated) {
       html.paragraph(
           "No method of identification gives stiffnesses here: these are of the diagnosis's own fit of all load steps, "
@@ -167,7 +177,7 @@ void writeGap(Html& html, const reports::ReportContent& content) {
                                [](const reports::ReportCampaign& one) { return one.diagnosis != nullptr; });
   if (!any) return;
   writeForEach(html, content, "gap", "What the model misses", isLoaded, [&](const reports::ReportCampaign& one) {
-    if (one.diagnosis != nullptr) writeDiagnosis(html, *one.diagnosis);
+    if (one.diagnosis != nullptr) writeDiagnosis(html, one);
   });
 }
 

@@ -81,12 +81,15 @@ reports::Table linksTable(const calibration::Calibration& calibration) {
   const calibration::DenavitHartenberg now =
       calibration::denavitHartenberg(calibration.geometry().fit.arm(nominal), nominal);
   const calibration::DenavitHartenberg built = calibration::denavitHartenberg(nominal, nominal);
-  const PerJoint<calibration::LinkParameters> sds = calibration::linkUncertainties(calibration.geometry().fit, nominal);
-  reports::Table table{"Denavit and Hartenberg's parameters, calibrated ± U (95\u00a0%), and the URDF's in small type",
-                       {"Axes", "θ (°)", "d (mm), or β (°)", "a (mm)", "α (°)"},
-                       {{}},
-                       false,
-                       "denavit-hartenberg"};
+  const PerJoint<calibration::LinkParameters> sds =
+      calibration::withoutRounding(calibration::linkUncertainties(calibration.geometry().fit, nominal));
+  reports::Table table{
+      "Denavit and Hartenberg's parameters, calibrated ± U (95\u00a0%), and the URDF's in small type; "
+      "without a ± they are fixed, held or by choice of frame",
+      {"Axes", "θ (°)", "d (mm), or β (°)", "a (mm)", "α (°)"},
+      {{}},
+      false,
+      "denavit-hartenberg"};
   reports::DataTable& data = table.data.emplace();
   data.columns = {"axis_from",    "axis_to",        "theta_deg", "d_mm",         "a_mm",           "alpha_deg",
                   "beta_deg",     "urdf_theta_deg", "urdf_d_mm", "urdf_a_mm",    "urdf_alpha_deg", "urdf_beta_deg",
@@ -98,6 +101,17 @@ reports::Table linksTable(const calibration::Calibration& calibration) {
     row.emplace_back(link.a / io::kMillimetre);
     row.emplace_back(link.alpha / io::kDegree);
     row.push_back(hayati ? reports::DataCell(link.beta / io::kDegree) : reports::DataCell());
+  };
+  // What is fixed has no uncertainty.
+  const auto addUncertainties = [](const calibration::LinkParameters& sd, std::vector<reports::DataCell>& row) {
+    const auto cell = [](double own, double unit) {
+      return own > 0.0 ? reports::DataCell(own / unit) : reports::DataCell();
+    };
+    row.push_back(cell(sd.theta, io::kDegree));
+    row.push_back(cell(sd.d, io::kMillimetre));
+    row.push_back(cell(sd.a, io::kMillimetre));
+    row.push_back(cell(sd.alpha, io::kDegree));
+    row.push_back(cell(sd.beta, io::kDegree));
   };
   // A parameter that nothing fitted moves is the URDF's own.
   const auto both = [](double value, double sd, double urdf) {
@@ -112,7 +126,7 @@ reports::Table linksTable(const calibration::Calibration& calibration) {
     cells = {static_cast<double>(i + 1), static_cast<double>(i + 2)};
     addCells(link, link.hayati, cells);
     addCells(as_built, link.hayati, cells);
-    addCells(sd, link.hayati, cells);
+    addUncertainties(sd, cells);
     table.groups.front().rows.push_back(
         {reports::Cell(fmt::format("{} and {}", i + 1, i + 2), link.hayati ? "β: Hayati" : ""),
          both(link.theta / io::kDegree, sd.theta / io::kDegree, as_built.theta / io::kDegree),
@@ -213,7 +227,11 @@ void writeParameters(Html& html, const reports::ReportContent& content) {
     html.list(unknown);
     writeTable(html, linksTable(calibration));
     writeTable(html, placesTable(calibration));
-    writeTable(html, stiffnessTable(calibration));
+    const reports::Table stiffness = stiffnessTable(calibration);
+    writeTable(html, stiffness);
+    if (const std::string doubt = reports::stiffnessDoubt(*one.accuracy);
+        !doubt.empty() && !stiffness.groups.front().rows.empty())
+      html.paragraph(doubt);
   };
   writeForEach(html, content, "parameters", "Parameters of the calibrated geometry", isCalibrated, write);
 }

@@ -9,6 +9,7 @@
 #include "core/io/units.h"
 #include "reports/page/html.h"
 #include "reports/page/sections.h"
+#include "reports/words/day_words.h"
 #include "reports/words/names.h"
 #include "reports/words/numbers.h"
 #include "reports/words/paper_values.h"
@@ -33,15 +34,23 @@ std::string markNote(const Remark& mark) {
              : "Imprecise: the uncertainty U exceeds twice the value.";
 }
 
-reports::Cell stiffnessCell(const identification::Identification& result, identification::Method method, int joint,
+/// Why a joint is not seen; with effects in the model the axes are not those that the audit has the torque about.
+std::string unseenNote(const reports::ReportCampaign& campaign, int joint) {
+  const Remark& reason = campaign.identification.identifiability.joints[static_cast<std::size_t>(joint)].reason;
+  const bool effects = campaign.improved != nullptr && !campaign.improved->effects.added.empty();
+  return fmt::format("{} is not seen: {}.{}", reports::jointName(joint), reports::words(reason),
+                     effects ? " The torque is about the axis of the model with its effects; the audit's (@{Audit}) is "
+                               "about that of joint springs alone."
+                             : "");
+}
+
+reports::Cell stiffnessCell(const reports::ReportCampaign& campaign, identification::Method method, int joint,
                             const reports::StiffnessUnit& unit, Notes& notes) {
+  const identification::Identification& result = campaign.identification;
   const identification::MethodResult& one = result.of(method);
   if (!one.available) return {"not available", notes.mark(unavailable(result, method))};
-  if (!one.estimate.identifiable[static_cast<std::size_t>(joint)]) {
-    const Remark& reason = result.identifiability.joints[static_cast<std::size_t>(joint)].reason;
-    return {"not seen",
-            notes.mark(fmt::format("{} is not seen: {}.", reports::jointName(joint), reports::words(reason)))};
-  }
+  if (!one.estimate.identifiable[static_cast<std::size_t>(joint)])
+    return {"not seen", notes.mark(unseenNote(campaign, joint))};
   const std::string value = reports::uncertainStiffness(one.estimate, joint, unit.size);
   const Remark mark = one.estimate.mark(joint);
   return mark.empty() ? reports::Cell(value)
@@ -74,7 +83,8 @@ reports::DataTable stiffnessData(const identification::Identification& result) {
   return data;
 }
 
-reports::Table stiffnessTable(const identification::Identification& result, Notes& notes) {
+reports::Table stiffnessTable(const reports::ReportCampaign& campaign, Notes& notes) {
+  const identification::Identification& result = campaign.identification;
   const reports::StiffnessUnit unit = reports::stiffnessUnit(result);
   reports::Table table{fmt::format("Joint stiffness k ± U, {}, from all postures", unit.name), {"Joint"}, {{}}};
   table.id = "stiffness";
@@ -84,7 +94,7 @@ reports::Table stiffnessTable(const identification::Identification& result, Note
   for (int joint = 0; joint < jointsOf(result); ++joint) {
     reports::Row row{reports::jointName(joint)};
     for (const identification::Method method : identification::kMethods)
-      row.push_back(stiffnessCell(result, method, joint, unit, notes));
+      row.push_back(stiffnessCell(campaign, method, joint, unit, notes));
     table.groups.front().rows.push_back(std::move(row));
   }
   return table;
@@ -258,12 +268,17 @@ std::string bracketWords(const identification::Identification& result) {
 void writeStiffness(Html& html, const reports::ReportContent& content) {
   writeForEach(html, content, "stiffness", "Joint stiffness", isLoaded, [&](const reports::ReportCampaign& one) {
     Notes notes;
-    writeTable(html, stiffnessTable(one.identification, notes));
+    writeTable(html, stiffnessTable(one, notes));
     writeTable(html, complianceTable(one.identification));
     html.paragraph(uncertaintyWords(one.identification), "faint");
     if (const std::string brackets = bracketWords(one.identification); !brackets.empty())
       html.paragraph(brackets, "faint");
     notes.write(html);
+    if (reports::shownMethod(one.identification) && !reports::anyPositiveStiffness(one.identification)) {
+      html.paragraph(
+          "There is no picture of the stiffnesses: none is positive, and a logarithmic axis has no place for "
+          "others.");
+    }
     writeTable(html, fitTable(one.identification));
     if (reports::shownMethod(one.identification)) {
       html.paragraph(

@@ -24,23 +24,65 @@ extended_model::EffectParameter inMillionths(const calibration::EffectTerm& term
   return {term.name, term.unit, value, sd};
 }
 
-constexpr std::size_t kMostParts = 12;  // of a gear's orders there can be dozens
+constexpr std::size_t kMostParts = 12;  // of an effect: of a gear's orders there can be dozens
 
-reports::Table effectsTable(const calibration::ArmFit& fit) {
-  reports::Table table = effectParametersTable("Effects beside the geometry, in the order in which they were found");
+/// A part of the fit with the sizes of its terms; refused ones are left out.
+struct FittedPart {
+  const calibration::EffectPart* part = nullptr;
+  std::vector<extended_model::EffectParameter> parameters;
+  double size = 0.0;          ///< of its terms together: parts of one effect are compared by it
+  bool beyond_doubt = false;  ///< one of its terms at least is larger than its U
+};
+
+std::vector<FittedPart> partsOf(const calibration::ArmFit& fit) {
+  std::vector<FittedPart> parts;
   std::size_t k = 0;
   for (const calibration::EffectPart& part : fit.parts) {
-    std::vector<extended_model::EffectParameter> parameters;
+    FittedPart one{&part, {}};
     for (const calibration::EffectTerm& term : part.terms) {
-      const int at = static_cast<int>(fit.steps.size()) + static_cast<int>(k);
-      if (!fit.refused[k])
-        parameters.push_back(inMillionths(term, fit.sizes[static_cast<Eigen::Index>(k)], fit.sd(at)));
-      ++k;
+      const double value = fit.sizes[static_cast<Eigen::Index>(k)];
+      const double sd = fit.sd(static_cast<int>(fit.steps.size()) + static_cast<int>(k));
+      if (!fit.refused[k++]) {
+        one.parameters.push_back(inMillionths(term, value, sd));
+        one.size = std::hypot(one.size, value);
+        one.beyond_doubt = one.beyond_doubt || std::abs(value) > reports::expanded(sd);
+      }
     }
-    if (!parameters.empty() && table.groups.size() < kMostParts)
-      addParameters(reports::partName(part), parameters, table);
+    if (!one.parameters.empty()) parts.push_back(std::move(one));
   }
-  return table;
+  return parts;
+}
+
+/// Its file has all parts as they were found; the page of each effect those that stand out of their uncertainty, the
+/// largest first. `left_out`: how many it has not.
+reports::Table effectsTable(const calibration::ArmFit& fit, std::size_t& left_out) {
+  const std::vector<FittedPart> parts = partsOf(fit);
+  const char* caption =
+      "Effects beside the geometry in the order in which they were found, of each what is larger than "
+      "its U, the largest first";
+  reports::Table all = effectParametersTable(caption), shown = effectParametersTable(caption);
+  left_out = parts.size();
+  std::vector<calibration::UnloadedEffect> done;
+  for (const FittedPart& one : parts) {
+    addParameters(reports::partName(*one.part), one.parameters, all);
+    const calibration::UnloadedEffect effect = one.part->effect;
+    if (std::find(done.begin(), done.end(), effect) != done.end()) continue;
+    done.push_back(effect);
+    std::vector<const FittedPart*> own;
+    for (const FittedPart& other : parts)
+      if (other.part->effect == effect) own.push_back(&other);
+    std::stable_sort(own.begin(), own.end(),
+                     [](const FittedPart* a, const FittedPart* b) { return a->size > b->size; });
+    // Of an effect that is found by all of its parts together the largest stands for it.
+    const FittedPart* largest = own.front();
+    std::erase_if(own, [](const FittedPart* part) { return !part->beyond_doubt; });
+    if (own.empty()) own.push_back(largest);
+    own.resize(std::min(own.size(), kMostParts));
+    for (const FittedPart* part : own) addParameters(reports::partName(*part->part), part->parameters, shown);
+    left_out -= own.size();
+  }
+  shown.data = std::move(all.data);
+  return shown;
 }
 
 /// Of the own selection nothing is weighed: score and shrink are then not known.
@@ -64,10 +106,14 @@ void writeCause(Html& html, const accuracy::AccuracyDiagnosis& accuracy) {
                                    [](const auto& one) { return one.score != 0.0 || one.shrink.value != 0.0; });
   if (weighed) writeTable(html, classesTable(accuracy.classes, &fallOf));
   const calibration::ArmFit& fit = accuracy.ofCause().best().fit;
-  writeTable(html, effectsTable(fit));
-  if (fit.parts.size() > kMostParts) html.paragraph(reports::morePartsWords(fit.parts.size() - kMostParts), "faint");
-  writeTable(html, whereTable("Where the gap lies that the calibrated geometry leaves, rms per coordinate", "Position",
-                              accuracy.where, {accuracy.where_after, "With the verdict", false}));
+  std::size_t left_out = 0;
+  writeTable(html, effectsTable(fit, left_out));
+  if (left_out > 0) html.paragraph(reports::morePartsWords(left_out), "faint");
+  writeTable(
+      html, whereTable("Where the gap lies that the calibrated geometry leaves, rms per coordinate", "Position",
+                       accuracy.where,
+                       {accuracy.where_after,
+                        reports::onlyVerdictFitted(accuracy) ? "With the verdict" : "With all effects fitted", false}));
   writeOverlaps(html, accuracy.where);
   writeNotTestable(html, accuracy.not_testable);
   writeDetectable(html, accuracy.detectable);

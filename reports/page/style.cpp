@@ -123,6 +123,8 @@ constexpr const char* kScreen =
     "figure img{display:block;width:100%;height:auto;background:#fff}.picture{border:1px solid var(--line)}"
     "@media screen{@container (min-width:56rem){figure>.picture,figure>.scene-live{float:left;width:68%}"
     "figcaption{margin:0 0 0 70%}}}"
+    // The result of two days is not cut on a phone: an interval in brackets goes to a line of its own.
+    "@media screen and (max-width:40rem){.first td{white-space:normal}}"
     // Letters of a chart stay readable on a phone: the figure scrolls in its frame, the page does not.
     "@media screen and (max-width:40rem){.readable{overflow-x:auto;overflow-y:hidden}.readable>img,.readable>.chart{"
     "width:44rem;max-width:none}}"
@@ -193,8 +195,9 @@ constexpr const char* kPrint =
     "minmax(0,1fr);gap:5mm;align-items:start}figcaption{margin:0}"
     "main figure img{max-height:74mm;object-fit:contain;object-position:left top}.first "
     "figcaption{margin-top:1mm;font-size:7.5pt}"
-    // Two pictures one above the other stand on the first page.
+    // Two pictures one above the other stand on the first page; a single one is as wide as its column.
     ".first figure img{max-height:49mm;object-fit:contain;object-position:left top}.first figure{margin:1.5mm 0}"
+    ".first .figures:not(:has(figure + figure)) img{max-height:74mm}"
     ".scroll,.readable{overflow:visible;background:none}.scroll{margin-bottom:3mm}caption{max-width:none}"
     "p,ul,ol,figcaption{max-width:none}"
     ".numbers{grid-template-columns:repeat(3,1fr)}.numbers b{font-size:16pt}"

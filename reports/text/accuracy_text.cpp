@@ -9,6 +9,7 @@
 #include "core/io/units.h"
 #include "reports/text/gap_text.h"
 #include "reports/text/text.h"
+#include "reports/words/accuracy_words.h"
 #include "reports/words/calibration_words.h"
 #include "reports/words/numbers.h"
 #include "reports/words/remark_words.h"
@@ -22,11 +23,15 @@ using accuracy::AccuracyDiagnosis;
 using Out = std::back_insert_iterator<std::string>;
 
 std::string verdictLine(const AccuracyDiagnosis& accuracy) {
-  if (accuracy.verdict.empty()) return "none";
+  const std::string not_asked = accuracy.effects_asked
+                                    ? std::string()
+                                    : fmt::format(" (effects were not asked for: {} postures, which takes {})",
+                                                  accuracy.postures, calibration::kFewestForEffects);
+  if (accuracy.verdict.empty()) return "none" + not_asked;
   std::string line;
   for (const accuracy::AccuracyEntry& entry : accuracy.verdict) {
     line += line.empty() ? "" : ", and ";
-    line += entry.effects.empty() ? "unknown" : effectNames(entry.effects);
+    line += entry.effects.empty() ? "unknown" + not_asked : effectNames(entry.effects);
     if (!entry.detail.empty()) line += " (" + entry.detail + ")";
   }
   return line;
@@ -61,6 +66,10 @@ void writeClasses(const AccuracyDiagnosis& accuracy, Out out) {
 }
 
 void writeLimits(const AccuracyDiagnosis& accuracy, Out out) {
+  if (!accuracy.effects_asked) {
+    fmt::format_to(out, "\nSmallest size that would have been seen: none, no effect was asked for\n");
+    return;
+  }
   fmt::format_to(out, "\nSmallest size that would have been seen, µm rms per coordinate:\n");
   std::string sizes;
   for (const accuracy::DetectableEffect& one : accuracy.detectable) {
@@ -93,6 +102,12 @@ std::string accuracyText(const campaign::Campaign& campaign, const AccuracyDiagn
       um(accuracy.gap.nominal), um(accuracy.gap.before), um(accuracy.gap.after),
       unsignedZero(accuracy.shrink_together.value, 3), shrinkInterval(accuracy.shrink_together),
       um(accuracy.gap.noise));
+  if (!onlyVerdictFitted(accuracy)) {
+    fmt::format_to(out, "  {}\n",
+                   wrapped(fmt::format("effects in the model, also those that the verdict does not name: {}",
+                                       fittedNames(accuracy)),
+                           4));
+  }
   if (accuracy.calibration.angles)
     fmt::format_to(out, "  {}\n",
                    wrapped(angleWords(*accuracy.calibration.angles, accuracy.calibration.day.angles), 4));

@@ -69,10 +69,11 @@ void writeAxes(const calibration::Calibration& calibration, Out out) {
   const calibration::DenavitHartenberg now = calibration::denavitHartenberg(arm, calibration.day.arm),
                                        before =
                                            calibration::denavitHartenberg(calibration.day.arm, calibration.day.arm);
-  const PerJoint<calibration::LinkParameters> sds = calibration::linkUncertainties(fit, calibration.day.arm);
+  const PerJoint<calibration::LinkParameters> sds =
+      calibration::withoutRounding(calibration::linkUncertainties(fit, calibration.day.arm));
   fmt::format_to(out,
                  "\nDenavit and Hartenberg's parameters (Hayati's where axes are parallel) to the second digit of U, "
-                 "URDF's in brackets\n"
+                 "URDF's in brackets; fixed ones to three places\n"
                  "  {:<6}{:>22}{:>24}{:>24}{:>20}\n",
                  "axes", "theta, deg", "d, mm (H: beta, deg)", "a, mm", "alpha, deg");
   for (std::size_t i = 0; i < now.links.size(); ++i) {

@@ -124,6 +124,12 @@ void writeWrist(const campaign::Campaign& campaign, const frames::Frames& frames
                           misses.empty() ? " miss" : "", miss(one.distance, one.sd), sourceMark(frames, {at, at + 1}));
   }
   fmt::format_to(out, "{}\n", misses);
+  if (wrist.offset())
+    fmt::format_to(out,
+                   "  {} and {} meet {:.1f} mm from where {} and {} do: this wrist has no centre, and what is printed\n"
+                   "  as one is the common centre of spheres that the reflectors do not describe\n",
+                   wrist.misses[0].first + 1, wrist.misses[0].first + 2, wrist.apart / io::kMillimetre,
+                   wrist.misses[0].first + 2, wrist.misses[0].first + 3);
 }
 
 void writeR0(const frames::Frames& frames, Out out) {
@@ -158,8 +164,15 @@ std::string framesText(const campaign::Campaign& campaign, const frames::Frames&
   const Eigen::Vector3d tcp = shown(frames.tcp_in_flange / io::kMillimetre, 3);
   const std::size_t last = frames.axes.size() - 1;
   const std::size_t across = frames::axisAcrossLast(frames.arm.arm.axes_in_base_at_zero);
-  fmt::format_to(out, "\nP_TCP, where axis {} pierces the flange plane: ({:.3f}, {:.3f}, {:.3f}) mm in the flange{}\n",
-                 last + 1, tcp.x(), tcp.y(), tcp.z(), sourceMark(frames, {across, last}));
+  if (frames.tcp_at_origin) {
+    fmt::format_to(out,
+                   "\nP_TCP, the flange's origin: axis {} runs along the flange plane and pierces it nowhere near\n",
+                   last + 1);
+  } else {
+    fmt::format_to(out,
+                   "\nP_TCP, where axis {} pierces the flange plane: ({:.3f}, {:.3f}, {:.3f}) mm in the flange{}\n",
+                   last + 1, tcp.x(), tcp.y(), tcp.z(), sourceMark(frames, {across, last}));
+  }
   writeWrist(campaign, frames, out);
   fmt::format_to(out, "\n{}\n", wrapped("Own weight: " + words(frames.sag_note) + ".", 0));
   return text;

@@ -30,6 +30,8 @@ std::string accuracyWords(accuracy::RemarkId id, const RemarkValues& values) {
           "No effect of the vocabulary is beyond chance, predicts postures that were held out, and moves "
           "the reflectors by {} rms or more.",
           lengthWords(values.number(0), 1));
+    case RemarkId::effects_not_asked:
+      return fmt::format("Effects were not asked for: {} postures, which takes {}.", values.count(0), values.count(1));
     case RemarkId::geometry_off_nominal:
       return fmt::format(
           "The URDF's geometry misses by {:.2f} mm rms per coordinate, more than the {:.2f} mm of arms as "
@@ -40,6 +42,9 @@ std::string accuracyWords(accuracy::RemarkId id, const RemarkValues& values) {
           "{} rms per coordinate beyond noise stay that no effect of the vocabulary explains "
           "({} may).",
           lengthWords(values.number(0), 1), lengthWords(values.number(1), 1));
+    case RemarkId::not_looked_into:
+      return fmt::format("{} rms per coordinate beyond noise stay ({} may); what makes them was not asked for.",
+                         lengthWords(values.number(0), 1), lengthWords(values.number(1), 1));
     case RemarkId::candidates_only:
       return fmt::format(
           "Beside that, {} {} no more than candidates: with them in the model {:.0f} % of the gap's "
@@ -99,6 +104,8 @@ std::string accuracyWords(accuracy::RemarkId id, const RemarkValues& values) {
           "Write the arm's temperature beside the postures (`temperature_c` in `states`), over a day that "
           "warms and cools ({}).",
           ids());
+    case RemarkId::measure_enough:
+      return fmt::format("Measure at least {} postures: with fewer no effect is asked for.", values.count(0));
   }
   return {};
 }

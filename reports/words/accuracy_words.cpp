@@ -1,6 +1,7 @@
 #include "reports/words/accuracy_words.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -8,6 +9,7 @@
 #include "core/io/units.h"
 #include "reports/words/calibration_words.h"
 #include "reports/words/day_words.h"
+#include "reports/words/entry_words.h"
 #include "reports/words/listed.h"
 #include "reports/words/names.h"
 #include "reports/words/numbers.h"
@@ -66,6 +68,13 @@ std::string withAudit(const ReportCampaign& one, const std::string& found) {
   return refused ? meaning + " " + found : found + " " + meaning;
 }
 
+/// What a verdict names, but what it is not known to be where no effect was asked for.
+std::string presentIn(const accuracy::AccuracyDiagnosis& accuracy, const std::vector<accuracy::AccuracyEntry>& of) {
+  if (accuracy.effects_asked || of.empty()) return presentWords(of);
+  return fmt::format("errors beyond noise whose cause was not asked for: {} postures, which takes {}",
+                     accuracy.postures, calibration::kFewestForEffects);
+}
+
 /// What the verdict names, a geometry that is not the URDF's said for itself: it is nothing besides the geometry.
 std::string foundWords(const accuracy::AccuracyDiagnosis& accuracy) {
   std::vector<accuracy::AccuracyEntry> others = accuracy.verdict;
@@ -73,11 +82,11 @@ std::string foundWords(const accuracy::AccuracyDiagnosis& accuracy) {
     return one.effects == std::vector{calibration::UnloadedEffect::kinematic_error};
   });
   if (others.size() == accuracy.verdict.size())
-    return fmt::format("Besides the geometry the readings show {}", presentWords(accuracy.verdict));
+    return fmt::format("Besides the geometry the readings show {}", presentIn(accuracy, accuracy.verdict));
   std::string text =
       fmt::format("The arm is not as its URDF says ({})", effectName(calibration::UnloadedEffect::kinematic_error));
   if (others.empty()) return text + "; what the calibrated geometry leaves is noise, or too small to matter";
-  return text + fmt::format("; besides its geometry the readings show {}", presentWords(others));
+  return text + fmt::format("; besides its geometry the readings show {}", presentIn(accuracy, others));
 }
 
 std::string causeSentence(const accuracy::AccuracyDiagnosis& accuracy) {
@@ -158,6 +167,31 @@ std::vector<std::string> accuracyMeanings(const accuracy::AccuracyDiagnosis& acc
   return meanings;
 }
 
+namespace {
+
+/// Effects of the model that has all of them, each once.
+std::vector<std::string> fittedEffects(const accuracy::AccuracyDiagnosis& accuracy) {
+  return accuracy.ofCause().models.empty() ? std::vector<std::string>() : effectIdsOf(accuracy.ofCause().best().fit);
+}
+
+}  // namespace
+
+bool onlyVerdictFitted(const accuracy::AccuracyDiagnosis& accuracy) {
+  const std::vector<std::string> fitted = fittedEffects(accuracy);
+  return std::all_of(fitted.begin(), fitted.end(), [&](const std::string& id) {
+    return std::any_of(accuracy.verdict.begin(), accuracy.verdict.end(), [&](const accuracy::AccuracyEntry& entry) {
+      return std::any_of(entry.effects.begin(), entry.effects.end(),
+                         [&](calibration::UnloadedEffect effect) { return idOf(effect) == id; });
+    });
+  });
+}
+
+std::string fittedNames(const accuracy::AccuracyDiagnosis& accuracy) {
+  std::vector<std::string> names;
+  for (const std::string& id : fittedEffects(accuracy)) names.push_back(nameOfId(id));
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
 std::string accuracyFigures(const accuracy::AccuracyDiagnosis& accuracy) {
   const accuracy::AccuracyGap& gap = accuracy.gap;
   if (!(gap.before > 0.0)) return {};
@@ -165,8 +199,12 @@ std::string accuracyFigures(const accuracy::AccuracyDiagnosis& accuracy) {
   std::string text = fmt::format("Held out, the calibrated geometry leaves {} rms per coordinate", shown(gap.before));
   if (gap.nominal > 0.0) text += fmt::format(" of the nominal arm's {}", shown(gap.nominal));
   if (gap.noise > 0.0) text += fmt::format("; noise alone is {}", shown(gap.noise));
-  if (namedWords(accuracy.verdict).empty() || !(gap.after > 0.0)) return text + ".";
-  text += fmt::format(". With the verdict's effects in the model {} are left", shown(gap.after));
+  if (fittedEffects(accuracy).empty() || !(gap.after > 0.0)) return text + ".";
+  text += onlyVerdictFitted(accuracy)
+              ? ". With the verdict's effects in the model"
+              : fmt::format(". With all fitted effects in the model, also those that the verdict does not name ({}),",
+                            fittedNames(accuracy));
+  text += fmt::format(" {} are left", shown(gap.after));
   const diagnosis::Shrink& shrink = accuracy.shrink_together;
   if (shrink.high > shrink.low) {
     const int places = placesThatTell(100.0 * shrink.low, 100.0 * shrink.high);
@@ -176,15 +214,33 @@ std::string accuracyFigures(const accuracy::AccuracyDiagnosis& accuracy) {
   return text + ".";
 }
 
+std::string stiffnessDoubt(const accuracy::AccuracyDiagnosis& accuracy) {
+  const auto found =
+      std::find_if(accuracy.classes.begin(), accuracy.classes.end(), [](const accuracy::AccuracyClass& one) {
+        return std::any_of(one.parts.begin(), one.parts.end(), [](const calibration::EffectPart& part) {
+          return part.effect == calibration::UnloadedEffect::joint_compliance;
+        });
+      });
+  if (!accuracy.usable || found == accuracy.classes.end()) return {};
+  if (found->in_verdict && found->effects.size() == 1) return {};
+  std::vector<calibration::UnloadedEffect> others = found->effects;
+  std::erase(others, calibration::UnloadedEffect::joint_compliance);
+  return fmt::format(
+      "With care: {}{} (@{{What the geometry misses}}). U is of joints that twist, and of nothing else.",
+      found->in_verdict ? "joint compliance is named" : "joint compliance is a candidate only",
+      others.empty() ? std::string() : fmt::format(", and {} would explain the same", effectNames(others)));
+}
+
 std::vector<std::string> accuracyActions(const accuracy::AccuracyDiagnosis& accuracy) {
   std::vector<std::string> actions;
   const auto add = [&actions](const std::string& action) {
     if (std::find(actions.begin(), actions.end(), action) == actions.end()) actions.push_back(action);
   };
   for (const accuracy::AccuracyEntry& entry : accuracy.verdict) {
-    if (entry.effects.empty()) {
-      add("Look for what is not in the list of effects (the figures above show where and when) before the arm is "
-          "trusted to less than what is left.");
+    // What was not asked for is not beyond the list of effects.
+    if (entry.effects.empty() && accuracy.effects_asked) {
+      add("Look for what is not in the list of effects (@{What the geometry misses} shows where and when) before the "
+          "arm is trusted to less than what is left.");
     }
     for (const calibration::UnloadedEffect effect : entry.effects) {
       const char* doubt = entry.effects.size() > 1 ? "If it is " : "";
@@ -214,7 +270,8 @@ std::vector<std::string> accuracyActions(const accuracy::AccuracyDiagnosis& accu
 }
 
 std::string morePartsWords(std::size_t count) {
-  return fmt::format("And {} more; all of them in {}.", count, kListedInResults);
+  return fmt::format("And {} more, smaller or within their U; all of them in the table's CSV file and in {}.", count,
+                     kListedInResults);
 }
 
 std::vector<std::string> notIdentifiableWords(const calibration::Calibration& calibration) {

@@ -31,13 +31,23 @@ std::string accuracyFinding(const accuracy::AccuracyDiagnosis& accuracy);
 std::string asReadWords();
 std::vector<std::string> accuracyMeanings(const accuracy::AccuracyDiagnosis& accuracy);
 
+/// Whether the model with all effects has none beside those that the verdict names.
+bool onlyVerdictFitted(const accuracy::AccuracyDiagnosis& accuracy);
+
+/// "transmission error, backlash": of that model.
+std::string fittedNames(const accuracy::AccuracyDiagnosis& accuracy);
+
+/// Why joint stiffnesses by the own weight are to be taken with care: the verdict does not name joint compliance, or
+/// not alone. Empty where it does.
+std::string stiffnessDoubt(const accuracy::AccuracyDiagnosis& accuracy);
+
 /// How far the gap falls, with noise and interval; empty where nothing is known of it.
 std::string accuracyFigures(const accuracy::AccuracyDiagnosis& accuracy);
 
 /// What a laboratory can do: remedies, each once, measurements, and how to use the calibration.
 std::vector<std::string> accuracyActions(const accuracy::AccuracyDiagnosis& accuracy);
 
-/// Where the parts of the effects are that a table leaves out.
+/// How many parts of the effects a table leaves out, and where all of them are.
 std::string morePartsWords(std::size_t count);
 
 /// Parameters that are not known, those with one reason in one sentence.

@@ -2,6 +2,7 @@
 
 #include "core/audit/remarks.h"
 #include "core/io/units.h"
+#include "reports/words/numbers.h"
 #include "reports/words/remark_words.h"
 #include "reports/words/remarks.h"
 
@@ -77,6 +78,8 @@ std::string auditLimitWords(audit::LimitId id, const RemarkValues& values) {
       return "radius of a 1.5 inch reflector: nearer, the axis passes through the reflector itself";
     case audit::LimitId::built_to_drawing:
       return "20 mm, where machines are built to a few; or, where that is larger, five standard uncertainties";
+    case audit::LimitId::centre_of_wrist:
+      return "ten times what a wrist whose axes meet is made to";
     case audit::LimitId::leak_that_decoupling_bears:
       return fmt::format(
           "the miss at which joints {}-{} would put 2 % into P_wrist's displacement: what decoupling bears",

@@ -145,8 +145,9 @@ std::vector<std::string> scopeWords(DayKind kind, bool limits, bool hidden) {
     case DayKind::unloaded:
       return {
           "Uncertainty: U of a parameter, about 95\u00a0%, is 1.96 times its standard uncertainty by least squares, "
-          "from the tracker's declared noise and what the model leaves beyond it, readings of one posture erring "
-          "together. The tracker's own scale, of which no reading tells, is not in it.",
+          "from the tracker's noise, which is that of the repeats where there are enough of them and else the declared "
+          "one, and what the model leaves beyond it, readings of one posture erring together. The tracker's own "
+          "scale, of which no reading tells, is not in it.",
           rule +
               "An effect is in the model where it predicts postures that took no part better than the model without "
               "it; errors that are named held out are of postures by which nothing was fitted or chosen. The errors "
@@ -175,8 +176,8 @@ std::vector<std::string> scopeWords(DayKind kind, bool limits, bool hidden) {
       rule +
           "A joint counts as seen where the load "
           "turns it by more than three times what wrench, frame and angle uncertainty alone would. A stiffness is "
-          "imprecise where U exceeds twice the value, and negative ones are shown as found; uncertainty is not used to "
-          "move a limit."};
+          "imprecise where U exceeds twice the value, and negative ones are shown as found" +
+          (limits ? "." : "; uncertainty is not used to move a limit.")};
 }
 
 }  // namespace stiffscope::reports

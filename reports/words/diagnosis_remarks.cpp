@@ -54,8 +54,10 @@ std::string diagnosisWords(diagnosis::RemarkId id, const RemarkValues& values) {
     case left_by_stiffnesses:
       return fmt::format(
           "Stiffnesses alone leave {} rms per coordinate of the deflection, noise alone {} (chi2 per "
-          "equation {:.{}f}).",
-          lengthWords(values.number(0), 1), lengthWords(values.number(1), 1), values.number(2),
+          "equation {}{}{:.{}f}).",
+          lengthWords(values.number(0), 1), lengthWords(values.number(1), 1),
+          values.count(3) != 0 ? "of deflections and positions " : "",
+          values.count(4) != 0 ? "with the station's motion taken off " : "", values.number(2),
           values.number(2) < 100.0 ? 2 : 0);
     case no_effect_passes:
       return fmt::format("No effect passes both limits: a fall of BIC of {:.0f}, {} rms after the stiffnesses.",

@@ -24,6 +24,12 @@ std::string extendedModelWords(extended_model::RemarkId id, const RemarkValues& 
              "stays as it is";
     case effects_do_not_help:
       return "the effects that fit best leave more on postures held out than joint springs alone: none is added";
+    case effects_make_negative:
+      return "the effects that fit best make a stiffness negative, and so does nearly every size of them that the data "
+             "allow: none is added, though one may hide";
+    case sizes_leave_none_negative:
+      return "the effects that fit best make a stiffness negative: they are added in the middle of the sizes that the "
+             "data allow and that leave none negative";
     case springs_contradicted:
       return "every stiffness is negative: wrench and readings contradict each other, and no model of the machine is "
              "looked for";

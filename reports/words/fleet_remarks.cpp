@@ -3,12 +3,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <algorithm>
-
 #include <cmath>
 
 #include "reports/words/fleet_words.h"
 #include "reports/words/numbers.h"
+#include "reports/words/remark_words.h"
 #include "reports/words/remarks.h"
+#include "reports/words/rich_text.h"
 
 namespace stiffscope::reports {
 
@@ -41,10 +42,32 @@ int mostJointsOf(const fleet::Fleet& fleet) {
   return most > 0 ? most : kUsual;
 }
 
+namespace {
+
+/// Of the arms of the same name that come first.
+int armsOfName(const fleet::Fleet& fleet, const std::string& machine, std::size_t among) {
+  return static_cast<int>(std::count_if(fleet.arms.begin(), fleet.arms.begin() + static_cast<std::ptrdiff_t>(among),
+                                        [&](const fleet::Arm& one) { return one.machine == machine; }));
+}
+
+}  // namespace
+
+int machineNumber(const fleet::Fleet& fleet, const fleet::DaySeries& series) {
+  return 1 + armsOfName(fleet, series.machine, series.arm);
+}
+
+std::string machineWords(const fleet::Fleet& fleet, const fleet::DaySeries& series) {
+  const int all = armsOfName(fleet, series.machine, fleet.arms.size());
+  if (all < 2) return series.machine;
+  return fmt::format("{} (machine {} of {})", series.machine, machineNumber(fleet, series), all);
+}
+
 std::string needName(fleet::NeedId id) {
   switch (id) {
     case fleet::NeedId::no_result:
       return "no result";
+    case fleet::NeedId::several_machines:
+      return "several machines";
     case fleet::NeedId::audit_failed:
       return "audit failed";
     case fleet::NeedId::changed:
@@ -72,6 +95,9 @@ std::string fleetWords(fleet::RemarkId id, const RemarkValues& values) {
   switch (id) {
     case no_result:
       return fmt::format("{}: {}", values.name(0), values.name(1));
+    case several_machines:
+      return fmt::format("{} machines under one name, not compared with each other: of {} and {} {}", values.count(0),
+                         asIs(values.name(1)), asIs(values.name(2)), words(values.remark(3)));
     case audit_failed:
       return fmt::format("{}: audit fails by {}", values.name(0), idWords(values.names(1), ", "));
     case audit_not_testable:
@@ -109,6 +135,9 @@ std::string fleetWords(fleet::RemarkId id, const RemarkValues& values) {
       return fmt::format("{}: audit warns of {}", values.name(0), idWords(values.names(1), ", "));
     case mend_campaign:
       return "mend what the message names and run the fleet again: only this campaign is done anew";
+    case tell_machines_apart:
+      return "state each machine's robot_serial in campaign.xml, or keep its campaigns in a folder of its own, and of "
+             "one machine the same URDF; then run the fleet again";
     case measure_again:
       return "mend what the audit names and measure again";
     case inspect_joint:

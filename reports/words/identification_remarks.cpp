@@ -11,6 +11,7 @@
 #include "core/identification/warnings.h"
 #include "core/io/units.h"
 #include "reports/words/names.h"
+#include "reports/words/numbers.h"
 #include "reports/words/remark_words.h"
 #include "reports/words/remarks.h"
 
@@ -41,6 +42,11 @@ std::string jointsWords(const RemarkValues& values) {
   }
   return fmt::format("these postures only see a combination of joints {}: adding +1 at {} changes no displacement",
                      fmt::join(joints, ", "), terms);
+}
+
+std::string offsetWrist(std::int64_t first, double apart) {
+  return fmt::format("the wrist has no centre: axes {} and {} meet {:.1f} mm from where {} and {} do", first, first + 1,
+                     1e3 * apart, first + 1, first + 2);
 }
 
 /// Values: see RemarkId::wrist_axes_apart.
@@ -131,7 +137,9 @@ std::string identificationWords(identification::RemarkId id, const RemarkValues&
     case RemarkId::no_load_cell:
       return "no 'load_cell': where the measured wrench acts is needed to identify";
     case RemarkId::no_readings_under_load:
-      return "neither 'loading' nor 'displacements': readings under load are needed to identify";
+      return "no readings under load in 'loading' or 'displacements': they are needed to identify";
+    case RemarkId::no_wrench:
+      return "no wrench in 'states' (fx_n to mz_nm): force and moment of each load step are needed to identify";
     case RemarkId::displacements_not_placed:
       return "the displacements are in the tracker's frame: circle sweeps of axes 1 and 2 would place it, or "
              "frame=\"base_link\" if they are in the robot's";
@@ -159,6 +167,8 @@ std::string identificationWords(identification::RemarkId id, const RemarkValues&
     case RemarkId::wrist_sweep_wanted_too:
       return fmt::format("{}; and P_wrist needs a wrist sweep (axes {}-{} moving) with three reflectors",
                          words(values.remark(0)), values.count(1), values.count(2));
+    case RemarkId::wrist_is_offset:
+      return offsetWrist(values.count(0), values.number(1));
     case RemarkId::wrist_axes_apart:
       return wristAxesApart(values);
     case RemarkId::geometry_not_calibrated:

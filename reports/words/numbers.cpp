@@ -142,6 +142,19 @@ std::string withUncertainty(double value, double standard_uncertainty) {
   return fmt::format("{} ± {}", fixed(value, places), fixed(standard_uncertainty, places));
 }
 
+bool anyPositiveStiffness(const identification::Identification& result) {
+  const auto placed = [](double stiffness) { return std::isfinite(stiffness) && stiffness > 0.0; };
+  for (const identification::MethodResult& method : result.methods) {
+    const identification::StiffnessEstimate& estimate = method.estimate;
+    for (int joint = 0; method.available && joint < estimate.joints(); ++joint) {
+      if (!estimate.identifiable[static_cast<std::size_t>(joint)]) continue;
+      const identification::CoverageInterval interval = identification::stiffnessInterval(estimate, joint);
+      if (placed(estimate.stiffness(joint)) || placed(interval.low) || placed(interval.high)) return true;
+    }
+  }
+  return false;
+}
+
 bool farFromSymmetric(const identification::StiffnessEstimate& estimate, int joint) {
   constexpr double kWide = 0.2;
   const identification::CoverageInterval interval = identification::complianceInterval(estimate, joint);

@@ -75,6 +75,10 @@ std::string significant(double value, int digits);
 /// uncertainty the value to four digits.
 std::string withUncertainty(double value, double uncertainty);
 
+/// Whether any method has a joint's stiffness, or an end of its interval, above zero: a logarithmic axis has no place
+/// for others.
+bool anyPositiveStiffness(const identification::Identification& result);
+
 /// Whether the stated interval of a joint's stiffness is far from symmetric, or open: from a fifth of the compliance on
 /// its two ends are half as far again from the value as each other.
 bool farFromSymmetric(const identification::StiffnessEstimate& estimate, int joint);

@@ -38,8 +38,8 @@ constexpr std::array kUnloadedWords{
         UnloadedEffect::transmission_error,
         "a joint's angle is off by something periodic in that angle, as an eccentric gear or encoder ring or "
         "the teeth of a gear make it",
-        "correct the commanded angle of the named joint by the wave in the table of effects, or have its gear "
-        "and encoder looked at"},
+        "correct each named joint's commanded angle by its waves in @{What the geometry misses}, or have its gear and "
+        "encoder looked at"},
     UnloadedWords{UnloadedEffect::ratio_error,
                   "a joint turns by a constant share more or less than reported, or by a share of another's motion",
                   "have gear ratio and wrist coupling of the named joints checked in the controller"},

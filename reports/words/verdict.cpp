@@ -27,6 +27,21 @@ std::vector<std::string> doubtsOfTheMachine(const std::vector<ReportCampaign>& c
   return sentences;
 }
 
+std::string negativeFitWords(const identification::Identification& identification) {
+  const auto shown = shownMethod(identification);
+  if (!shown) return {};
+  const identification::StiffnessEstimate& estimate = identification.of(*shown).estimate;
+  bool any = false;
+  for (int joint = 0; joint < estimate.joints(); ++joint) {
+    if (!estimate.identifiable[static_cast<std::size_t>(joint)]) continue;
+    if (estimate.compliance[joint] >= 0.0) return {};
+    any = true;
+  }
+  if (!any) return {};
+  return fmt::format("every stiffness by {} is negative, so no share of the deflection counts as compensated",
+                     shortName(*shown));
+}
+
 namespace {
 
 /// What the shown method finds, or why there is none.
@@ -53,13 +68,15 @@ std::string jointsSentence(const identification::Identification& identification)
   if (!doubtful.empty()) {
     text += fmt::format("; {} {} not to be trusted", fmt::join(doubtful, ", "), doubtful.size() == 1 ? "is" : "are");
   }
+  if (const std::string negative = negativeFitWords(identification); !negative.empty()) text += "; " + negative;
   return text + ".";
 }
 
 /// "92 % of the deflection at the reflectors and 88 % at P_{wrist} in postures it has not seen"; empty without a
-/// method.
+/// method, and where it finds negative stiffnesses alone.
 std::string compensatedWords(const ReportCampaign& one) {
   const auto shown = shownMethod(one.identification);
+  if (!negativeFitWords(one.identification).empty()) return {};
   if (!shown || !compensationAt(one.identification.of(*shown), false)) return {};
   const identification::MethodResult& method = one.identification.of(*shown);
   const auto held_out = heldOut(method, false);

@@ -27,6 +27,10 @@ std::vector<std::string> verdictItems(const std::vector<ReportCampaign>& campaig
 /// is none, or where nobody states which joints have one.
 std::string changedWithoutEncoder(const std::vector<ReportCampaign>& campaigns, const AvoidedByEncoders& avoided);
 
+/// Where every stiffness that is shown first is negative: that no share of the deflection counts as compensated, a
+/// clause. Empty else. What such springs take away is a fit of readings with a wrench that contradicts them.
+std::string negativeFitWords(const identification::Identification& identification);
+
 /// What the diagnosis finds besides joint springs, of the days with a load; empty without a diagnosis.
 std::string diagnosisVerdict(const std::vector<ReportCampaign>& campaigns);
 

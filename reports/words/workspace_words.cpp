@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <algorithm>
 
 #include "core/io/units.h"
 #include "reports/words/effect_words.h"
@@ -30,6 +31,13 @@ LinearStiffnessUnit stiffnessUnit(const workspace::WorkspaceStiffness& found) {
     if (!one.of_model.empty() && one.of_model.front().stiffness() < kSoft) return {1e3, "N/mm"};
   }
   return {};
+}
+
+bool givesInSlice(const workspace::StiffnessSlice& slice) {
+  return std::any_of(slice.places.begin(), slice.places.end(), [&](const workspace::SlicePlace& one) {
+    const Eigen::Matrix3d& model = one.at.model;
+    return slice.outward.dot(model * slice.outward) > 0.0 || model(2, 2) > 0.0;
+  });
 }
 
 std::vector<std::string> workspaceNotes(const workspace::WorkspaceStiffness& found) {

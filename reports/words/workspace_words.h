@@ -15,6 +15,10 @@ struct LinearStiffnessUnit {
 };
 LinearStiffnessUnit stiffnessUnit(const workspace::WorkspaceStiffness& found);
 
+/// Whether a joint of known stiffness moves P_TCP in the slice's plane at one of its places: else there is nothing to
+/// draw there.
+bool givesInSlice(const workspace::StiffnessSlice& slice);
+
 /// What the stiffnesses hold and what not, a sentence each; plain texts.
 std::vector<std::string> workspaceNotes(const workspace::WorkspaceStiffness& found);
 

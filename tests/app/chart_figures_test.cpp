@@ -52,6 +52,9 @@ TEST(ChartFigures, ASweepThatGoesRoundTwiceIsNoStar) {
   const render::PointSeries& readings = chart->shapes[0].series[1];
   ASSERT_EQ(readings.points.size(), 6u);
   ASSERT_FALSE(readings.line.empty());
+  ASSERT_EQ(readings.values.size(), 6u);
+  EXPECT_EQ(chart->shapes[0].value_name, "Radial residual (µm)");
+  for (const render::PointValue& value : readings.values) EXPECT_NEAR(std::abs(value.value), 10.0, 1e-6);
   double ring = 0.0, length = 0.0;
   for (const render::PlotPoint& point : chart->shapes[0].series[0].points) ring = std::hypot(point.x, point.y);
   // The line keeps to its ring, and goes round it once: from each of its points the next is near.
@@ -93,6 +96,41 @@ TEST(ChartFigures, APanelThatIsCalledEnlargedIs) {
   ASSERT_EQ(chart.diagrams.size(), 2u);
   EXPECT_EQ(chart.diagrams[1].title, "With effects, enlarged");
   EXPECT_LT(largestX(chart.diagrams[1]), 0.5 * largestX(chart.diagrams[0]));
+}
+
+TEST(ChartFigures, WhatEffectsLeaveOverTheDayIsSeenBesideWhatTheGeometryLeaves) {
+  const render::PointChart chart = app::residualsOverDay(unloaded().one);
+  ASSERT_EQ(chart.diagrams.size(), 6u);
+  EXPECT_EQ(chart.columns, 2);
+  const auto largestY = [](const render::PointPanel& panel) {
+    double largest = 0.0;
+    for (const render::PointSeries& series : panel.series) {
+      for (const render::PlotPoint& point : series.points) largest = std::max(largest, std::abs(point.y));
+    }
+    return largest;
+  };
+  for (std::size_t i = 0; i < 6; i += 2) {
+    EXPECT_TRUE(has(chart.diagrams[i + 1].title, chart.diagrams[i].title)) << i;
+    EXPECT_TRUE(has(chart.diagrams[i + 1].title, "enlarged")) << i;
+    EXPECT_LT(largestY(chart.diagrams[i + 1]), 0.5 * largestY(chart.diagrams[i])) << i;
+  }
+}
+
+TEST(ChartFigures, CurvesAndMapsSayTheirValues) {
+  for (const render::PointPanel& panel : app::accuracyCurves(unloaded().one).diagrams) {
+    for (const render::PointSeries& curve : panel.series) {
+      ASSERT_EQ(curve.values.size(), curve.points.size());
+      EXPECT_EQ(curve.values.back().value, curve.points.back().y);
+      EXPECT_EQ(curve.values.back().at, curve.points.back().x);
+    }
+  }
+  double largest = 0.0;  // of the nominal model, whose maps come first
+  for (const render::PointSeries& series : app::accuracyMap(unloaded().one).shapes.front().series) {
+    for (const render::PointValue& value : series.values) {
+      largest = std::max(largest, value.value);
+    }
+  }
+  EXPECT_NEAR(largest, largestX(app::accuracyCurves(unloaded().one).diagrams[0]), 1e-9);
 }
 
 /// What `invert(.905) hue-rotate(180deg) brightness(1.35)` of the page in the dark makes of a colour (W3C, Filter
@@ -195,6 +233,25 @@ TEST(ChartFigures, EffectsOfOneSizeAndTwoThatAreNamedAsOneAreSaid) {
   const std::string differ = app::describeEffectClasses(one).caption;
   EXPECT_TRUE(has(differ, "No two effects look alike here")) << differ;
   EXPECT_TRUE(has(differ, "An effect smaller than its dot would have passed unseen")) << differ;
+}
+
+/// Candidates that the table calls one are not told apart, whatever the verdict names.
+TEST(ChartFigures, CandidatesThatAreNotPartedAreSaid) {
+  using calibration::UnloadedEffect;
+  const SmallResult small;
+  accuracy::AccuracyDiagnosis accuracy;
+  accuracy.usable = true;
+  accuracy.verdict = {{{UnloadedEffect::transmission_error}, "joint 2"}, {{}, ""}};
+  accuracy.detectable = {{UnloadedEffect::joint_compliance, 2e-6}, {UnloadedEffect::base_compliance, 2e-6}};
+  accuracy::AccuracyClass wave, candidate;
+  wave.effects = {UnloadedEffect::transmission_error};
+  candidate.effects = {UnloadedEffect::joint_compliance, UnloadedEffect::base_compliance};
+  accuracy.classes = {wave, candidate};
+  reports::ReportCampaign one{small.campaign, small.identification};
+  one.accuracy = &accuracy;
+  const std::string caption = app::describeEffectClasses(one).caption;
+  EXPECT_TRUE(has(caption, "these readings do not part joint compliance or base compliance")) << caption;
+  EXPECT_FALSE(has(caption, "named alone")) << caption;
 }
 
 TEST(ChartFigures, TheTitleOfTheAxisOfSizesIsNotCut) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include "app/figures/arm_scenes.h"
+#include "app/figures/drawn.h"
 #include "app/figures/figures.h"
 #include "core/campaign/read_campaign.h"
 #include "reports/page/pages.h"
@@ -145,6 +146,45 @@ TEST(StiffnessIntervals, ExpandedUncertaintyAndAGapForWhatIsNotSeen) {
   EXPECT_NEAR(second.upper, 5e6 + 12.706 * 0.5e6, 500);
   EXPECT_TRUE(chart.series[0].intervals[3].doubtful);  // negative
   EXPECT_FALSE(chart.doubtful_name.empty());
+}
+
+TEST(StiffnessIntervals, ANegativeFitThatOnlySaysAtLeastIsDrawn) {
+  SmallResult small;
+  identification::StiffnessEstimate& estimate = small.method(identification::Method::partial_pose).estimate;
+  for (int j = 0; j < 6; ++j) estimate.stated.push_back({estimate.compliance[j] - 1e-8, estimate.compliance[j] + 1e-8});
+  estimate.stated[3].high = 1e-6;  // of a fit of -4e-6
+  const render::IntervalChart chart = app::stiffnessIntervals(of(small));
+  EXPECT_DOUBLE_EQ(chart.series[0].intervals[3].lower, 1e6);
+  EXPECT_TRUE(std::isinf(chart.series[0].intervals[3].upper));
+  EXPECT_NO_THROW(render::render(chart));
+}
+
+TEST(Figures, OfNegativeStiffnessesAloneThereIsNoLogarithmicAxis) {
+  SmallResult small;
+  for (const identification::Method method : identification::kMethods) {
+    small.method(method).estimate.compliance = -small.method(method).estimate.compliance.cwiseAbs();
+    small.method(method).estimate.covariance *= 1e-4;
+  }
+  reports::ReportContent content;
+  content.campaigns.push_back(of(small));
+  content.figures = app::makeFigures(content.campaigns);
+  EXPECT_FALSE(content.figures.empty());
+  for (const reports::Figure& figure : content.figures) EXPECT_NE(figure.id, "stiffness-intervals");
+  const char* why = "There is no picture of the stiffnesses: none is positive";
+  EXPECT_NE(page::reportPage(content).find(why), std::string::npos);
+  const SmallResult usual;
+  content.campaigns.clear();
+  content.campaigns.push_back(of(usual));
+  EXPECT_EQ(page::reportPage(content).find(why), std::string::npos);
+}
+
+TEST(Figures, OneThatCannotBeDrawnIsLeftOut) {
+  render::IntervalChart chart;
+  chart.categories = {"k_{1}"};
+  chart.series = {{"CP", render::colours::kCp, {{5, 6, 7}}}};
+  EXPECT_FALSE(app::drawnOrLeftOut({}, chart, {960, 560}));
+  chart.series[0].intervals[0].lower = 4;
+  EXPECT_TRUE(app::drawnOrLeftOut({}, chart, {960, 560}));
 }
 
 TEST(EncoderBars, BothStatesInMillimetres) {

@@ -145,11 +145,13 @@ TEST(FleetFolders, MayBeginWithADash) {
   EXPECT_NE(merge.find(" fleet ./-lab2 --out ./-out --merge\n"), std::string::npos) << merge;
 }
 
-/// A day without a load of the sample's machine, in the same 40 postures, joint 2 of this stiffness.
-void simulateUnloadedDay(const fs::path& scratch, const fs::path& folder, int measurement, const char* stiffness) {
+/// A day without a load of the sample's machine, or of another URDF, in the same 40 postures, joint 2 of this
+/// stiffness.
+void simulateUnloadedDay(const fs::path& scratch, const fs::path& folder, int measurement, const char* stiffness,
+                         const std::string& urdf = STIFFSCOPE_SOURCE_DIR "/samples/m900ib700.urdf") {
   std::string spec = contentsOf(STIFFSCOPE_SOURCE_DIR "/samples/unloaded.xml");
   const std::pair<const char*, std::string> changes[] = {
-      {"urdf=\"", "urdf=\"" STIFFSCOPE_SOURCE_DIR "/samples/"},
+      {"urdf=\"[^\"]*", "urdf=\"" + urdf},
       {"seed=\"20261123\"", fmt::format("seed=\"7\" measurement=\"{}\"", measurement)},
       {"count=\"100\"", "count=\"40\""},
       {"stiffness_nm_per_rad=\"5.6e6\"", fmt::format("stiffness_nm_per_rad=\"{}\"", stiffness)},
@@ -178,6 +180,37 @@ TEST(FleetOfDaysWithoutALoad, AJointThatSoftensIsFound) {
   EXPECT_NE(contentsOf(out / "detectable.csv").find("M1,unloaded,unspecified,1,4,yes,,,"), std::string::npos);
   EXPECT_NE(contentsOf(out / "changes.csv").find("2026-01-12,2026-01-13,compliance,2,"), std::string::npos);
   EXPECT_NE(contentsOf(out / "changes.csv").find("2026-01-12,2026-01-13,geometry,"), std::string::npos);
+}
+
+// Machines of two sizes, their days in one folder without a serial: nothing of one is held against the other, one row
+// says so, and shards come to the same bytes.
+TEST(FleetOfDaysWithoutALoad, DifferentMachinesUnderOneNameAreNotCompared) {
+  const ScratchFolder scratch;
+  const fs::path lab = scratch.path() / "lab", longer = scratch.path() / "longer.urdf";
+  std::ofstream(longer) << std::regex_replace(contentsOf(STIFFSCOPE_SOURCE_DIR "/samples/m900ib700.urdf"),
+                                              std::regex("xyz=\"0.41 0 0\""), "xyz=\"0.61 0 0\"");
+  simulateUnloadedDay(scratch.path(), lab / "day1", 1, "5.6e6");
+  simulateUnloadedDay(scratch.path(), lab / "day2", 2, "2.8e6", longer.string());
+  const auto run = [&](const char* out, const char* options) {
+    return runProgram(fmt::format("fleet '{}' --out '{}' {}", lab.string(), (scratch.path() / out).string(), options),
+                      scratch.path());
+  };
+  const Ran ran = run("out", "");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  EXPECT_NE(ran.out.find("lab              several machines 2 machines under one name"), std::string::npos) << ran.out;
+  const fs::path out = scratch.path() / "out";
+  for (const char* table : {"steps.csv", "changes.csv"}) {
+    const std::string rows = contentsOf(out / table);
+    EXPECT_EQ(std::count(rows.begin(), rows.end(), '\n'), 1) << rows;
+  }
+  const std::string needs = contentsOf(out / "needs.csv");
+  EXPECT_NE(needs.find("1,lab,several_machines,2026-01-12,"), std::string::npos) << needs;
+  EXPECT_NE(needs.find("axis 2 stands 200.0 mm elsewhere"), std::string::npos) << needs;
+  EXPECT_NE(contentsOf(out / "fleet.html").find("axis 2 stands 200.0 mm elsewhere"), std::string::npos);
+  for (const char* options : {"--shard 2/2", "--shard 1/2 --jobs 1", "--merge"})
+    EXPECT_EQ(run("shared", options).status, 0) << options;
+  for (const std::string& file : kResults)
+    EXPECT_EQ(contentsOf(scratch.path() / "shared" / file), contentsOf(out / file)) << file;
 }
 
 TEST(FleetOptions, AreRefusedByTheirNames) {

@@ -153,6 +153,19 @@ TEST_F(ImportCommand, ALoadedDayGivesItsOwnStiffness) {
     EXPECT_EQ(printed(command, at("imported")), printed(command, at("own"))) << command;
 }
 
+TEST_F(ImportCommand, ALoadedDayWithoutAWrenchSaysThatItLacksIt) {
+  fs::copy(kSamples / "active", at("day"));
+  PlainTable states(at("day/states.csv"));
+  for (const char* column : {"fx_n", "fy_n", "fz_n", "mx_nm", "my_nm", "mz_nm"}) states.remove(column);
+  states.write(at("day/states.csv"));
+  const std::string lacking = "no wrench in 'states' (fx_n to mz_nm)";
+  const Ran identified = run("identify" + quoted(at("day")));
+  EXPECT_EQ(identified.status, 1);
+  EXPECT_NE(identified.err.find(lacking), std::string::npos) << identified.err;
+  EXPECT_EQ(identified.err.find("displacements"), std::string::npos) << identified.err;
+  EXPECT_NE(run("audit" + quoted(at("day"))).out.find(lacking), std::string::npos);
+}
+
 // ---------------------------------------------------------------------------------------------------------------------
 // Points.
 

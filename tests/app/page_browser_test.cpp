@@ -41,6 +41,7 @@ addEventListener('load',function(){
  document.querySelectorAll('[src],[href],[srcset],[data]').forEach(function(e){
   ['src','href','srcset','data'].forEach(function(n){var v=e.getAttribute(n);
    if(v&&!v.startsWith('data:')&&!v.startsWith('#'))out.requests.push(v);});});
+ out.cut=Array.from(document.querySelectorAll('.first .scroll')).filter(e=>e.scrollWidth>e.clientWidth+1).length;
  out.wide=document.documentElement.scrollWidth-document.documentElement.clientWidth;
  // Charts: how wide the narrowest is drawn, and what its frame takes of the page.
  out.charts=0;out.least=1e9;out.frame=0;
@@ -136,6 +137,13 @@ TEST_F(PageInABrowser, NothingOverlapsNothingIsFetched) {
     EXPECT_EQ(found["unsorted"].dump(), "[]");
     EXPECT_GT(found["sorted"], 20);  // of each campaign a handful of tables with numbers
   }
+}
+
+// The table of results of two days has intervals in brackets, wider than half of a phone.
+TEST_F(PageInABrowser, TheResultIsNotCutOnAPhone) {
+  const auto [found, console] = measured(500, "<style>body{max-width:400px}</style>");
+  ASSERT_TRUE(found.is_object());
+  EXPECT_EQ(found["cut"], 0);
 }
 
 // A chart is drawn for about 1400 pixels with letters of 20: half of that is what a reader of a phone needs.

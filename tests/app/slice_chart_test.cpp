@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/figures/figures.h"
+#include "reports/words/workspace_words.h"
 #include "tests/reports/small_result.h"
 
 namespace stiffscope {
@@ -76,6 +77,25 @@ TEST(SliceChart, OfManyPlacesDrawsFewerAndThoseLarger) {
 TEST(SliceChart, OneSoftPlaceDoesNotMakeTheOthersSmall) {
   const std::vector<double> widths = widthsOf(panelOf(sliceOf(8, 20.0)));
   EXPECT_NEAR(widths[widths.size() / 2], 0.48 * kSpacing, 1e-3 * kSpacing);
+}
+
+TEST(SliceChart, SaysTheStiffnessOfEachPlaceThatIsDrawn) {
+  std::size_t said = 0;
+  const render::ShapePanel panel = panelOf(sliceOf(8));
+  for (const render::PointSeries& series : panel.series) {
+    for (const render::PointValue& value : series.values) EXPECT_NEAR(value.value, 0.5, 1e-12);  // 1 / 2e-6 m/N
+    said += series.values.size();
+  }
+  EXPECT_EQ(said, 64u);
+  EXPECT_EQ(panel.value_name, "Softest in the plane (N/µm)");
+}
+
+TEST(SliceChart, NeedsAJointThatMovesThePointInThePlane) {
+  workspace::WorkspaceStiffness found = sliceOf(2);
+  EXPECT_TRUE(reports::givesInSlice(found.slice));
+  for (workspace::SlicePlace& place : found.slice.places)
+    place.at.model = Eigen::Vector3d(0, kCompliance, 0).asDiagonal();  // of joint 1 alone
+  EXPECT_FALSE(reports::givesInSlice(found.slice));
 }
 
 }  // namespace slice_chart_test

@@ -1,5 +1,6 @@
 #include "render/interval_chart.h"
 
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -71,6 +72,24 @@ TEST(Intervals, RefusesAnIntervalWithoutItsValue) {
   } catch (const std::invalid_argument& error) {
     EXPECT_NE(std::string(error.what()).find("has 5 in an interval from 6 to 7"), std::string::npos) << error.what();
   }
+}
+
+// "At least 5" beside a fit of -4: what is possible does not hold what was found.
+TEST(Intervals, ANegativeFitStandsBesideTheIntervalOfWhatIsPossible) {
+  render::IntervalChart chart = plain({{10, 8, 12}, {-4, 5, std::numeric_limits<double>::infinity()}});
+  chart.logarithmic = true;
+  const auto points = marks(chart);
+  ASSERT_GE(points.size(), 3u);
+  int whiskers = 0, arrows = 0;
+  for (const cv::Rect& one : points) {
+    if (one.x < points.front().br().x + 50) continue;  // of the first
+    if (one.y < points.front().y) ++whiskers;          // open above: to the edge of the diagram
+    if (one.y > points.front().br().y + 20) ++arrows;
+  }
+  EXPECT_EQ(whiskers, 1);
+  EXPECT_EQ(arrows, 1);
+  chart.series[0].intervals[1] = {-4, 7, 6};
+  EXPECT_THROW(render::render(chart), std::invalid_argument);
 }
 
 }  // namespace intervals_test

@@ -77,6 +77,36 @@ TEST(PointChart, AShapeIsTrueToScale) {
   EXPECT_GT(width, 300);
 }
 
+/// A shape has no axes, and a line no marks: they say what they are told to.
+TEST(PointChart, PointsOfAShapeAndOfALineSayTheirValues) {
+  render::PointSeries line;
+  line.mark = render::PointMark::none;
+  line.joined = true;
+  line.points = {{0, 0}, {1, 2}};
+  render::PointChart silent;
+  silent.diagrams = {render::PointPanel{}};
+  silent.diagrams[0].series = {line};
+  EXPECT_TRUE(render::render(silent).marks.empty());
+  line.values = {{0.0, 0.0, ""}, {2.0, 1.0, ""}};
+  silent.diagrams[0].series = {line};
+  EXPECT_EQ(render::render(silent).marks.size(), 2u);
+
+  render::PointChart shape;
+  shape.shapes = {render::ShapePanel{}};
+  shape.shapes[0].title = "Axis 1";
+  shape.shapes[0].value_name = "Residual (µm)";
+  line.name = "P_{10}";
+  line.values[1] = {7.5, 90.0, ""};
+  shape.shapes[0].series = {line};
+  const auto marks = render::render(shape).marks;
+  ASSERT_EQ(marks.size(), 2u);
+  EXPECT_EQ(marks[1].series, "Axis 1: P_{10}");
+  EXPECT_EQ(marks[1].quantity, "Residual (µm)");
+  EXPECT_EQ(marks[1].value, 7.5);
+  EXPECT_EQ(marks[1].category_at, 90.0);
+  EXPECT_GT(marks[1].x, marks[0].x);
+}
+
 TEST(PointChart, AHostileTitleLeavesThePlotItsRoom) {
   render::PointChart plain = postures(19, 1), hostile = plain;
   plain.title = "Two lines of a title " + std::string(120, 'i');

@@ -5,6 +5,7 @@
 #include "core/accuracy/diagnose_accuracy.h"
 #include "reports/json/json.h"
 #include "reports/text/text.h"
+#include "reports/words/accuracy_words.h"
 #include "tests/fixtures/unloaded_day.h"
 
 namespace stiffscope {
@@ -109,6 +110,67 @@ TEST(AccuracyText, ACleanDayHasNoCandidates) {
   EXPECT_TRUE(has(text, "Verdict: none"));
   EXPECT_TRUE(has(text, "gap of the positions"));
   EXPECT_FALSE(has(text, "Which: candidates"));
+}
+
+/// Of fewer than twenty postures no effect was asked for: nothing says that the vocabulary has none.
+TEST(AccuracyText, EffectsThatWereNotAskedForAreNotDenied) {
+  DiagnosedDay day;
+  day.accuracy = accuracy::AccuracyDiagnosis();
+  day.accuracy.usable = true;
+  day.accuracy.effects_asked = false;
+  day.accuracy.postures = 12;
+  day.accuracy.verdict = {{{calibration::UnloadedEffect::kinematic_error}, ""}, {{}, ""}};
+  day.accuracy.reasons = {Remark(accuracy::RemarkId::effects_not_asked, 12, 20)};
+  day.accuracy.next = {Remark(accuracy::RemarkId::measure_enough, 20)};
+  const std::string text = day.text();
+  for (const char* words :
+       {"unknown (effects were not asked for: 12 postures", "Effects were not asked for: 12 postures",
+        "seen: none, no effect was asked for", "Measure at least 20 postures"})
+    EXPECT_TRUE(has(text, words)) << words << text;
+  const std::string finding = reports::accuracyFinding(day.accuracy);
+  EXPECT_TRUE(has(finding, "whose cause was not asked for: 12 postures, which takes 20")) << finding;
+  EXPECT_FALSE(has(finding, "no known effect")) << finding;
+  const std::vector<std::string> actions = reports::accuracyActions(day.accuracy);
+  ASSERT_EQ(actions.size(), 2u);  // the geometry's, and more postures
+  EXPECT_TRUE(actions.back().starts_with("Measure at least 20 postures"));
+}
+
+/// What is left with all effects is not what is left with the verdict's where that names fewer.
+TEST(AccuracyText, SaysWhichEffectsTheRestIsStatedWith) {
+  DiagnosedDay day;
+  EXPECT_TRUE(has(reports::accuracyFigures(day.accuracy), "With the verdict's effects in the model"));
+  EXPECT_FALSE(has(day.text(), "effects in the model, also those"));
+  day.accuracy.verdict.clear();
+  day.accuracy.verdict.push_back({{}, ""});
+  const std::string figures = reports::accuracyFigures(day.accuracy);
+  EXPECT_TRUE(has(figures,
+                  "With all fitted effects in the model, also those that the verdict does not name "
+                  "(transmission error),"))
+      << figures;
+  EXPECT_FALSE(has(figures, "the verdict's effects"));
+  EXPECT_TRUE(has(day.text(), "effects in the model, also those that the verdict does not name: transmission error"));
+}
+
+TEST(AccuracyWords, StiffnessesOfACandidateAreDoubted) {
+  accuracy::AccuracyDiagnosis accuracy;
+  accuracy.usable = true;
+  accuracy::AccuracyClass one;
+  one.effects = {calibration::UnloadedEffect::joint_compliance};
+  one.parts.push_back({calibration::UnloadedEffect::joint_compliance, "joint 2"});
+  one.in_verdict = true;
+  accuracy.classes = {one};
+  EXPECT_EQ(reports::stiffnessDoubt(accuracy), "");
+  accuracy.classes[0].in_verdict = false;
+  EXPECT_TRUE(has(reports::stiffnessDoubt(accuracy), "joint compliance is a candidate only"));
+  accuracy.classes[0].effects.push_back(calibration::UnloadedEffect::base_compliance);
+  EXPECT_TRUE(has(reports::stiffnessDoubt(accuracy), "base compliance would explain the same"));
+}
+
+TEST(AccuracyWords, WhatToDoRefersToWhatIsOnThePage) {
+  DiagnosedDay day;
+  day.accuracy.verdict.push_back({{}, ""});
+  for (const std::string& action : reports::accuracyActions(day.accuracy))
+    EXPECT_FALSE(has(action, "figures above") || has(action, "the named joint")) << action;
 }
 
 }  // namespace accuracy_report_test

@@ -46,6 +46,18 @@ TEST(DayWords, WhatUIsOfIsThatOfTheModel) {
   EXPECT_NE(model.find("what effects in the model or beside it could still do"), std::string::npos);
 }
 
+// Acceptance limits are guarded by U: beside them it must not stand that uncertainty moves no limit.
+TEST(DayWords, WithAcceptanceLimitsTheDecisionRuleDoesNotContradictTheirs) {
+  for (const DayKind kind : {DayKind::loaded, DayKind::unloaded, DayKind::sweeps}) {
+    constexpr bool kLimits = true;
+    for (const std::string& item : scopeWords(kind, kLimits)) {
+      EXPECT_EQ(item.find("not used to move a limit"), std::string::npos) << item;
+      EXPECT_EQ(item.find("no statement of conformity"), std::string::npos) << item;
+    }
+  }
+  EXPECT_NE(scopeWords(DayKind::loaded).back().find("not used to move a limit"), std::string::npos);
+}
+
 TEST(DayWords, EveryCheckHasPlainWordsThatAreNotItsName) {
   for (const preparation::AuditCheckId& check : preparation::kAuditCheckIds) {
     const std::string id(check.id), words = amissWords(id);

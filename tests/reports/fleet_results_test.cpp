@@ -23,6 +23,7 @@ CampaignResult fullDay() {
   day.stiffness[2] = {2e6, 1e6, 3e6};
   day.deflection = 1e-3 / 3.0, day.compensated = {0.9, 0.8, 0.95};
   day.gap_before = 1e-5, day.diagnosed = true;
+  day.axes = {{{0.1, 1.0 / 3.0, 0.0}, {0.0, 0.6, 0.8}}, {{0.0, 0.0, 1.0 / 7.0}, {1.0, 0.0, 0.0}}};
   day.effects = {{{"bearing_tilt", "link_compliance"}, "joint 2"}, {{"unknown"}, ""}};
   return day;
 }
@@ -41,6 +42,9 @@ TEST(FleetResults, AreKeptWhole) {
   EXPECT_EQ(back.loaded_postures[1].q, day.loaded_postures[1].q);
   EXPECT_EQ(back.own_weight.influences[1], day.own_weight.influences[1]);
   EXPECT_FALSE(keptCampaign(Json::parse(keptJson(CampaignResult(6)).dump())).own_weight.available);
+  ASSERT_EQ(back.axes.size(), day.axes.size());
+  EXPECT_EQ(back.axes[0].point, day.axes[0].point);
+  EXPECT_EQ(back.axes[1].direction, day.axes[1].direction);
   EXPECT_EQ(back.audit, day.audit);
   EXPECT_TRUE(back.hasUnknown());
 }
@@ -48,6 +52,9 @@ TEST(FleetResults, AreKeptWhole) {
 TEST(FleetResults, WhatIsNoResultIsRefused) {
   Json json = keptJson(fullDay());
   json["audit"] = "good";
+  EXPECT_THROW(keptCampaign(json), std::runtime_error);
+  json = keptJson(fullDay());
+  while (json["axes"].size() <= static_cast<std::size_t>(kMostJoints)) json["axes"].push_back(json["axes"][0]);
   EXPECT_THROW(keptCampaign(json), std::runtime_error);
 }
 

@@ -258,7 +258,7 @@ TEST(Page, TheDiagnosisSaysWhatToDo) {
   diagnosis::Diagnosis diagnosis(6);
   diagnosis.usable = true;
   diagnosis.verdict.entries = {{{effects::Effect::load_cell_bias}, ""}};
-  diagnosis.verdict.reasons = {Remark(diagnosis::RemarkId::left_by_stiffnesses, 30e-6, 5e-6, 36.0)};
+  diagnosis.verdict.reasons = {Remark(diagnosis::RemarkId::left_by_stiffnesses, 30e-6, 5e-6, 36.0, true, false)};
   diagnosis.next = {{{effects::Effect::load_cell_bias, effects::Effect::hysteresis}, {}, 4.0}};
   diagnosis.next[0].what =
       Remark(diagnosis::RemarkId::posture_that_separates, std::vector<double>(6, 0.0), 1e3, 2, 9.0, 4.0, 8.0);
@@ -307,6 +307,20 @@ TEST(Page, TheTileCountsOnlyTrustedStiffnesses) {
   EXPECT_TRUE(has(page, "k<sub>4</sub> is not to be trusted."));  // the verdict's words
   small.method(identification::Method::decoupled_partial_pose).estimate.compliance[5] = -4e-6;
   EXPECT_TRUE(has(page::reportPage(contentOf(small)), "k<sub>4</sub>, k<sub>6</sub> are not to be trusted."));
+}
+
+TEST(Page, NegativeStiffnessesCompensateNothing) {
+  SmallResult small;
+  for (const identification::Method method : identification::kMethods)
+    small.method(method).estimate.compliance = -small.method(method).estimate.compliance.cwiseAbs();
+  reports::ReportContent content = contentOf(small);
+  content.verdict = reports::verdictOf(content.campaigns, {});
+  const std::string page = page::reportPage(content);
+  EXPECT_TRUE(has(page,
+                  "<b>–</b><span>compensated: every stiffness by DPP is negative, so no share of the deflection counts "
+                  "as compensated"));
+  EXPECT_FALSE(has(page, "takes away"));
+  EXPECT_TRUE(has(page, "these shares say how well the readings are fitted"));
 }
 
 TEST(Page, BeginsWithTheNoteAndSaysWhatIsNotStated) {

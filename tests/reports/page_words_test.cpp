@@ -246,6 +246,31 @@ TEST(PageWords, TheAuditIsOfReadingsWithTheEffectsInThem) {
   EXPECT_FALSE(says(page::reportPage(day.content), "The audit looks at the readings before"));
 }
 
+TEST(PageWords, StiffnessesOfTheDiagnosisStandAsInTheOtherTables) {
+  WithEffects day;
+  identification::MethodResult& with = day.model.with.methods[1];
+  with.estimate.stated[5] = {1.0 / 0.104e6, 1.0 / 0.077e6};  // far from symmetric about 0.1
+  day.diagnosis.stated.emplace().method = identification::Method::partial_pose;
+  day.diagnosis.stated->expanded = JointVector::Constant(6, 0.022e6);
+  day.diagnosis.stated->interval.resize(6);
+  day.diagnosis.verdict.entries = {{{effects::Effect::bearing_tilt}, ""}};
+  day.diagnosis.identifiable = with.estimate.identifiable;
+  day.diagnosis.stiffness_before = day.diagnosis.stiffness_after = with.estimate.compliance.cwiseInverse();
+  const std::string page = page::reportPage(day.content);
+  const std::size_t table = page.find("by joint springs alone and with the effects in the model, k ± U");
+  ASSERT_NE(table, std::string::npos);
+  const std::string rows = page.substr(table, page.find("</table>", table) - table);
+  EXPECT_TRUE(says(rows, "<td>0.1000 ± 0.0028</td>\n<td>0.10 (0.077 to 0.10)</td>")) << rows;
+}
+
+TEST(PageWords, AJointThatIsNotSeenSaysOfWhichModelItsTorqueIs) {
+  WithEffects day;
+  const char* whose = "The torque is about the axis of the model with its effects";
+  EXPECT_TRUE(says(page::reportPage(day.content), whose));
+  day.model.effects.added.clear();
+  EXPECT_FALSE(says(page::reportPage(day.content), whose));
+}
+
 TEST(PageWords, TheVerdictSaysByWhatItNamesWhatShrinksNothing) {
   diagnosis::EffectClass one;
   one.effects = {effects::Effect::kinematic_error};

@@ -30,11 +30,11 @@ TEST(ResultRemarks, OfADiagnosis) {
   EXPECT_EQ(reports::words(Remark(axes_off_nominal, 0.0012345, 0.002)),
             "axes up to 1.234 mm and 2.000 mrad from the nominal ones");
   EXPECT_EQ(
-      reports::words(Remark(left_by_stiffnesses, 30.04e-6, 5e-6, 36.0)),
+      reports::words(Remark(left_by_stiffnesses, 30.04e-6, 5e-6, 36.0, false, false)),
       "Stiffnesses alone leave 30.0 um rms per coordinate of the deflection, noise alone 5.0 um (chi2 per equation "
       "36.00).");
-  EXPECT_EQ(reports::words(Remark(left_by_stiffnesses, 30e-6, 5e-6, 360.0)).substr(82),
-            "5.0 um (chi2 per equation 360).");
+  EXPECT_EQ(reports::words(Remark(left_by_stiffnesses, 30e-6, 5e-6, 360.0, true, true)).substr(82),
+            "5.0 um (chi2 per equation of deflections and positions with the station's motion taken off 360).");
   EXPECT_EQ(
       reports::words(Remark(
           posture_that_separates,

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 #include <tinyxml2.h>
 
+#include <algorithm>
+#include <regex>
 #include "core/accuracy/diagnose_accuracy.h"
 #include "core/calibration/remarks.h"
 #include "reports/json/json.h"
@@ -108,6 +110,21 @@ TEST(UnloadedPage, WhatIsReadBehindPlusMinusIsU) {
   EXPECT_TRUE(has(page.html, "<td>" + reports::withUncertainty(1e3 * a, 1.96 * 1e3 * sd) + " <small>"));
 }
 
+/// A choice of frame has no uncertainty: the calibration holds axis 1, so that nothing moves the first d.
+TEST(UnloadedPage, AFixedLinkParameterHasNoUncertainty) {
+  const Day day;
+  const page::ReportPage page = page::makeReportPage(day.content());
+  const robot::Robot& nominal = day.accuracy.calibration.day.arm;
+  const double d = calibration::denavitHartenberg(nominal, nominal).links[0].d;
+  EXPECT_TRUE(has(page.html, "<td>" + reports::fixed(1e3 * d, 3) + " <small>"));
+  EXPECT_FALSE(has(page.html, "± 0.0000000"));
+  const auto table = std::find_if(page.tables.begin(), page.tables.end(),
+                                  [](const reports::TableFile& one) { return one.name == "denavit-hartenberg"; });
+  ASSERT_NE(table, page.tables.end());
+  // Nor in the file: of urdf_beta, sd_theta, sd_d, sd_a, sd_alpha, sd_beta two are there.
+  EXPECT_TRUE(std::regex_search(table->csv, std::regex("\n1,2,[^\n]*,,,[0-9.e-]+,[0-9.e-]+,\\r?\n"))) << table->csv;
+}
+
 TEST(UnloadedPage, ACleanDayNamesNothing) {
   const Day day(0.0);
   const reports::ReportContent content = day.content();
@@ -140,6 +157,36 @@ TEST(UnloadedPage, ShowsClassesWhereTablesAndWhatIsNotTestable) {
                             "Look for what is not in the list of effects", "There are no unloaded postures"})
     EXPECT_TRUE(has(page, words)) << words;
   EXPECT_TRUE(has(page, "The smallest sizes as a table"));
+}
+
+/// Fourteen waves of one joint, one of them within its U: its table has the twelve largest, its file all.
+TEST(UnloadedPage, TheFileOfTheEffectsHasAllOfThem) {
+  Day day;
+  calibration::ArmFit& fit = day.accuracy.calibration.models.back().fit;
+  constexpr int kWaves = 14, kSizes = 2 * kWaves;
+  fit.parts.clear();
+  fit.free.clear();
+  fit.refused.assign(kSizes, false);
+  fit.sizes.resize(kSizes);
+  constexpr double kSd = 1e-6;
+  fit.covariance = kSd * kSd * Eigen::MatrixXd::Identity(kSizes, kSizes);
+  for (int k = 0; k < kWaves; ++k) {
+    fit.parts.push_back(calibration::transmissionError(0, 10.0 + k));
+    fit.sizes[2 * k] = k == 3 ? 0.5 * kSd : 10.0 * (k + 1) * kSd;
+    fit.sizes[2 * k + 1] = 0.0;
+  }
+  for (int k = 0; k < kSizes; ++k) fit.free.push_back(static_cast<int>(fit.steps.size()) + k);
+  const page::ReportPage page = page::makeReportPage(day.content());
+  const auto file = std::find_if(page.tables.begin(), page.tables.end(),
+                                 [](const reports::TableFile& one) { return one.name == "effects"; });
+  ASSERT_NE(file, page.tables.end());
+  for (int k = 0; k < kWaves; ++k)
+    EXPECT_TRUE(has(file->csv, "joint 1, order " + std::to_string(10 + k) + ")")) << file->csv;
+  const std::string section = page.html.substr(page.html.find("Effects beside the geometry in the order"));
+  EXPECT_LT(section.find("order 23"), section.find("order 22"));
+  EXPECT_FALSE(has(section, "order 10)"));
+  EXPECT_FALSE(has(section, "order 13)"));
+  EXPECT_TRUE(has(section, "And 2 more, smaller or within their U; all of them in the table's CSV file"));
 }
 
 TEST(UnloadedPage, ADayThatCannotBeCalibratedSaysWhy) {

@@ -403,6 +403,45 @@ TEST(DiagnoseAccuracy, GrossReadingsDoNotChangeTheVerdict) {
   EXPECT_EQ(after.calibration.rejected.size(), 3u);
 }
 
+/// Twelve postures with far more than noise in them: no effect is asked for, so that none is denied.
+TEST(DiagnoseAccuracy, ADayOfFewPosturesSaysThatNoEffectWasAskedFor) {
+  Noise noise(42);
+  UnloadedSpec spec = machine(noise, 12);
+  spec.joint_errors = [](const JointVector& q) { return JointVector(50.0 * byGear(q)); };
+  const AccuracyDiagnosis result = diagnosed(spec, noise);
+  EXPECT_FALSE(result.effects_asked);
+  EXPECT_NE(inWords(result).find("unknown"), std::string::npos) << inWords(result);
+  const auto says = [&result](accuracy::RemarkId id) {
+    return std::any_of(result.reasons.begin(), result.reasons.end(), [id](const Remark& one) { return one.is(id); });
+  };
+  EXPECT_TRUE(says(accuracy::RemarkId::effects_not_asked));
+  EXPECT_TRUE(says(accuracy::RemarkId::not_looked_into));
+  EXPECT_FALSE(says(accuracy::RemarkId::no_effect_passes));
+  EXPECT_FALSE(says(accuracy::RemarkId::not_explained));
+  ASSERT_EQ(result.next.size(), 1u);
+  EXPECT_TRUE(result.next.front().is(accuracy::RemarkId::measure_enough));
+  Noise more(42);
+  EXPECT_TRUE(diagnosed(machine(more, 20), more).effects_asked);
+}
+
+/// `calibrate` and `diagnose` fit one day in one way, with the noise that it was found to have.
+TEST(DiagnoseAccuracy, TheCalibrationIsThatOfTheDay) {
+  Noise noise(43);
+  UnloadedSpec spec = machine(noise, 60);
+  spec.joint_errors = &byGear;
+  preparation::PreparedCampaign prepared = preparation::prepareCampaign(unloadedCampaign(spec, noise));
+  prepared.noise.degrees = 200.0;
+  prepared.noise.along_factor = prepared.noise.across_factor = 1.5;
+  const calibration::Calibration alone = calibration::calibrate(prepared, accuracy::kDiagnosisFolds);
+  const calibration::Calibration diagnosed_with = accuracy::diagnoseAccuracy(prepared).calibration;
+  EXPECT_NEAR(alone.noise, 1.5 * 20e-6, 1e-9);
+  EXPECT_EQ(alone.noise, diagnosed_with.noise);
+  EXPECT_EQ(alone.best().fit.sizes, diagnosed_with.best().fit.sizes);
+  EXPECT_EQ(alone.best().fit.covariance, diagnosed_with.best().fit.covariance);
+  prepared.noise.degrees = 0.0;  // too few repeats: as declared
+  EXPECT_NEAR(calibration::calibrate(prepared, accuracy::kDiagnosisFolds).noise, 20e-6, 1e-9);
+}
+
 TEST(DiagnoseAccuracy, ADayWithoutPosturesSaysWhy) {
   Noise noise(35);
   campaign::Campaign day = unloadedCampaign(UnloadedSpec{}, noise);

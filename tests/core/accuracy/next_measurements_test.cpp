@@ -55,5 +55,12 @@ TEST(NextMeasurements, AnUnknownCauseIsSoughtByRepeatsAndShapes) {
   EXPECT_EQ(next[1], asked(RemarkId::measure_repeats, {"unknown"}));
 }
 
+TEST(NextMeasurements, WhatWasNotAskedForTakesMorePostures) {
+  AccuracyDiagnosis diagnosis;
+  diagnosis.effects_asked = false;
+  diagnosis.verdict.push_back({{}, ""});
+  EXPECT_EQ(accuracy::nextMeasurements(diagnosis), std::vector{Remark(RemarkId::measure_enough, 20)});
+}
+
 }  // namespace next_measurements_test
 }  // namespace stiffscope

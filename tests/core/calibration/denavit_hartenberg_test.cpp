@@ -39,5 +39,21 @@ TEST(DenavitHartenberg, TheExampleByHand) {
   EXPECT_NEAR(std::abs(parameters.links[3].d), 1.285, kRounding);
 }
 
+TEST(DenavitHartenberg, WhatIsRoundingIsNoUncertainty) {
+  PerJoint<calibration::LinkParameters> sds(2);
+  sds[0].theta = 5e-24, sds[0].alpha = 2e-4, sds[0].a = 1e-4, sds[0].d = 2e-14;
+  sds[1].theta = 1e-4, sds[1].alpha = 1e-6, sds[1].a = 5e-9, sds[1].d = 1e-4;
+  const PerJoint<calibration::LinkParameters> known = calibration::withoutRounding(sds);
+  EXPECT_EQ(known[0].theta, 0.0);
+  EXPECT_EQ(known[0].d, 0.0);
+  EXPECT_EQ(known[0].beta, 0.0);
+  for (const auto number : {&calibration::LinkParameters::alpha, &calibration::LinkParameters::a})
+    EXPECT_EQ(known[0].*number, sds[0].*number);
+  EXPECT_EQ(known[1].a, 5e-9);
+  // A day without noise keeps what it has.
+  for (calibration::LinkParameters& link : sds) link.a *= 1e-9, link.d *= 1e-9;
+  EXPECT_EQ(calibration::withoutRounding(sds)[1].a, sds[1].a);
+}
+
 }  // namespace denavit_hartenberg_test
 }  // namespace stiffscope

@@ -56,5 +56,36 @@ TEST(GearCheck, WhatEncodersTakeAwayAgreesWithTheGearsOwnMeasurement) {
                    .gear.has_value());
 }
 
+/// What is stated of the agreement follows from what is stated of both: the difference of two models, too, where the
+/// postures are others.
+TEST(GearCheck, IsOfTheDifferenceThatIsStated) {
+  identification::IdentifyOptions options;
+  options.subsets.most_all = options.subsets.sample = 1;
+  // Every second posture of the one day, the rest of the other.
+  const auto half = [](campaign::Campaign campaign, int odd) {
+    std::erase_if(campaign.states->rows, [&](const campaign::State& row) { return row.pose % 2 != odd; });
+    std::erase_if(campaign.loading->rows, [&](const campaign::LoadingReading& row) { return row.pose % 2 != odd; });
+    return campaign;
+  };
+  const campaign::Campaign inactive = half(day(campaign::DoubleEncoder::inactive, 1), 0);
+  const campaign::Campaign active = half(day(campaign::DoubleEncoder::active, 2), 1);
+  const auto before = identification::identify(inactive, options);
+  const auto after = identification::identify(active, options);
+  constexpr auto kMethod = identification::Method::partial_pose;
+  comparison::SupportedModels models;
+  models.before = &before, models.after = &after;
+  const comparison::StiffnessChange change = comparison::compareStiffness(
+      inactive, before, active, after, kMethod, comparison::matchPostures(inactive, before, active, after), models);
+  ASSERT_TRUE(change.available);
+  ASSERT_TRUE(change.by_models);
+  for (const std::size_t j : {std::size_t{1}, std::size_t{2}}) {
+    const comparison::JointChange& one = change.joints[j];
+    ASSERT_TRUE(one.gear.has_value()) << j;
+    const double t = std::abs(one.difference.value + one.gear->compliance.value) /
+                     std::hypot(one.difference.sd, one.gear->compliance.sd);
+    EXPECT_NEAR(one.gear->p_value, std::erfc(t / std::sqrt(2.0)), 0.05) << j;  // Student's t is a little wider
+  }
+}
+
 }  // namespace gear_check_test
 }  // namespace stiffscope

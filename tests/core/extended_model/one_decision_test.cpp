@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <stdexcept>
 
+#include "core/campaign/read_campaign.h"
 #include "core/diagnosis/diagnose.h"
 #include "core/extended_model/extend_model.h"
 #include "core/preparation/prepare.h"
@@ -67,6 +69,25 @@ TEST(OneDecision, AStudyWithoutEquationsServesTheModelAlone) {
     EXPECT_EQ(kept.with.of(which).estimate.covariance, alone.with.of(which).estimate.covariance);
   }
   EXPECT_THROW(diagnosis::diagnose(prepared, *alone.study, {}), std::logic_error);
+}
+
+/// Where the fit has a negative stiffness another one is stated: what it leaves must be what is said to be left.
+TEST(OneDecision, StatedStiffnessesLeaveWhatIsSaidToBeLeft) {
+  const std::filesystem::path day = std::filesystem::path(STIFFSCOPE_SHARED_DIR) / "real" / "fanuc-r2000ic-cable";
+  if (!std::filesystem::exists(day)) GTEST_SKIP() << day << " is not there";
+  const preparation::PreparedCampaign prepared =
+      preparation::prepareCampaign(campaign::readCampaign(day.string()).campaign);
+  const extended_model::ExtendedModel model =
+      extended_model::supportedModel(prepared, prepared.campaign, fewSubsets(2), extended_model::Followed::by_nothing);
+  const identification::MethodResult& method = model.with.of(identification::Method::partial_pose);
+  ASSERT_TRUE(method.available);
+  double stated = 0.0, said = 0.0;
+  for (std::size_t i = 0; i < method.target_rows.size(); ++i) {  // one reflector
+    const identification::CaseEquations& one = method.target_rows[i];
+    stated += (one.right - one.matrix * method.estimate.compliance).squaredNorm();
+    said += method.target_residual[i] * method.target_residual[i];
+  }
+  EXPECT_NEAR(stated / said, 1.0, 0.02);
 }
 
 }  // namespace one_decision_test

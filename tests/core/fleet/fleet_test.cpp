@@ -135,6 +135,90 @@ TEST(Fleet, StatesOfTheEncodersAreNotMixed) {
     EXPECT_EQ(all[pair.before].result->encoders, all[pair.after].result->encoders);
 }
 
+/// Six parallel axes a metre apart, the second so far (m) from where it should be.
+PerJoint<metrology::Line> axesWithSecondAt(double x) {
+  PerJoint<metrology::Line> axes;
+  for (int axis = 0; axis < 6; ++axis) {
+    axes.push_back({Eigen::Vector3d(axis + (axis == 1 ? x : 0.0), 0.0, 0.0), Eigen::Vector3d::UnitZ()});
+  }
+  return axes;
+}
+
+// As of folders without a serial, each a machine of its own: `compare` refuses them, and so nothing is compared here.
+TEST(Fleet, DifferentMachinesUnderOneNameAreNotCompared) {
+  std::mt19937_64 draws(10);
+  std::vector<FleetCampaign> all = campaignsOf("lab", unchangedDays(draws, 8, 12));
+  for (std::size_t t = 0; t < 8; ++t) {
+    const bool other = t % 2 == 1;
+    all[t].result->axes = axesWithSecondAt(other ? 0.65 : 0.0);
+    if (other) springs(all[t]).compliance[1] += 8000.0;
+    if (t >= 4) all[t].result->effects = {{{"base_compliance"}, ""}};
+  }
+  // The last days of both machines are looked at, not that of the later alone.
+  all[6].result->audit = preparation::AuditVerdict::fail;
+  std::vector<FleetPair> pairs = pairsOf(seriesOf(all));
+  compareLoaded(all, pairs);
+  ASSERT_EQ(pairs.size(), 6u);
+  for (const FleetPair& pair : pairs) {
+    EXPECT_EQ(pair.before % 2, pair.after % 2);
+    EXPECT_LT(std::abs(pair.result->difference[1].value), 20.0);
+  }
+  const Fleet fleet = studyFleet(all, pairs);
+  ASSERT_EQ(fleet.arms.size(), 2u);
+  EXPECT_EQ(fleet.arms[1].campaigns, (std::vector<std::size_t>{1, 3, 5, 7}));
+  ASSERT_EQ(fleet.charts.size(), 2u);
+  EXPECT_EQ(fleet.charts[0].joints[1].points.size(), 4u);
+  for (const FleetStep& step : fleet.steps) EXPECT_EQ(step.what, FleetStep::What::effect_appeared);
+  const std::vector<Need>& needs = fleet.machines.at(0).needs;
+  ASSERT_EQ(needs.front().id, NeedId::several_machines);
+  EXPECT_EQ(
+      std::count_if(needs.begin(), needs.end(), [](const Need& one) { return one.id == NeedId::several_machines; }), 1);
+  EXPECT_EQ(needs[1].id, NeedId::audit_failed);
+  EXPECT_EQ(reports::plain(reports::words(needs.front().reason)),
+            "2 machines under one name, not compared with each other: of lab/2026-01-10 and lab/2026-01-11 the URDFs "
+            "describe different machines: axis 2 stands 650.0 mm elsewhere");
+  const std::string next = reports::plain(reports::words(needs.front().next));
+  EXPECT_NE(next.find("robot_serial"), std::string::npos) << next;
+  EXPECT_NE(next.find("folder of its own"), std::string::npos) << next;
+  const std::string page = page::fleetPage(fleet, {}, "0"), table = reports::detectableCsv(fleet);
+  EXPECT_NE(page.find("lab (machine 2 of 2)"), std::string::npos);
+  EXPECT_NE(page.find("axis 2 stands 650.0 mm elsewhere"), std::string::npos);
+  EXPECT_NE(table.find(",1\r\n"), std::string::npos) << table;
+  EXPECT_NE(table.find(",2\r\n"), std::string::npos) << table;
+}
+
+// Two URDFs of one machine round differently; three in a row may be further apart than two of them.
+TEST(Fleet, OneArmIsWhatNoTwoDaysAreRefusedFor) {
+  std::mt19937_64 draws(11);
+  std::vector<FleetCampaign> all = campaignsOf("a", unchangedDays(draws, 3, 12));
+  for (std::size_t t = 0; t < 3; ++t) all[t].result->axes = axesWithSecondAt(0.0008 * static_cast<double>(t));
+  ASSERT_EQ(armsOf(all).size(), 2u);
+  EXPECT_EQ(armsOf(all)[0].campaigns, (std::vector<std::size_t>{0, 1}));
+  EXPECT_EQ(armsOf(all)[1].differs_from, 0u);
+  all.pop_back();
+  EXPECT_EQ(armsOf(all).size(), 1u);
+  EXPECT_EQ(studied(all).machines[0].needs.front().id, NeedId::nothing);
+  // Names of their own need nothing: the same arm elsewhere is another machine.
+  all[1].machine = "b", all[1].result->axes = axesWithSecondAt(0.65);
+  EXPECT_EQ(armsOf(all).size(), 2u);
+  for (const Machine& one : studied(all).machines) EXPECT_EQ(one.needs.front().id, NeedId::nothing);
+}
+
+TEST(Fleet, ArmsOfOtherJointsAreDifferentMachines) {
+  std::mt19937_64 draws(12);
+  std::vector<FleetCampaign> all = campaignsOf("a", unchangedDays(draws, 3, 12));
+  all[0].result->axes = axesWithSecondAt(0.0), all[1].result.emplace(5);
+  all[2].result->axes = axesWithSecondAt(0.0);  // a rod's axis beside: six joints, seven axes
+  all[2].result->axes.push_back({Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()});
+  const std::vector<Arm> arms = armsOf(all);
+  ASSERT_EQ(arms.size(), 3u);
+  EXPECT_EQ(reports::words(arms[1].difference), "the URDFs describe different machines: 6 joints and 5");
+  EXPECT_EQ(reports::words(arms[2].difference), "the URDFs describe different machines: 6 joints and 7");
+  const Fleet fleet = studied(all);
+  EXPECT_TRUE(fleet.pairs.empty());
+  EXPECT_EQ(fleet.machines[0].needs.front().id, NeedId::several_machines);
+}
+
 TEST(Fleet, WhoseACampaignIs) {
   EXPECT_EQ(machineOf("F-17", "arm of cell 3", "lab/cell3/2026-01-05"), "F-17");
   EXPECT_EQ(machineOf("", "arm of cell 3", "lab/cell3/2026-01-05"), "arm of cell 3");

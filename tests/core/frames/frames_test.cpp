@@ -401,6 +401,35 @@ TEST(R0, RulesHoldForMeasuredAxes) {
   EXPECT_LT((found[0].matrix() - found[1].matrix()).norm(), 1e-9);
 }
 
+TEST(MeasuredFrames, AnOffsetWristHasNoCentre) {
+  campaign::Campaign campaign = campaign::readCampaign(STIFFSCOPE_SOURCE_DIR "/samples/active").campaign;
+  campaign.circle_sweeps.reset();
+  campaign.wrist_sweep.reset();
+  EXPECT_FALSE(frames::measureFrames(campaign).wrist.offset());
+  // Axis 6 along axis 5: both still meet, and not where 4 and 5 do.
+  auto& axes = campaign.robot.axes_in_base_at_zero;
+  axes[5].point += 0.1 * axes[4].direction;
+  const frames::WristCentre wrist = frames::measureFrames(campaign).wrist;
+  for (const frames::WristAxesMiss& miss : wrist.misses) EXPECT_LT(miss.distance, 1e-9);
+  EXPECT_TRUE(wrist.offset());
+  EXPECT_NEAR(wrist.apart, 0.1, 1e-9);
+}
+
+TEST(MeasuredFrames, ALastAxisAlongTheFlangePlanePiercesItNowhere) {
+  campaign::Campaign campaign = campaign::readCampaign(STIFFSCOPE_SOURCE_DIR "/samples/active").campaign;
+  const Frame flange = campaign.robot.base_from_flange_at_zero;
+  for (const double turned : {60.0, 85.0, 90.0}) {
+    Frame bracket = Frame::Identity();
+    bracket.linear() = Eigen::AngleAxisd(turned * io::kDegree, Eigen::Vector3d::UnitX()).toRotationMatrix();
+    bracket.translation() = Eigen::Vector3d(0.0, 0.1, 0.05);
+    campaign.robot.base_from_flange_at_zero = flange * bracket;
+    const frames::Frames frames = frames::measureFrames(campaign);
+    EXPECT_EQ(frames.tcp_at_origin, turned > 80.0) << turned;
+    EXPECT_LT(frames.tcp_in_flange.norm(), 0.3) << turned;
+    if (frames.tcp_at_origin) EXPECT_TRUE(frames.tcp_in_flange.isZero(0.0)) << turned;
+  }
+}
+
 TEST(RealSweeps, LinkLengths) {
   const auto folder = std::filesystem::path(STIFFSCOPE_SHARED_DIR) / "real" / "fanuc-r2000ic-sweeps";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "the real sweeps are not beside the checkout";

@@ -177,5 +177,34 @@ TEST_F(ImportColumns, AWrenchBesideAFileOfLoadsIsSaidNotToBeTaken) {
   expectSays(made.warnings[0], {"log.csv", "not taken", "wrench"});
 }
 
+TEST_F(ImportColumns, AWrenchThatNobodyReadIsNotWrittenAsZero) {
+  const std::string cell =
+      "<load_cell parent=\"tool0\" xyz_mm=\"0 0 110\" rpy_deg=\"0 0 0\" force_sigma_n=\"1\" moment_sigma_nm=\"0.3\"/>";
+  write("points.csv", "target,pose,step,x_mm,y_mm,z_mm\nP10,A,0,1000,2000,300\nP10,A,1,1000,2000,299\n");
+  write("log.csv", "pose," + kJoints + "\nA,10,5,0,0,20,0\n");
+  const auto columnsOf = [&](const ImportedDay& made) {
+    campaign::writeCampaign(made.campaign, made.urdf, folder_ / "out", {}, campaign::WrittenDigits::as_read, "");
+    std::string header;
+    std::ifstream lines(folder_ / "out/states.csv");
+    std::getline(lines, header);
+    return header;
+  };
+  const ImportedDay made = imported(cell + kPoints + kLog + "<join by=\"name\"/>");
+  ASSERT_EQ(made.warnings.size(), 1u);
+  expectSays(made.warnings[0], {"DAY.xml: loads", "load steps have no wrench"});
+  EXPECT_EQ(columnsOf(made), "pose,step," + kJoints);
+  // A day without a load has no wrench either, which is nothing to warn of.
+  write("points.csv", "target,pose,x_mm,y_mm,z_mm\nP10,A,1000,2000,300\n");
+  const ImportedDay unloaded = imported(kPoints + kLog + "<join by=\"name\"/>");
+  EXPECT_TRUE(unloaded.warnings.empty());
+  EXPECT_EQ(columnsOf(unloaded), "pose,step," + kJoints);
+  // Of two logs alone one has a wrench.
+  write("loaded.csv", "pose," + kJoints + ",fx_n,fy_n,fz_n,mx_nm,my_nm,mz_nm\nB,20,5,1,0,20,0,0,0,-8,0,0,0\n");
+  const ImportedDay two = imported(cell + kLog + "<log file=\"loaded.csv\"/>");
+  ASSERT_EQ(two.warnings.size(), 1u);
+  expectSays(two.warnings[0], {"DAY.xml: log", "wrenches are not taken", "1 of 2 states"});
+  EXPECT_EQ(columnsOf(two), "pose,step," + kJoints);
+}
+
 }  // namespace import_columns_test
 }  // namespace stiffscope

@@ -226,6 +226,31 @@ TEST_F(ImportDay, AnOffsetThatIsStatedMustServe) {
   expectSays(refusal(rest + "<join by=\"clock\" offset_s=\"15.9\"/>"), {"offset_s", "'15.9'", "expected an offset"});
 }
 
+TEST_F(ImportDay, AnOffsetThatGivesEachPostureTheJointsOfAnotherIsRefused) {
+  // Postures follow each other evenly, and the log has two more: offsets a posture apart serve alike, but for
+  // distances.
+  day_.keepPoses(8);
+  day_.writeSpatialAnalyzer(folder_ / "tracker.txt");
+  WrittenDay longer(kSample);
+  longer.keepPoses(10);
+  longer.writeKarel(folder_ / "karel.csv");
+  const ImportedDay made = imported(kByClock);
+  const double right = made.clocks[0].offset_s,
+               apart = day_.states.number(1, "time_s") - day_.states.number(0, "time_s");
+  const std::string shown = fmt::format("{:.3f} +- {:.3f} s", right, made.clocks[0].uncertainty_s);
+  EXPECT_NEAR(right, day_.clock_ahead_s + day_.firstSecond(), made.clocks[0].uncertainty_s);
+  const auto stated = [&](double offset) {
+    return kCoupled + kTracker +
+           fmt::format("<log file=\"karel.csv\"/><join by=\"clock\" offset_s=\"{:.3f}\"/>", offset);
+  };
+  expectSays(refusal(stated(right + apart)), {"DAY.xml:5: offset_s", "expected the offset", "off by", "with " + shown});
+  // One that serves nothing gets the right one named, and no other.
+  const std::string said = refusal(stated(right + 0.5 * apart));
+  expectSays(said, {"DAY.xml:5: offset_s", "expected an offset that puts", ", " + shown, "off by"});
+  EXPECT_EQ(said.find(" +- "), said.rfind(" +- ")) << said;
+  EXPECT_EQ(imported(stated(right)).campaign.states->rows.size(), 8u);
+}
+
 TEST_F(ImportDay, ARhythmThatTwoOffsetsServeIsRefusedWithoutDistances) {
   // Four postures are too few for distances, and they follow each other evenly.
   day_.keepPoses(4);
@@ -234,6 +259,9 @@ TEST_F(ImportDay, ARhythmThatTwoOffsetsServeIsRefusedWithoutDistances) {
   longer.keepPoses(6);
   longer.writeKarel(folder_ / "karel.csv");
   expectSays(refusal(kByClock), {"expected one offset", "offset_s"});
+  // Whoever states one that serves nothing hears of all that do.
+  expectSays(refusal(kCoupled + kTracker + "<log file=\"karel.csv\"/><join by=\"clock\" offset_s=\"15.9\"/>"),
+             {"offset_s", "'15.9'", ", or ", "do not tell apart"});
 }
 
 TEST_F(ImportDay, ByNameAndByOrderFromTaughtTargets) {

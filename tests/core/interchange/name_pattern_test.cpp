@@ -114,6 +114,26 @@ TEST(NamePattern, PartsOfCollectionGroupAndName) {
   EXPECT_FALSE(given.of("{target}").fieldsIn(point));
 }
 
+TEST(NamePattern, PartsInOneCellAreThoseOfThreeCells) {
+  const Patterned given;
+  interchange::PointReading one, three;
+  interchange::PointGroups groups;
+  one.name = "Day::step2::P10";
+  three.of = groups.of("Day", "step2");
+  three.name = "P10";
+  for (const char* pattern :
+       {"step{step}::{target}", "{*}::step{step}::{target}", "Day::step{step}::{target}", "Day::step2::{target}"}) {
+    ASSERT_TRUE(given.of(pattern).fieldsIn(three)) << pattern;
+    EXPECT_EQ(given.of(pattern).fieldsIn(one), given.of(pattern).fieldsIn(three)) << pattern;
+  }
+  // Also below a group of its own.
+  one.of = groups.of("", "Main");
+  EXPECT_EQ(given.of("{*}::step{step}::{target}").fieldsIn(one), (Fields{{"step", "2"}, {"target", "P10"}}));
+  EXPECT_FALSE(given.of("Night::step{step}::{target}").fieldsIn(one));
+  one.name = "P10";
+  EXPECT_FALSE(given.of("{*}::{*}::{target}").fieldsIn(one));  // it has two parts
+}
+
 TEST(NamePattern, RefusesWhatIsNoPattern) {
   const Patterned given;
   expectSays(given.refusal("{targt}"), {"day.xml:2: names", "{targt}", "did you mean 'target'"});

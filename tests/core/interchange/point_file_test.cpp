@@ -348,6 +348,16 @@ TEST(SemicolonXyz, RowsAndRefusals) {
   expectSays(refusal("P1;1.0;2.0;3.0;;;;\r\nP2;1.0;2.0", wanted), {":2", "ends in the middle"});
 }
 
+TEST(SemicolonXyz, OneWrongCellIsSaidOfItsLine) {
+  const std::string rows = "P1;100.5;200.5;300.5;;;;\nP2;1.5;2.1;3.0;;;;\n";
+  expectSays(refusal(rows + "P3;1.5;2,1;3.0;;;;\n"), {"day.txt:3", "y", "'2,1'", "decimal-comma"});
+  expectSays(refusal(rows + ";1.5;2.1;3.0;;;;\n"), {"day.txt:3", "NAME;x;y;z"});
+  expectSays(refusal("P1;100.5;200.5;300.5;;;;\nP2;1.5;2.1;;;;;\n"), {"day.txt:2", "z"});
+  expectSays(refusal("P1;1,5;2,1;3,0\nP2;1,5;2,1;3,0\n"), {"day.txt:1", "x", "'1,5'", "decimal-comma"});
+  // A header line is of another table.
+  expectSays(refusal("Name;X;Y;Z\nP1;1.5;2.1;3.0\n"), {"day.txt:1", "Name;X;Y;Z", "option columns"});
+}
+
 TEST(Columns, NamedByTheUser) {
   FileOptions options;
   options.columns = "time q1_rad - x_mm y_mm z_mm";

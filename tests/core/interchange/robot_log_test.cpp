@@ -98,6 +98,16 @@ TEST(UrLog, RadiansByNameAndRate) {
   EXPECT_DOUBLE_EQ(*named.samples[0].time_s, 12.5);
 }
 
+TEST(UrLog, DegreesReadAsRadiansAreSaidToBeThat) {
+  const std::string header = "actual_q_0,actual_q_1,actual_q_2,actual_q_3,actual_q_4,actual_q_5\n";
+  expectSays(refusal(header + "13.6,23.9,85.4,57.1,33.6,102.7\n"),
+             {":2", "joint 1", "779.223 deg", "degrees read as radians"});
+  expectSays(refusal("q1_rad,q2_rad,q3_rad,q4_rad,q5_rad,q6_rad\n0,0,90,0,0,0\n"),
+             {":2", "joint 3", "degrees read as radians"});
+  // Of figures in degrees none is too large for being in radians.
+  EXPECT_EQ(refusal("q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg\n0,0,900,0,0,0\n").find("radians"), std::string::npos);
+}
+
 TEST(KarelLog, ColumnsThatAreNotReadAreNamed) {
   const std::string axis = "Time [ms];J1;J2;J3;J4;J5;J6;E1;\n0;1;2;3;4;5;6;100;\n8;1;2;3;4;5;6;200;\n";
   const RobotLog log = read(axis);

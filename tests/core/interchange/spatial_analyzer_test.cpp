@@ -116,5 +116,61 @@ TEST(ExportComments, OnlyAxesArePolar) {
                {":1", "Cartesian"});
 }
 
+TEST(ExportComments, CoordinatesAreInTheOrderOfTheAxes) {
+  const std::string rows = "G, P1, 100.000, 200.000, 300.000\n";
+  const auto expectPoint = [&](const std::string& comment, double x, double y, double z) {
+    EXPECT_LT((1e3 * read("// 'A::B'\n" + comment + "\n" + rows).points.at(0).point - Eigen::Vector3d(x, y, z)).norm(),
+              1e-9)
+        << comment;
+  };
+  expectPoint("// Group, Point, X [mm], Y [mm], Z [mm]", 100, 200, 300);
+  expectPoint("// Group, Point, Y [mm], X [mm], Z [mm]", 200, 100, 300);
+  expectPoint("// Group, Point, Z [mm], Y [mm], X [mm]", 300, 200, 100);
+  expectPoint("// y in mm, z in mm, x in mm (mm)", 300, 100, 200);
+  expectPoint("// ACHSEN: Z  X  Y  (Millimeter)", 200, 300, 100);
+  // Small letters are words: y in Spanish, z in Polish.
+  expectPoint("// Ejes y puntos: X, Y y Z (mm)", 100, 200, 300);
+  expectPoint("// Punkty z osi: X, Y, Z (mm)", 100, 200, 300);
+  // A comment of something else says nothing of the columns.
+  expectPoint("// X, Y, Z (mm)\n// Z is up, X to the front, Y to the left", 100, 200, 300);
+  // What is no list, or has a sign, is not guessed.
+  for (const char* comment : {"// Group, Point, -X [mm], Y [mm], Z [mm]", "// Y value [mm], X value [mm], Z value [mm]",
+                              "// X, Y, Z (mm)\n"
+                              "// Y, X, Z (mm)"})
+    EXPECT_NE(interchange_test::refusalOf([&] {
+                read("// 'A::B'\n" + std::string(comment) + "\n" + rows);
+              }).find("expected the axes"),
+              std::string::npos)
+        << comment;
+}
+
+TEST(ExportComments, UncertaintiesAreInTheOrderOfTheirLabels) {
+  const std::string row = "G, P1, 100.000, 200.000, 300.000, 0.0200, 0.0300, 0.0600, 0.0700\n";
+  const auto sigmas = [&](const std::string& comment) {
+    return Eigen::Vector3d(1e6 * read("// 1 sigma\n" + comment + "\n" + row).points.at(0).sigma.value());
+  };
+  const auto near = [](const Eigen::Vector3d& found, double x, double y, double z) {
+    return (found - Eigen::Vector3d(x, y, z)).norm() < 1e-9;
+  };
+  EXPECT_TRUE(near(sigmas("// X, Y, Z (mm), U-x, U-y, U-z, U-mag"), 20, 30, 60));
+  EXPECT_TRUE(near(sigmas("// Y, X, Z (mm), U-y, U-x, U-z, U-mag"), 30, 20, 60));
+  EXPECT_TRUE(near(sigmas("// Y, X, Z (mm), U-x, U-y, U-z, U-mag"), 20, 30, 60));
+  EXPECT_TRUE(near(sigmas("// Z, Y, X (mm)"), 60, 30, 20));
+}
+
+TEST(ExportComments, CoverageMayStandInBracketsWithTheAxes) {
+  const std::string row = "G, P1, 100.000, 200.000, 300.000, 0.020, 0.030, 0.060, 0.070\n";
+  const auto sigma = [&](const std::string& columns) {
+    return 1e6 * (*read("// Group, Point, X [mm], Y [mm], Z [mm], " + columns + "\n" + row).points.at(0).sigma)[0];
+  };
+  EXPECT_NEAR(sigma("U-x, U-y, U-z, U-mag (95%)"), 10.0, 1e-9);
+  EXPECT_NEAR(sigma("U-x [mm], U-y [mm], U-z [mm], U-mag [mm] (2 sigma)"), 10.0, 1e-9);
+  EXPECT_NEAR(sigma("U-x, U-y, U-z, U-mag [mm, 95 %]"), 10.0, 1e-9);
+  EXPECT_NEAR(sigma("U-x, U-y, U-z, U-mag (95.0 % Confidence)"), 10.0, 1e-9);
+  EXPECT_NEAR(sigma("U-x, U-y, U-z, U-mag (1 sigma)"), 20.0, 1e-9);
+  EXPECT_NE(interchange_test::refusalOf([&] { sigma("U-x, U-y, U-z, U-mag (furlong)"); }).find("'furlong'"),
+            std::string::npos);
+}
+
 }  // namespace spatial_analyzer_test
 }  // namespace stiffscope

@@ -221,6 +221,14 @@ TEST(Rail, TablesThatDoNotSayWhereTheCarriageStoodAreRefused) {
             "11 over 20.0 mm");
 }
 
+TEST(Rail, PositionsInAnotherUnitAreNamed) {
+  for (const auto& [millimetres, name] : {std::pair(1000.0, "metres"), std::pair(25.4, "inches")}) {
+    campaign::Campaign day = withStates(1.0, 2.0);
+    for (campaign::RailReading& row : day.rail_sweep->rows) row.rail /= millimetres;
+    EXPECT_NE(refusal(day).find(std::string("as if these were ") + name), std::string::npos) << refusal(day);
+  }
+}
+
 TEST(Rail, AnArmThatStandsOnNoneHasNoCarriage) {
   campaign::Campaign day = withStates(1.0, 2.0);
   day.robot.rail.reset();
