@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <utility>
 
 #include "core/frames/arm_parameters.h"
 #include "core/robot/inverse_kinematics.h"
@@ -98,7 +99,7 @@ PerJoint<LinkParameters> linkUncertainties(const ArmFit& fit, const robot::Robot
     link.theta = sd[at], link.alpha = sd[at + 1], link.beta = sd[at + 2], link.d = sd[at + 3], link.a = sd[at + 4];
     at += kOfLink;
   }
-  return links;
+  return withoutRounding(std::move(links));
 }
 
 }  // namespace stiffscope::calibration

@@ -100,8 +100,9 @@ std::vector<ReflectorPair> reflectorsInBoth(const campaign::Campaign& before_cam
 }
 
 Remark differenceOfMachines(const robot::Robot& before, const robot::Robot& after) {
-  if (before.joints() != after.joints() || before.axes() != after.axes())
-    return Remark(RemarkId::other_joint_count, before.joints(), after.joints());
+  if (before.joints() != after.joints()) return Remark(RemarkId::other_joint_count, before.joints(), after.joints());
+  // Of a coupled arm a URDF has joints that only follow others.
+  if (before.axes() != after.axes()) return Remark(RemarkId::other_joint_count, before.axes(), after.axes());
   for (std::size_t j = 0; j < before.axes_in_base_at_zero.size(); ++j) {
     const metrology::Line &a = before.axes_in_base_at_zero[j], &b = after.axes_in_base_at_zero[j];
     const double turn = (a.direction - b.direction).norm();

@@ -269,20 +269,8 @@ void describe(EffectFit& effects, const std::vector<bool>& allowed) {
 }  // namespace
 
 void describeSizes(EffectFit& effects) {
-  for (std::size_t i = 0; i < effects.added.size(); ++i) {
-    const diagnosis::ChosenModel& chosen = effects.fit.set.models[i];
-    const effects::EffectModel& model = effects.input->models[chosen.model];
-    Eigen::Index at = effects.firstOf(chosen);
-    auto parameter = effects.added[i].parameters.begin();
-    for (std::size_t p = 0; p < model.parts.size(); ++p) {
-      const bool there = std::find(chosen.parts.begin(), chosen.parts.end(), p) != chosen.parts.end();
-      for (std::size_t k = 0; k < model.parts[p].most.size(); ++k, ++at) {
-        if (!there) continue;
-        if (!model.parts[p].is_shape) parameter->value = effects.fit.set.effects[at];
-        ++parameter;
-      }
-    }
-  }
+  effects.added.clear();
+  describe(effects, std::vector<bool>(effects.input->models.size(), true));
 }
 
 EffectFit fitEffects(const campaign::Campaign& campaign, const RequestedEffects& asked) {

@@ -184,7 +184,9 @@ Json framesJson(const campaign::Campaign& campaign, const frames::Frames& frames
   json["wrist"] = wristJson(campaign, frames);
   json["tcp_in_flange_m"] = array(frames.tcp_in_flange);
   const std::size_t last = frames.axes.size() - 1;
-  json["tcp_in_flange_from"] = sourceOf(frames, {frames::axisAcrossLast(frames.arm.arm.axes_in_base_at_zero), last});
+  json["tcp_in_flange_from"] =
+      frames.tcp_at_origin ? "origin of the flange"
+                           : sourceOf(frames, {frames::axisAcrossLast(frames.arm.arm.axes_in_base_at_zero), last});
   Json targets = Json::object();
   for (std::size_t k = 0; k < campaign.targets.size(); ++k) {
     const auto& target = frames.targets_in_r0_at_zero[k];

@@ -391,10 +391,7 @@ void writeMeasured(Html& html, const reports::ReportContent& content, const repo
   }
   html.paragraph(misses + "; ± is U, about 95\u00a0%.");
   if (wrist.offset())
-    html.paragraph(fmt::format("Axes {} and {} meet {} mm from where {} and {} do: this wrist has no centre.",
-                               wrist.misses[0].first + 1, wrist.misses[0].first + 2,
-                               reports::fixed(wrist.apart / io::kMillimetre, 1), wrist.misses[0].first + 2,
-                               wrist.misses[0].first + 3));
+    html.paragraph(reports::capitalised(reports::offsetWristWords(wrist.misses[0].first + 1, wrist.apart)) + ".");
   double miss = 0.0;
   for (const frames::WristAxesMiss& own : wrist.misses) miss = std::max(miss, own.distance);
   if (const std::string other = auditFinds(one, "wrist_axes_meet", miss, "the wrist's axes miss each other by");

@@ -81,8 +81,7 @@ reports::Table linksTable(const calibration::Calibration& calibration) {
   const calibration::DenavitHartenberg now =
       calibration::denavitHartenberg(calibration.geometry().fit.arm(nominal), nominal);
   const calibration::DenavitHartenberg built = calibration::denavitHartenberg(nominal, nominal);
-  const PerJoint<calibration::LinkParameters> sds =
-      calibration::withoutRounding(calibration::linkUncertainties(calibration.geometry().fit, nominal));
+  const PerJoint<calibration::LinkParameters> sds = calibration::linkUncertainties(calibration.geometry().fit, nominal);
   reports::Table table{
       "Denavit and Hartenberg's parameters, calibrated ± U (95\u00a0%), and the URDF's in small type; "
       "without a ± they are fixed, held or by choice of frame",

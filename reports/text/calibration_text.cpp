@@ -69,8 +69,7 @@ void writeAxes(const calibration::Calibration& calibration, Out out) {
   const calibration::DenavitHartenberg now = calibration::denavitHartenberg(arm, calibration.day.arm),
                                        before =
                                            calibration::denavitHartenberg(calibration.day.arm, calibration.day.arm);
-  const PerJoint<calibration::LinkParameters> sds =
-      calibration::withoutRounding(calibration::linkUncertainties(fit, calibration.day.arm));
+  const PerJoint<calibration::LinkParameters> sds = calibration::linkUncertainties(fit, calibration.day.arm);
   fmt::format_to(out,
                  "\nDenavit and Hartenberg's parameters (Hayati's where axes are parallel) to the second digit of U, "
                  "URDF's in brackets; fixed ones to three places\n"

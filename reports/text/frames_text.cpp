@@ -125,11 +125,10 @@ void writeWrist(const campaign::Campaign& campaign, const frames::Frames& frames
   }
   fmt::format_to(out, "{}\n", misses);
   if (wrist.offset())
-    fmt::format_to(out,
-                   "  {} and {} meet {:.1f} mm from where {} and {} do: this wrist has no centre, and what is printed\n"
-                   "  as one is the common centre of spheres that the reflectors do not describe\n",
-                   wrist.misses[0].first + 1, wrist.misses[0].first + 2, wrist.apart / io::kMillimetre,
-                   wrist.misses[0].first + 2, wrist.misses[0].first + 3);
+    fmt::format_to(out, "  {}\n",
+                   wrapped(offsetWristWords(wrist.misses[0].first + 1, wrist.apart) +
+                               "; what is printed as one is the common centre of spheres that no reflector moves on",
+                           2));
 }
 
 void writeR0(const frames::Frames& frames, Out out) {

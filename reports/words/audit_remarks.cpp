@@ -182,7 +182,9 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
     case audit::RemarkId::distances_keep_too_well:
       return fmt::format(
           "the reflectors' distances keep to {:.2g} of the declared noise: these readings are not independent of one "
-          "another (made from a measured pose, or copied), or the declared noise is not theirs; each counts as one",
+          "another (made from a measured pose, or copied), or the declared noise is not theirs; checks and "
+          "uncertainties take "
+          "them as independent",
           values.number(0));
     case audit::RemarkId::repeats_scatter_little:
       return "repeats scatter by less than half of what is declared: one sigma of a reading is asked for, not "
@@ -372,9 +374,7 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
     case audit::RemarkId::wrist_axes_miss:
       return wristAxesMiss(values);
     case audit::RemarkId::wrist_meets_apart:
-      return fmt::format("; {} and {} meet {:.1f} mm from where {} and {} do: this wrist has no centre",
-                         values.count(0), values.count(0) + 1, 1e3 * values.number(1), values.count(0) + 1,
-                         values.count(0) + 2);
+      return "; " + offsetWristWords(values.count(0), values.number(1));
     case audit::RemarkId::wrist_leak:
       return fmt::format(": joints {}-{} put {:.2f} % into P_wrist's displacement", values.count(1), values.count(2),
                          100.0 * values.number(0));

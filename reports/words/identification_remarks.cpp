@@ -44,11 +44,6 @@ std::string jointsWords(const RemarkValues& values) {
                      fmt::join(joints, ", "), terms);
 }
 
-std::string offsetWrist(std::int64_t first, double apart) {
-  return fmt::format("the wrist has no centre: axes {} and {} meet {:.1f} mm from where {} and {} do", first, first + 1,
-                     1e3 * apart, first + 1, first + 2);
-}
-
 /// Values: see RemarkId::wrist_axes_apart.
 std::string wristAxesApart(const RemarkValues& values) {
   const std::vector<double>& misses = values.numbers(0);
@@ -168,7 +163,7 @@ std::string identificationWords(identification::RemarkId id, const RemarkValues&
       return fmt::format("{}; and P_wrist needs a wrist sweep (axes {}-{} moving) with three reflectors",
                          words(values.remark(0)), values.count(1), values.count(2));
     case RemarkId::wrist_is_offset:
-      return offsetWrist(values.count(0), values.number(1));
+      return offsetWristWords(values.count(0), values.number(1));
     case RemarkId::wrist_axes_apart:
       return wristAxesApart(values);
     case RemarkId::geometry_not_calibrated:

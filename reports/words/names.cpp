@@ -129,6 +129,11 @@ JudgedPoint judgedPoint(const ReportCampaign& one) {
   return {false, fmt::format("the reflectors (mean of {})", count)};
 }
 
+std::string offsetWristWords(std::int64_t first, double apart) {
+  return fmt::format("axes {} and {} meet {:.1f} mm from where {} and {} do: this wrist has no centre", first,
+                     first + 1, apart / io::kMillimetre, first + 1, first + 2);
+}
+
 std::string geometryKeptWords(const frames::GeometryCalibration& calibration) {
   if (calibration.fixed.empty()) return {};
   return fmt::format("PP's geometry, kept at its start because the positions do not see it: {}.",

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <initializer_list>
 #include <optional>
 #include <string>
@@ -63,6 +64,9 @@ JudgedPoint judgedPoint(const ReportCampaign& one);
 
 /// "pose 3: no state of this load step"; a plain text.
 std::string leftOutWords(const identification::LeftOutPosture& posture);
+/// "axes 4 and 5 meet 115.8 mm from where 5 and 6 do: this wrist has no centre", of an offset wrist
+/// (frames::WristCentre::offset); `first`: the first of its axes, from 1.
+std::string offsetWristWords(std::int64_t first, double apart);
 /// Parameters of PP's geometry that the positions do not show, as a sentence; empty where they show all.
 std::string geometryKeptWords(const frames::GeometryCalibration& calibration);
 

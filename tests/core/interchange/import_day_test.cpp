@@ -37,6 +37,15 @@ class ImportDay : public ::testing::Test {
     day_.writeKarel(folder_ / "karel.csv");
   }
 
+  /// Readings of so many postures, and a log that has two more.
+  void writeWithLongerLog(int postures) {
+    day_.keepPoses(postures);
+    day_.writeSpatialAnalyzer(folder_ / "tracker.txt");
+    WrittenDay longer(kSample);
+    longer.keepPoses(postures + 2);
+    longer.writeKarel(folder_ / "karel.csv");
+  }
+
   static std::string dayXml(const std::string& elements) {
     return "<day format=\"1\" name=\"Cell\" date=\"2031-03-04\">\n"
            "<robot urdf=\"robot.urdf\" base_link=\"base_link\" flange_link=\"tool0\"/>\n"
@@ -229,11 +238,7 @@ TEST_F(ImportDay, AnOffsetThatIsStatedMustServe) {
 TEST_F(ImportDay, AnOffsetThatGivesEachPostureTheJointsOfAnotherIsRefused) {
   // Postures follow each other evenly, and the log has two more: offsets a posture apart serve alike, but for
   // distances.
-  day_.keepPoses(8);
-  day_.writeSpatialAnalyzer(folder_ / "tracker.txt");
-  WrittenDay longer(kSample);
-  longer.keepPoses(10);
-  longer.writeKarel(folder_ / "karel.csv");
+  writeWithLongerLog(8);
   const ImportedDay made = imported(kByClock);
   const double right = made.clocks[0].offset_s,
                apart = day_.states.number(1, "time_s") - day_.states.number(0, "time_s");
@@ -253,11 +258,7 @@ TEST_F(ImportDay, AnOffsetThatGivesEachPostureTheJointsOfAnotherIsRefused) {
 
 TEST_F(ImportDay, ARhythmThatTwoOffsetsServeIsRefusedWithoutDistances) {
   // Four postures are too few for distances, and they follow each other evenly.
-  day_.keepPoses(4);
-  day_.writeSpatialAnalyzer(folder_ / "tracker.txt");
-  WrittenDay longer(kSample);
-  longer.keepPoses(6);
-  longer.writeKarel(folder_ / "karel.csv");
+  writeWithLongerLog(4);
   expectSays(refusal(kByClock), {"expected one offset", "offset_s"});
   // Whoever states one that serves nothing hears of all that do.
   expectSays(refusal(kCoupled + kTracker + "<log file=\"karel.csv\"/><join by=\"clock\" offset_s=\"15.9\"/>"),
