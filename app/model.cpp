@@ -48,12 +48,15 @@ std::optional<extended_model::ExtendedModel> modelOf(const preparation::Prepared
       choice.with.empty() || std::find(choice.with.begin(), choice.with.end(), "auto") != choice.with.end();
   if (by_data && choice.with.size() > 1)
     throw io::InputError({"--with"}, "auto", "expected auto alone, or effects without it");
-  // Raw readings, too, are screened before effects are sought in them.
-  std::optional<preparation::PreparedCampaign> screened;
-  if (prepared.preparation.raw) screened = preparation::prepareCampaign(prepared.campaign);
-  const preparation::PreparedCampaign& sought = screened ? *screened : prepared;
-  if (by_data) return extended_model::supportedModel(sought, prepared.campaign, options, followed);
-  return extended_model::extendModel(prepared.campaign, effectsAsked(sought, choice.with), options);
+  return extended_model::withoutOutlying(
+      prepared, options, [&](const preparation::PreparedCampaign& day, const identification::IdentifyOptions& how) {
+        // Raw readings, too, are screened before effects are sought in them.
+        std::optional<preparation::PreparedCampaign> screened;
+        if (day.preparation.raw) screened = preparation::prepareCampaign(day.campaign);
+        const preparation::PreparedCampaign& sought = screened ? *screened : day;
+        if (by_data) return extended_model::supportedModel(sought, day.campaign, how, followed);
+        return extended_model::extendModel(day.campaign, effectsAsked(sought, choice.with), how);
+      });
 }
 
 diagnosis::Diagnosis diagnosisOf(const preparation::PreparedCampaign& prepared,
@@ -63,7 +66,8 @@ diagnosis::Diagnosis diagnosisOf(const preparation::PreparedCampaign& prepared,
   if (prepared.preparation.raw) {
     diagnosis = diagnosis::diagnose(prepared.campaign, options);
   } else {
-    diagnosis = model && model->study && model->study->hasEquations()
+    // A study without the outlying postures is of another day.
+    diagnosis = model && model->study && model->study->hasEquations() && !model->with.robust
                     ? diagnosis::diagnose(prepared, *model->study, options)
                     : diagnosis::diagnose(prepared, options);
   }

@@ -53,6 +53,16 @@ std::optional<Eigen::Matrix3d> rotationOf(const Eigen::Matrix3d& cross) {
 
 }  // namespace
 
+bool nearlyOnOneLine(const std::vector<Eigen::Vector3d>& points) {
+  if (points.size() < 3) return true;
+  const Eigen::Vector3d middle = mean(points);
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const Eigen::Vector3d& point : points) spread += (point - middle) * (point - middle).transpose();
+  const Eigen::Vector3d sizes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvalues();
+  constexpr double kSlender = 1e-4;  // of squares
+  return !(sizes[1] > kSlender * sizes[2]);
+}
+
 RigidRegistration registerRigid(const std::vector<Eigen::Vector3d>& source, const std::vector<Eigen::Vector3d>& to) {
   RigidRegistration result;
   if (source.size() < 3 || source.size() != to.size()) {

@@ -18,6 +18,10 @@ struct RigidRegistration {
 /// point. Undetermined: fewer than three points, or points on one line.
 RigidRegistration registerRigid(const std::vector<Eigen::Vector3d>& source, const std::vector<Eigen::Vector3d>& to);
 
+/// Whether points leave the line through them by less than a hundredth of their length along it, fewer than three
+/// always: the turn about it is then worth nothing in readings, although a registration without noise would find it.
+bool nearlyOnOneLine(const std::vector<Eigen::Vector3d>& points);
+
 struct WeightedRegistration : RigidRegistration {
   /// Covariance of a small motion after the found one, in the `to` frame: rotation vector (rad) about the mean of `to`,
   /// then shift (m).

@@ -60,10 +60,12 @@ double roundUp125(double x) {
 }
 
 Ticks linearTicks(double lower, double upper, int most) {
-  const double step = roundUp125((upper - lower) / std::max(1, most - 1));
+  double step = roundUp125((upper - lower) / std::max(1, most - 1));
+  const auto first = [&] { return std::ceil(lower / step - kSlack); };
+  const auto last = [&] { return std::floor(upper / step + kSlack); };
+  while (first() >= last()) step = roundDown125(0.9 * step);
   Ticks ticks;
-  const double last = std::floor(upper / step + kSlack);
-  for (double i = std::ceil(lower / step - kSlack); i <= last; ++i) {
+  for (double i = first(); i <= last(); ++i) {
     ticks.positions.push_back(i * step);
     ticks.labels.push_back(tickLabel(i * step, step, std::max(std::abs(lower), std::abs(upper))));
   }

@@ -15,8 +15,8 @@ struct Ticks {
   std::vector<std::string> labels;
 };
 
-/// Multiples of a step of the series 1-2-5 inside [lower, upper], at most `most` of them (at least two are
-/// tried for). Requires lower < upper, both finite.
+/// Multiples of a step of the series 1-2-5 inside [lower, upper], at most `most` of them, and at least two whatever
+/// that is: one alone tells no scale. Requires lower < upper, both finite.
 Ticks linearTicks(double lower, double upper, int most);
 
 /// Powers of ten, and 2 and 5 times those where the range is short, inside [lower, upper]. Requires 0 < lower

@@ -162,9 +162,9 @@ std::string classWords(const std::vector<double>& limits, std::size_t at) {
 /// A projection of base_link: two of its axes.
 struct Projection {
   int right, up;
-  const char* words;
+  const char* words;  ///< short: three panels stand side by side
 };
-constexpr std::array<Projection, 2> kProjections{{{0, 1, "from above"}, {0, 2, "from the side"}}};
+constexpr std::array<Projection, 2> kProjections{{{0, 1, "above"}, {0, 2, "side"}}};
 
 /// The middle of all places and of the base, and how far they reach from it, in a projection.
 struct Extent {
@@ -229,7 +229,7 @@ render::PointChart accuracyMap(const reports::ReportCampaign& one) {
   render::PointChart chart;
   chart.title = "Position error over the workspace, before and after";
   chart.subtitle = fmt::format("{}; {}", reports::asIs(one.campaign.name), judgedWords(calibration));
-  chart.note = "Places of the reflectors in base_link: x to the right, y up from above, z up from the side.";
+  chart.note = "Places of the reflectors in base_link, from above (x to the right, y up) and from the side (x, z).";
   chart.note += drawnWords(errors.size(), kMostPlaces, "readings");
   chart.columns = static_cast<int>(models.size());
   for (const Projection& projection : kProjections) {
@@ -326,7 +326,7 @@ render::PointChart residualsOverDay(const reports::ReportCampaign& one) {
       chart.diagrams.push_back(std::move(panel));
     };
     add(models, "");
-    if (!enlarged.empty()) add(enlarged, fmt::format(": {}, enlarged", reports::shortModelWords(enlarged.back())));
+    if (!enlarged.empty()) add(enlarged, fmt::format(", {}", reports::shortModelWords(enlarged.back())));
   }
   return chart;
 }

@@ -20,8 +20,9 @@ namespace {
 
 // Two stand beside each other on a page of 1140 pixels, the opening one beside the result: there, and on paper, letters
 // of 17 pixels in 1200 would be too small.
-constexpr render::Size kChart{960, 560, false, 1.25};
-constexpr render::Size kScene{960, 640, false, 1.25};
+constexpr render::Size kChart{960, 560, false, 1.4};
+constexpr render::Size kScene{960, 640, false, 1.4};
+constexpr render::Size kRows{960, 720, false, 1.4};  // of diagrams one above the other
 constexpr render::Size kOpening{840, 560, false, 1.4};
 constexpr std::size_t kMostGhosts = 60;  // more postures in one picture hide each other
 
@@ -39,7 +40,7 @@ class FigureList {
   /// How good the readings are that everything else stands on.
   void addReadings() {
     if (const auto residuals = residualDirections(one_))
-      add("stiffness", describeResidualDirections(one_, *residuals), *residuals);
+      add("stiffness", describeResidualDirections(one_, *residuals), *residuals, kScene);
     const frames::RigidPoints points = rigidSweeps(one_);
     if (const auto circles = sweepCircles(one_, points)) add("links", describeSweepCircles(one_), *circles, kScene);
     if (const auto sphere = wristSphere(one_, points)) add("wrist", describeWristSphere(one_), *sphere);
@@ -85,7 +86,7 @@ class FigureList {
         add("accuracy-gap", describeAccuracyAfter(one_, *scenes), scenes->after, kScene);
     }
     if (const auto classes = effectClasses(one_)) add("accuracy-gap", describeEffectClasses(one_), *classes);
-    add("station", describeResidualsOverDay(one_), residualsOverDay(one_), kScene);
+    add("station", describeResidualsOverDay(one_), residualsOverDay(one_), kRows);
   }
 
   /// What the model misses: beside the diagnosis' words.

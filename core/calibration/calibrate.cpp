@@ -19,9 +19,11 @@ struct ModelFits {
   SelectedEffects selected;
 };
 
-std::function<int(int)> innerFolds(const CalibrationOptions& options, int inner) {
-  // Blocks that hold one piece of every fold: of each fold's others every inner fold has its share.
-  const int block = std::max(1, options.folds * options.fold_size);
+std::function<int(int)> innerFolds(const CalibrationOptions& options, int inner, int postures) {
+  // Blocks that hold one piece of every fold: of each fold's others every inner fold has its share. Where there are too
+  // few postures for that, smaller ones: no inner fold may be empty.
+  int block = std::max(1, options.folds * options.fold_size);
+  if ((inner - 1) * block >= postures) block = std::max(1, postures / (2 * inner));
   return [block, inner](int pose) { return (pose / block) % inner; };
 }
 
@@ -70,7 +72,7 @@ ModelFits fitModels(const UnloadedDay& day, const std::vector<double>& weights, 
   models.placed = true;
   const ArmFit first = fitArm(day, *place, {}, {.weights = weights});
   SelectionOptions selection;
-  selection.inner_fold = innerFolds(options, selection.inner_folds);
+  selection.inner_fold = innerFolds(options, selection.inner_folds, static_cast<int>(day.pose_ids.size()));
   selection.outer_folds = options.folds;
   selection.outer_fold = [&](int pose) { return foldOf(pose, options); };
   selection.divisions = divisions;
@@ -235,16 +237,24 @@ Calibration calibrateBy(const campaign::Campaign& campaign, const CalibrationOpt
     }
     addErrors(residualsOf(day, model.fit), right, model.fitted);
     model.held_out_residuals.assign(readings, Eigen::Vector3d::Constant(std::nan("")));
+    bool all_predicted = true;
     for (int fold = 0; fold < options.folds; ++fold) {
       const ModelFits& others = fits[static_cast<std::size_t>(fold) + 1];
-      if (!others.placed) continue;
       std::vector<double> of_fold = weightsWhere(day, [&](int pose) { return foldOf(pose, options) == fold; });
+      if (std::all_of(of_fold.begin(), of_fold.end(), [](double weight) { return weight == 0.0; })) continue;
+      all_predicted = all_predicted && others.placed;
+      if (!others.placed) continue;
       const std::vector<Eigen::Vector3d> residuals = residualsOf(day, others.fits[m].second, of_fold);
       for (std::size_t i = 0; i < of_fold.size(); ++i) {
         if (of_fold[i] > 0.0) model.held_out_residuals[i] = residuals[i];
         of_fold[i] *= right[i];
       }
       addErrors(residuals, of_fold, model.held_out);
+    }
+    if (!all_predicted || model.held_out.readings == 0) {
+      // Of some postures alone it would be held against figures of all.
+      model.held_out = {std::nan(""), std::nan(""), 0};
+      model.held_out_residuals.assign(readings, Eigen::Vector3d::Constant(std::nan("")));
     }
     model.notes = notesOf(model.model, model.fit, day.postures.size());
     result.models.push_back(std::move(model));

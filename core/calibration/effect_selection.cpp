@@ -74,6 +74,8 @@ class Search {
       }
     };
     fitAll();
+    // The first were fitted without those after them, of which they then have taken what looks like them.
+    if (set.families.size() > 1) fitAll();
     const std::size_t at_first = set.families.size();
     FamilyFit::Products beside = fits_.productsOf(set.model);
     for (std::size_t f = 0; f < fits_.families().size(); ++f) {

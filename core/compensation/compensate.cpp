@@ -84,7 +84,7 @@ class Compensator {
       return result;
     }
     const Eigen::Isometry3d wanted = *resting;
-    const effects::FlangeLoad load = asked.load ? *asked.load : loadAt(unloaded, wanted, asked.wrench_in_cell);
+    const effects::FlangeLoad load = asked.load ? *asked.load : loadByReading(asked, unloaded, wanted);
     predict(unloaded, wanted, load, result);
     if (!result.predicted) return result;
     addCautions(unloaded, wanted, load, result);
@@ -94,11 +94,29 @@ class Compensator {
   }
 
  private:
-  effects::FlangeLoad loadAt(const robot::ArmPosture& posture, const Eigen::Isometry3d& flange,
-                             const Vector6d& reading) const {
-    const robot::Wrench wrench =
-        identification::cellWrench(*campaign_.load_cell, geometry_, posture, flange, flange, reading);
-    return {flange.inverse() * wrench.point, wrench.force, wrench.moment};
+  /// The load that makes the cell read this: its axes stand as the loaded flange does, as in identification, and by how
+  /// much that turns the load itself says.
+  effects::FlangeLoad loadByReading(const PostureToCompensate& asked, const robot::ArmPosture& unloaded,
+                                    const Eigen::Isometry3d& resting) const {
+    const auto at = [&](const Eigen::Isometry3d& loaded) -> effects::FlangeLoad {
+      const robot::Wrench wrench =
+          identification::cellWrench(*campaign_.load_cell, geometry_, unloaded, resting, loaded, asked.wrench_in_cell);
+      return {resting.inverse() * wrench.point, wrench.force, wrench.moment};
+    };
+    effects::FlangeLoad load = at(resting);
+    if (identification::bodyOfCellAxes(*campaign_.load_cell, geometry_) != geometry_.arm.axes()) return load;
+    // Each round is nearer by the flange's turn, some thousandths.
+    constexpr int kMost = 4;
+    constexpr double kSettled = 1e-10;  // of the force
+    for (int round = 0; round < kMost; ++round) {
+      const auto bent = loadedPosture(asked.q, load);
+      const auto flange = bent ? loadedFlange(asked.q, *bent, load) : std::nullopt;
+      if (!flange) break;
+      const Eigen::Vector3d before = load.force;
+      load = at(*flange);
+      if ((load.force - before).norm() <= kSettled * before.norm()) break;
+    }
+    return load;
   }
 
   JointVector torqueOf(const robot::ArmPosture& posture, const Eigen::Isometry3d& flange,
@@ -139,6 +157,7 @@ class Compensator {
                       range_->high[joint], options_.posture_most);
     }
     const double size = found.tcp.deflection.norm();
+    if (!std::isfinite(found.tcp.expanded)) return Remark(RemarkId::uncertainty_unknown);
     const bool negligible = found.tcp.expanded <= options_.negligible;
     if (!negligible && !(found.tcp.expanded <= options_.uncertain_most * size))
       return Remark(RemarkId::uncertain_as_itself, found.tcp.expanded, size);
@@ -156,7 +175,8 @@ class Compensator {
     const PointJacobian rows = robot::pointJacobianAt(axes, wanted * tcp_);
     const double size = result.tcp.deflection.norm();
     for (int joint = 0; joint < geometry_.arm.joints(); ++joint) {
-      if (beyondAngles(result.posture.q, joint) > options_.posture_caution)
+      const bool any_angle_serves = joint == 0 && turnsFreely(geometry_, 0);
+      if (!any_angle_serves && beyondAngles(result.posture.q, joint) > options_.posture_caution)
         result.cautions.emplace_back(RemarkId::posture_beyond, joint + 1, result.posture.q[joint], range_->low[joint],
                                      range_->high[joint]);
       // A joint that the day cannot see has its stiffness, if any, from elsewhere; one that moves little may be wrong.

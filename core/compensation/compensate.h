@@ -183,7 +183,8 @@ struct DeflectingArm {
 
 /// For each posture: the nonlinear model (finite rotations, own weight and load on the moved arm) gives the
 /// loaded pose; Newton steps on the commands bring the loaded flange back onto the pose that the unloaded arm
-/// has at q. The wrench is taken into R0 at the unloaded flange and keeps its direction. No commands, with
+/// has at q. A load cell's reading acts where the cell stands unloaded and is directed as the flange stands loaded by
+/// it, as identification has it; the load keeps that direction. No commands, with
 /// the reason, where the posture is outside the joint limits or a command would be, near a singularity, where
 /// the steps do not converge, and where more than `share_unknown` of the largest joint torque turns a joint
 /// whose stiffness is not known or came out negative. Nor, with `certainty`, far beyond the loads and postures that

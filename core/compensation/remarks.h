@@ -16,6 +16,7 @@ enum class RemarkId {
   steps_do_not_converge,
   load_far_beyond,      ///< load over the largest that identified, most that is predicted
   posture_far_beyond,   ///< joint number, its angle, least and largest angle that identified, rad; most beyond, rad
+  uncertainty_unknown,  ///< too few postures
   uncertain_as_itself,  ///< U of the deflection of P_TCP m, its size m
   // What to know of a posture with commands.
   load_beyond,     ///< load over the largest that identified

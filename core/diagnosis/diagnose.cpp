@@ -205,7 +205,8 @@ class Diagnoser {
   /// Where the station's motion was taken off, the gap before is that of the readings as they are.
   void asMeasured() {
     if (given_.empty()) return;
-    std::optional<GapAsMeasured> raw = gapAsMeasured(prepared_, input_, fit_, after_);
+    std::optional<GapAsMeasured> raw =
+        gapAsMeasured(prepared_, input_, fit_, after_, parametersWithoutEach(input_, alone_, fit_, allowed_));
     if (!raw) return;
     with_motion_ = raw->deflection.has_value();
     if (raw->deflection) result_.gap.before = *raw->deflection;

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,10 +16,13 @@
 
 namespace stiffscope::diagnosis {
 
-/// 1 - rms after / rms before, on postures that took no part in the fit.
+/// 1 - rms after / rms before, on postures that took no part in the fit. Not a number where there are too few postures
+/// to leave any out.
 struct Shrink {
   double value = 0.0;
   double low = 0.0, high = 0.0;  ///< 95 %, the selection repeated inside
+
+  bool judged() const { return !std::isnan(value); }
 };
 
 /// Effects that this data cannot tell apart, as one candidate.
@@ -51,6 +56,13 @@ struct Verdict {
 struct Gap {
   double before = 0.0, noise = 0.0, after = 0.0;
   double deflection = 0.0;  ///< what was to be explained
+
+  /// Share of its squares beyond the readings' noise that stays: 1 where nothing was explained.
+  double shareLeft() const {
+    const double least = noise * noise, was = before * before - least;
+    const double is = std::max(0.0, after * after - least);
+    return was > is ? is / was : 1.0;
+  }
 };
 
 /// A part of the gap: its rms per coordinate, what noise alone would leave there, its share of the gap's

@@ -189,6 +189,7 @@ SystemState startState(const campaign::Campaign& campaign, const frames::Loading
   if (geometry.compliance.size() > 0) state.at.compliance = geometry.compliance.cwiseMax(0.0);
   state.at.targets = static_cast<int>(campaign.targets.size());
   state.at.r0_from_base_link = geometry.r0_from_base_link;
+  if (geometry.weight.gravity_in_base.norm() > 0.0) state.at.down = geometry.weight.gravity_in_base.normalized();
   if (campaign.robot.rail) state.at.rail_in_base = campaign.robot.rail->direction_in_base;
   state.at.load_offset = loadOffset(geometry.arm, cases, campaign.load_cell->moment_sigma);
   state.at.largest_torque = largestTorque(geometry, cases);

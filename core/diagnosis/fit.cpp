@@ -13,9 +13,6 @@
 
 namespace stiffscope::diagnosis {
 
-/// What chi2 per equation may be by chance: four standard deviations of chi2, the noise's own doubt in it.
-double limitOfLeft(const GapFit& fit, const FitRules& rules);
-
 /// What the set leaves of the deflection at the largest load beyond noise, rms per coordinate, m, where that
 /// is significant (four standard deviations of chi2, the noise's own doubt in it) and matters: more than the
 /// smallest effect looked for, and more than a tenth of what the set removed, because models of large effects
@@ -269,7 +266,7 @@ GapFit fitGap(const SystemInput& input, const SystemState& start, const std::vec
   polish(input, allowed, rules, *by_geometry, fit);
   if (rules.error_of_model) fit.model_error = modelError(fit, rules);
   fit.by_geometry = by_geometry;
-  fit.left_limit = limitOfLeft(fit, rules);
+  fit.left_limit = limitOfChiSquare(fit.left.freedom, rules.noise_degrees);
   return fit;
 }
 
@@ -294,15 +291,14 @@ double leftAtLargestLoad(const GapFit& fit) {
 
 }  // namespace
 
-double limitOfLeft(const GapFit& fit, const FitRules& rules) {
+double limitOfChiSquare(double freedom, double noise_degrees) {
   constexpr double kSigmas = 4.0;
-  return 1.0 +
-         kSigmas * std::sqrt(2.0 / fit.left.freedom + (rules.noise_degrees > 0.0 ? 2.0 / rules.noise_degrees : 0.0));
+  return 1.0 + kSigmas * std::sqrt(2.0 / freedom + (noise_degrees > 0.0 ? 2.0 / noise_degrees : 0.0));
 }
 
 double modelError(const GapFit& fit, const FitRules& rules) {
   const double rows = fit.rules.loading_rows, left = leftPerEquation(fit);
-  if (fit.state.model_error == 0.0 && left < limitOfLeft(fit, rules)) return 0.0;
+  if (fit.state.model_error == 0.0 && left < limitOfChiSquare(fit.left.freedom, rules.noise_degrees)) return 0.0;
   double before = 0.0, after = 0.0, count = 0.0;
   Eigen::VectorXd old = Eigen::VectorXd::Zero(fit.data->layout.end), now = old;
   old.head(fit.nuisances_before.size()) = fit.nuisances_before;

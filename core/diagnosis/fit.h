@@ -70,6 +70,10 @@ inline double leftPerEquation(const GapFit& fit) { return fit.left.perEquation()
 /// sweeps' deviation from theirs in it and no parameters taken off, as the selection has it (Selector::misfit).
 double varianceFactor(const GapFit& fit);
 
+/// What chi2 over its degrees of freedom may be by chance: four standard deviations, with the doubt of a noise that was
+/// itself estimated with so many degrees of freedom (0: known).
+double limitOfChiSquare(double freedom, double noise_degrees);
+
 /// Whether deflections stay that no effect explains: beyond chance (left_limit), and large enough to matter. A verdict
 /// then says `unknown`, and identification that its values are apparent ones.
 inline bool leavesUnexplained(const GapFit& fit) { return fit.model_error > 0.0; }

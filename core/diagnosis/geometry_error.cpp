@@ -43,7 +43,9 @@ GeometryError geometryError(const SystemInput& input, const SystemState& state) 
   const frames::AxesAtStart nominal = frames::axesAtStart(nominalIn(input.campaign, state.geometry));
   const auto& found_axes = state.geometry.arm.axes_in_base_at_zero;
   std::vector<Eigen::Vector3d> targets;
-  for (const auto& target : state.geometry.targets_at_zero) targets.push_back(target.value_or(Eigen::Vector3d::Zero()));
+  for (const auto& target : state.geometry.targets_at_zero) {
+    if (target) targets.push_back(*target);
+  }
   const auto found = targets;
   const auto count = static_cast<Eigen::Index>(targets.size());
   const auto rows = 3 * count * static_cast<Eigen::Index>(postures.size());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <random>
 #include <span>
@@ -59,6 +60,14 @@ void trainOnEach(const SystemInput& input, const GapFit& alone, const GapFit& fi
   });
 }
 
+constexpr std::size_t kFewestHeldOut = 4;  // postures
+
+HeldOutShrink notJudged() {
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  const Shrink none{kUnknown, kUnknown, kUnknown};
+  return {none, none, kUnknown};
+}
+
 double shrinkOf(double before, double after) { return before > 0.0 ? 1.0 - std::sqrt(after / before) : 0.0; }
 
 /// Value below which such a share of the draws lies; 0 without any.
@@ -96,6 +105,7 @@ HeldOut leftIn(const GapPosture& alone, const StiffnessesAlone& before, const Ga
 }
 
 HeldOutShrink shrinkOver(const std::vector<HeldOut>& postures, int resamples, std::uint64_t seed) {
+  if (postures.size() < kFewestHeldOut) return notJudged();
   HeldOut sum;
   for (const HeldOut& one : postures) add(sum, one);
   std::mt19937_64 random(seed);
@@ -177,7 +187,10 @@ std::vector<HeldOutShrink> shrinks(const SystemInput& input, const GapFit& alone
                                    int resamples, std::uint64_t seed) {
   const std::size_t postures = fit.data->postures.size();
   std::vector<HeldOutShrink> result(recipes.size());
-  if (postures < 4) return result;
+  if (postures < kFewestHeldOut) {
+    std::fill(result.begin(), result.end(), notJudged());
+    return result;
+  }
   std::vector<std::vector<HeldOut>> left(postures, std::vector<HeldOut>(recipes.size()));
   std::vector<numerics::Weights> others;
   for (std::size_t p = 0; p < postures; ++p) others.push_back(numerics::leaveOneOut(postures, p));
@@ -226,6 +239,17 @@ std::vector<HeldOutShrink> shrinks(const SystemInput& input, const GapFit& alone
 }
 
 }  // namespace
+
+std::vector<Eigen::VectorXd> parametersWithoutEach(const SystemInput& input, const GapFit& alone, const GapFit& fit,
+                                                   const std::vector<bool>& allowed) {
+  const std::size_t postures = fit.data->postures.size();
+  std::vector<numerics::Weights> others;
+  for (std::size_t p = 0; p < postures; ++p) others.push_back(numerics::leaveOneOut(postures, p));
+  std::vector<Eigen::VectorXd> parameters(postures);
+  trainOnEach(input, alone, fit, allowed, {{true, {}}}, others,
+              [&](std::size_t p, const std::vector<Trained>& trained) { parameters[p] = trained.front().after; });
+  return parameters;
+}
 
 std::vector<HeldOutShrink> heldOutShrinks(const SystemInput& input, const GapFit& alone, const GapFit& fit,
                                           const std::vector<bool>& allowed, const std::vector<FitRecipe>& recipes,

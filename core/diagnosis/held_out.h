@@ -26,13 +26,18 @@ struct HeldOutShrink {
 
 /// Leave-one-posture-out for the values. The interval: bootstrap samples of postures, each fitted (and, where
 /// the recipe says so, selected) on the postures drawn and judged on those not drawn, so that no posture
-/// stands on both sides; their spread is brought from the number of postures judged to that of all of them.
-/// `alone`: withoutEffects.
+/// stands on both sides; their spread is brought from the number of postures judged to that of all of them. Not a
+/// number with fewer than four postures. `alone`: withoutEffects.
 std::vector<HeldOutShrink> heldOutShrinks(const SystemInput& input, const GapFit& alone, const GapFit& fit,
                                           const std::vector<bool>& allowed, const std::vector<FitRecipe>& recipes,
                                           int resamples, std::uint64_t seed);
 
-/// The same from squares a posture that are there already, judged on bootstrap samples of the postures.
+/// Parameters (allParameters) of what is chosen and fitted on the other postures, one a posture of `fit`.
+std::vector<Eigen::VectorXd> parametersWithoutEach(const SystemInput& input, const GapFit& alone, const GapFit& fit,
+                                                   const std::vector<bool>& allowed);
+
+/// The same shrink from squares of postures held out that are there already, the interval by bootstrap samples of
+/// these.
 HeldOutShrink shrinkOver(const std::vector<HeldOut>& postures, int resamples, std::uint64_t seed);
 
 /// Squares of deflection and position rows that parameters leave in a posture: of its equations without

@@ -13,14 +13,15 @@
 #include "core/diagnosis/diagnosis_input.h"
 #include "core/diagnosis/held_out.h"
 #include "core/numerics/distributions.h"
+#include "core/numerics/resampling.h"
 #include "metrology/linear_algebra.h"
 
 namespace stiffscope::diagnosis {
 
 namespace {
 
-Eigen::VectorXd stiffnessesIn(const LinearSystem& data) {
-  const Eigen::MatrixXd normal = sumOf(data, std::vector<double>(data.postures.size(), 1.0));
+Eigen::VectorXd stiffnessesIn(const LinearSystem& data, const std::vector<double>& weights) {
+  const Eigen::MatrixXd normal = sumOf(data, weights);
   Eigen::VectorXd parameters = Eigen::VectorXd::Zero(data.layout.end);
   const Eigen::Index joints = data.layout.joints();
   parameters.head(joints) =
@@ -31,20 +32,24 @@ Eigen::VectorXd stiffnessesIn(const LinearSystem& data) {
 }  // namespace
 
 std::optional<GapAsMeasured> gapAsMeasured(const preparation::PreparedCampaign& prepared, const SystemInput& input,
-                                           const GapFit& fit, const Eigen::VectorXd& after) {
+                                           const GapFit& fit, const Eigen::VectorXd& after,
+                                           const std::vector<Eigen::VectorXd>& after_without) {
   const DiagnosisInput raw = diagnosisInput(preparation::asMeasured(prepared));
   if (!raw.reason.empty()) return std::nullopt;
   const SystemInput as_read{
       raw.campaign, raw.noise.noise, input.force_sigma, input.moment_sigma, input.models, false, false, {}};
   const LinearSystem data = linearSystem(as_read, raw.state, {});
-  const Eigen::VectorXd parameters = stiffnessesIn(data);
+  const std::size_t postures = data.postures.size();
+  const Eigen::VectorXd parameters = stiffnessesIn(data, std::vector<double>(postures, 1.0));
   GapAsMeasured gap;
   std::map<int, HeldOut> left;
   double rows = 0.0, rests = 0.0, deflection = 0.0, position = 0.0;
-  for (const GapPosture& posture : data.postures) {
+  for (std::size_t p = 0; p < postures; ++p) {
+    const GapPosture& posture = data.postures[p];
     const double squares = leftIn(posture, {parameters, parameters}, posture, parameters).deflection_before;
     const auto count = static_cast<double>(posture.right.size());
-    left[posture.pose].deflection_before = squares;
+    const Eigen::VectorXd others = stiffnessesIn(data, numerics::leaveOneOut(postures, p));
+    left[posture.pose].deflection_before = leftIn(posture, {others, others}, posture, others).deflection_before;
     deflection += squares;
     rows += count;
     gap.by_posture.rows.push_back(
@@ -58,9 +63,10 @@ std::optional<GapAsMeasured> gapAsMeasured(const preparation::PreparedCampaign& 
   }
   if (rows > 0.0) gap.deflection = std::sqrt(deflection / rows);
   if (rests > 0.0) gap.position = std::sqrt(position / rests);
-  for (const GapPosture& posture : fit.data->postures) {
+  for (std::size_t p = 0; p < fit.data->postures.size(); ++p) {
+    const GapPosture& posture = fit.data->postures[p];
     HeldOut one = left[posture.pose];
-    const HeldOut now = leftIn(posture, {after, after}, posture, after);
+    const HeldOut now = leftIn(posture, {after_without[p], after_without[p]}, posture, after_without[p]);
     one.deflection_after = now.deflection_after;
     one.position_after = now.position_after;
     gap.left.push_back(one);
@@ -126,6 +132,7 @@ struct LeftOver {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   const effects::ArmState* state = nullptr;
   int target = 0;
+  Eigen::Vector3d read_from = campaign::kStationOfTracker;  ///< where the instrument stood, R0
 };
 
 std::vector<LeftOver> leftOvers(const LinearSystem& data, const Eigen::VectorXd& parameters, bool deflection) {
@@ -143,7 +150,8 @@ std::vector<LeftOver> leftOvers(const LinearSystem& data, const Eigen::VectorXd&
                                            ? Eigen::Matrix3d(posture.noise_across.block<3, 3>(row - at, row - at))
                                            : Eigen::Matrix3d(Eigen::Matrix3d::Zero());
         all.push_back({left.segment<3>(row), posture.noise.block<3, 3>(row, row - at), across,
-                       posture.states[s].points[t], &posture.states[s], posture.states[s].targets[t]});
+                       posture.states[s].points[t], &posture.states[s], posture.states[s].targets[t],
+                       posture.read_from.empty() ? campaign::kStationOfTracker : posture.read_from[t].from});
       }
     }
   }
@@ -249,9 +257,10 @@ WhereTable tableAlong(const std::string& by, const std::vector<std::string>& nam
   return table;
 }
 
-Eigen::Matrix3d beamAxes(const GapFit& fit, const SystemInput& input, const Eigen::Vector3d& point) {
+Eigen::Matrix3d beamAxes(const GapFit& fit, const SystemInput& input, const LeftOver& one) {
   const Eigen::Isometry3d from_points = fit.state.geometry.r0_from_loading.value_or(fit.state.at.r0_from_base_link);
-  const Eigen::Vector3d along = (point - from_points * input.noise.station).normalized();
+  const Eigen::Vector3d station = one.read_from.allFinite() ? one.read_from : from_points * input.noise.station;
+  const Eigen::Vector3d along = (one.point - station).normalized();
   Eigen::Matrix3d axes;
   axes.col(0) = along;
   axes.col(1) = along.unitOrthogonal();
@@ -269,7 +278,7 @@ std::vector<WhereTable> commonTables(const SystemInput& input, const GapFit& fit
   tables.push_back(tableAlong("flange axes", {"x", "y", "z"}, all,
                               [](const LeftOver& one) { return Eigen::Matrix3d(one.state->flange.linear()); }));
   tables.push_back(tableAlong("tracker's beam", {"along", "across"}, all,
-                              [&](const LeftOver& one) { return beamAxes(fit, input, one.point); }));
+                              [&](const LeftOver& one) { return beamAxes(fit, input, one); }));
   tables.push_back(
       tableBy("posture", input.campaign.pose_ids, all, [](const LeftOver& one) { return one.state->pose; }));
   return tables;

@@ -15,14 +15,18 @@ struct GapAsMeasured {
   std::optional<double> deflection, position;  ///< rms per coordinate, m; empty: no such readings
   WhereTable by_posture;                       ///< of the deflection
   std::vector<PointGap> at_points;
-  std::vector<HeldOut> left;  ///< by posture of `fit`: before, of these readings; after, of `fit` with `after`
+  /// By posture of `fit`, by what is fitted to the others: before, of these readings; after, of `fit`. Positions before
+  /// are those of the arm as the sweeps have it, which nothing here is fitted to.
+  std::vector<HeldOut> left;
 };
 
 /// The gap of the readings with the motion of the station put back; `after`: parameters (allParameters) of the
-/// equations of `fit`. The stiffnesses are fitted in the arm as the sweeps have it: a geometry left free would follow
-/// the station. Empty where nothing can be fitted.
+/// equations of `fit`, `after_without` those without each of its postures (parametersWithoutEach). The stiffnesses are
+/// fitted in the arm as the sweeps have it: a geometry left free would follow the station. Empty where nothing can be
+/// fitted.
 std::optional<GapAsMeasured> gapAsMeasured(const preparation::PreparedCampaign& prepared, const SystemInput& input,
-                                           const GapFit& fit, const Eigen::VectorXd& after);
+                                           const GapFit& fit, const Eigen::VectorXd& after,
+                                           const std::vector<Eigen::VectorXd>& after_without);
 
 /// How large the gap of the deflection is, rms per coordinate: left by stiffnesses alone (`before`, on the
 /// equations of `alone`, withoutEffects), by noise, and by `after`, a parameter vector (allParameters) of the

@@ -47,7 +47,7 @@ robot::Wrench corrected(const robot::Wrench& read, const effects::ArmState& stat
   wrench.moment = turn * read.moment;
   wrench.point += state.flange.linear() * by.load_point;
   if (state.loaded) {
-    const Eigen::Vector3d weight = -at.r0_from_base_link.linear().col(2) * by.missing_weight;
+    const Eigen::Vector3d weight = by.missing_weight * at.down;
     wrench.force += state.cell_axes * by.cell_force + weight;
     wrench.moment += (state.flange.linear() * at.load_offset).cross(weight);
   }

@@ -207,8 +207,8 @@ class Decider {
   /// whose own rows keep more than `kMostLeft` of their gap's squares beyond noise is only a candidate; so is what
   /// other readings speak against.
   void withdrawNames() {
-    const double deflection = leavesUnexplained(from_.fit) ? shareLeft(from_.gap) : 0.0;
-    const double positions = unknown_positions_ ? shareLeft(from_.positions) : 0.0;
+    const double deflection = leavesUnexplained(from_.fit) ? from_.gap.shareLeft() : 0.0;
+    const double positions = unknown_positions_ ? from_.positions.shareLeft() : 0.0;
     constexpr double kMostLeft = 0.1;
     std::vector<effects::Effect> candidates;
     for (std::size_t i = 0; i < decision_.classes.size(); ++i) {
@@ -251,12 +251,6 @@ class Decider {
   }
 
   /// Share of a gap's squares beyond noise that stays with the effects in the model.
-  static double shareLeft(const Gap& gap) {
-    const double noise = gap.noise * gap.noise, before = gap.before * gap.before - noise;
-    const double after = std::max(0.0, gap.after * gap.after - noise);
-    return before > after ? after / before : 1.0;
-  }
-
   std::size_t modelOf(std::size_t named) const { return decision_.recipes[named].front().model; }
 
   /// Squares of what an effect of the set does, in parts of the noise that the fit has: in unloaded positions and in
@@ -368,8 +362,7 @@ class Decider {
     Eigen::Index rows = 0;
     for (const GapPosture& posture : from_.fit.data->postures) rows += posture.position_rows;
     const double inflation = from_.fit.state.position_inflation;
-    const double by_chance =
-        1.0 + (limit - 1.0) * std::sqrt(from_.fit.left.freedom / std::max(1.0, static_cast<double>(rows)));
+    const double by_chance = limitOfChiSquare(std::max(1.0, static_cast<double>(rows)), from_.noise.degrees);
     if (inflation > by_chance)
       decision_.verdict.reasons.emplace_back(RemarkId::positions_scatter, inflation, by_chance);
   }

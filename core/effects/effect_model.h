@@ -53,6 +53,7 @@ struct LinearizationPoint {
   double first_time = 0.0, time_span = 1.0;                ///< s, of the loading
   double sweep_time = 0.0;                                 ///< s; the sweeps' epoch as far as it is known
   Eigen::Isometry3d r0_from_base_link = Eigen::Isometry3d::Identity();
+  Eigen::Vector3d down = -Eigen::Vector3d::UnitZ();        ///< direction of gravity, in R0
   Eigen::Vector3d rail_in_base = Eigen::Vector3d::Zero();  ///< direction of an arm's rail; zero: it stands on none
   RailTravel rail;                                         ///< of an arm on one
 

@@ -25,8 +25,7 @@ Eigen::MatrixXd inCell(const LinearizationPoint& at, const PostureStates& postur
 
 Eigen::MatrixXd alongGravity(const LinearizationPoint& at, const PostureStates& posture, std::size_t i) {
   const ArmState& state = posture[i];
-  return byForces(at, state, state.load.point + state.flange.linear() * at.load_offset,
-                  -at.r0_from_base_link.linear().col(2));
+  return byForces(at, state, state.load.point + state.flange.linear() * at.load_offset, at.down);
 }
 
 void correctForce(const JointVector&, LinearizationPoint&, Corrections& corrections, Eigen::VectorXd& own) {

@@ -2,7 +2,7 @@
 
 namespace stiffscope::effects {
 
-// The load cell is turned against its declared axes by a small rotation w (flange axes, rad, at most 0.3):
+// The load cell is turned against its declared axes by a small rotation w (the cell's axes, rad, at most 0.3):
 // force and moment are in truth (I + w x) of what was read. Bilinear with the compliances.
 
 namespace {

@@ -75,7 +75,7 @@ effects::Corrections correctionsBy(const EffectFit& effects) {
 void correctWrenches(const EffectFit& effects, const effects::Corrections& by, campaign::Campaign& campaign) {
   if (!by.load_point.isZero(0.0)) moveLoadPoint(by.load_point, campaign);
   const Eigen::Matrix3d turn = turnOf(by.cell_turn);
-  const Eigen::Vector3d weight = -by.missing_weight * effects.fit.state.at.r0_from_base_link.linear().col(2);
+  const Eigen::Vector3d weight = by.missing_weight * effects.fit.state.at.down;
   for (campaign::State& row : campaign.states->rows) {
     const auto found = effects.day.find(row.pose);
     if (found == effects.day.end()) continue;

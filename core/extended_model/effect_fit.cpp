@@ -300,6 +300,7 @@ EffectFit fitToAll(const preparation::PreparedCampaign& prepared, const Requeste
                              campaign.load_cell->moment_sigma, modelsOf(wanted, campaign), start->absolute,
                              start->sweeps, diagnosis::complianceExpected(start->state.at.compliance)});
   if (prepared.rail) input->carriage = prepared.rail->of_stop;
+  if (start->station.course == preparation::StationCourse::drifted) input->wandering = &start->station;
   requireTestable(asked.effects, *input, *start);
   if (wanted.empty()) return effects;
   diagnosis::boundDriftByNests(*start, *input);

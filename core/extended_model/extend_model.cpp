@@ -12,6 +12,7 @@
 #include "core/extended_model/hidden_effects.h"
 #include "core/extended_model/method_equations.h"
 #include "core/identification/estimate.h"
+#include "core/identification/outliers.h"
 #include "core/identification/remarks.h"
 #include "core/identification/shown_first.h"
 #include "core/identification/warnings.h"
@@ -95,7 +96,7 @@ EffectFit chosenEffects(const preparation::PreparedCampaign& prepared, const dia
   EffectFit none;
   try {
     EffectFit chosen = fitEffects(prepared, chosenBy(study));
-    if (chosen.free.empty() || chosen.shrink.high > 0.0) return chosen;
+    if (chosen.free.empty() || !(chosen.shrink.high <= 0.0)) return chosen;  // or too few postures to tell
     none.notes.emplace_back(RemarkId::effects_do_not_help);
   } catch (const UnfitEffect& error) {
     none.notes.push_back(error.reason());
@@ -139,7 +140,7 @@ void cautionBeside(const CourseOfDay& course, ExtendedModel& model) {
     if (one.is(identification::RemarkId::residual_above_noise)) return;
   }
   model.with.cautions.emplace_back(RemarkId::residual_beyond_noise, model.leftOver(), model.hidden->lack_of_fit,
-                                   model.hidden->unexplained);
+                                   model.hidden->unexplained, model.study->fit.state.model_error);
 }
 
 /// The effects in sizes that leave no stiffness negative (HiddenEffects::to_possible), or none where hardly any do: the
@@ -207,7 +208,7 @@ ExtendedModel supportedModel(const preparation::PreparedCampaign& prepared, cons
   describeAsDiagnosed(study, chosen);
   if (followed == Followed::by_nothing) study.keepStates();
   // Chosen anew on the other postures, what they choose makes those left out worse: it is not this machine's.
-  if (!chosen.free.empty() && !(chosen.shrink.value > 0.0)) {
+  if (!chosen.free.empty() && chosen.shrink.value <= 0.0) {
     chosen = {};
     chosen.notes.emplace_back(RemarkId::effects_do_not_help);
   }
@@ -245,6 +246,30 @@ ExtendedModel supportedModel(const preparation::PreparedCampaign& prepared, cons
   if (!model.campaign.known_stiffness.empty())
     model.with.cautions = identification::warningsOf(model.campaign, model.with);
   cautionBeside(course, model);
+  return model;
+}
+
+ExtendedModel withoutOutlying(const preparation::PreparedCampaign& prepared,
+                              const identification::IdentifyOptions& options,
+                              const std::function<ExtendedModel(const preparation::PreparedCampaign&,
+                                                                const identification::IdentifyOptions&)>& make) {
+  ExtendedModel model = make(prepared, options);
+  const std::vector<identification::OutlyingPosture> outlying = model.with.outlying;
+  // Joint springs alone have left them out already.
+  if (!options.robust || outlying.empty() || (!model.study && model.effects.added.empty())) return model;
+  preparation::PreparedCampaign rest = prepared;
+  rest.campaign = identification::withoutPostures(prepared.campaign, outlying);
+  identification::IdentifyOptions all_of_them = options;
+  all_of_them.robust = false;
+  model = make(rest, all_of_them);
+  for (identification::Identification* const result : {&model.with, &model.without}) {
+    std::erase_if(result->cautions,
+                  [](const Remark& one) { return one.is(identification::RemarkId::outlying_postures); });
+    result->outlying = outlying;
+    result->robust = true;
+    identification::nameLeftOut(prepared.campaign, outlying, result->left_out);
+    result->cautions.push_back(identification::outlyingWarning(prepared.campaign, *result));
+  }
   return model;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "core/diagnosis/diagnosis.h"
@@ -28,6 +29,13 @@ enum class Followed { by_nothing, by_diagnosis };
 /// notes. Where no diagnosis follows the study has no equations (GapStudy::keepStates).
 ExtendedModel supportedModel(const preparation::PreparedCampaign& prepared, const campaign::Campaign& campaign,
                              const identification::IdentifyOptions& options, Followed followed = Followed::by_nothing);
+
+/// The model that `make` makes of the day with these options. Where they say `robust` and postures disagree with it,
+/// that of the day without these: the effects, the intervals and what is declared must not stand on them either.
+ExtendedModel withoutOutlying(const preparation::PreparedCampaign& prepared,
+                              const identification::IdentifyOptions& options,
+                              const std::function<ExtendedModel(const preparation::PreparedCampaign&,
+                                                                const identification::IdentifyOptions&)>& make);
 
 /// Puts the stiffnesses of the model's best method into a diagnosis of the same day: by springs alone, with the
 /// effects, and the interval, so that the same question has one answer. Nothing where no method is available.

@@ -254,26 +254,26 @@ class MethodWeigher {
     own.covariance = own.parts.total();
     std::vector<BudgetLine> budget = sharedLines(own);
     addEffectLines(gain, off, moved, in_model, budget);
-    JointVector more = JointVector::Zero(estimate.joints()), by_columns = more;
-    const auto addLine = [&](BudgetSource source, const JointVector& variance) {
-      budget.emplace_back(source, variance);
-      more += variance;
-    };
-    if (declared_.gain_sd > 0.0)
-      addLine(BudgetSource::load_cell_gain, (declared_.gain_sd * estimate.compliance).cwiseAbs2());
-    for (const Declared::Column& column : declared_.columns) {
-      addLine(column.source, column.compliance[static_cast<std::size_t>(which)].cwiseAbs2());
-      by_columns += column.compliance[static_cast<std::size_t>(which)].cwiseAbs2();
-    }
-    if (unexplained_) addLine(BudgetSource::apparent, 0.25 * (alone.compliance - estimate.compliance).cwiseAbs2());
     estimate.parts.effects = moved * moved.transpose() / static_cast<double>(moved.cols());
-    estimate.parts.effects += more.asDiagonal();
+    // Each is one number of which all joints have their share: a scale or a mass moves them together.
+    JointMatrix by_columns = JointMatrix::Zero(estimate.joints(), estimate.joints());
+    const auto addTogether = [&](BudgetSource source, const JointVector& by_one_sd) {
+      budget.emplace_back(source, by_one_sd.cwiseAbs2());
+      estimate.parts.effects += by_one_sd * by_one_sd.transpose();
+    };
+    if (declared_.gain_sd > 0.0) addTogether(BudgetSource::load_cell_gain, declared_.gain_sd * estimate.compliance);
+    for (const Declared::Column& column : declared_.columns) {
+      const JointVector& by_one_sd = column.compliance[static_cast<std::size_t>(which)];
+      addTogether(column.source, by_one_sd);
+      by_columns += by_one_sd * by_one_sd.transpose();
+    }
+    // About the stated value: half of what may be true is as far from it as this.
+    if (unexplained_) addTogether(BudgetSource::apparent, std::sqrt(0.5) * (alone.compliance - estimate.compliance));
     estimate.covariance = estimate.parts.total();
-    state(moved, own, alone, by_columns, estimate);
+    state(moved, own, alone, by_columns.diagonal(), estimate);
     draws.possible = kept;
     draws.compliance = moved.colwise() + (own.compliance - estimate.compliance);
-    draws.others = identification::coveringCovariance(own);
-    draws.others += by_columns.asDiagonal();
+    draws.others = identification::coveringCovariance(own) + by_columns;
     return budget;
   }
 
@@ -310,14 +310,16 @@ class MethodWeigher {
     budget.emplace_back(BudgetSource::correlation, common);
   }
 
+  /// Of an estimate, without what could hide: 1.96 times it is its interval.
+  static double fitSd(const StiffnessEstimate& one, const JointVector& by_columns, int j) {
+    return std::hypot(identification::coveringSd(one, j), std::sqrt(by_columns[j]));
+  }
+
   /// A draw of the effects each, with some of everything else. `own`: uncertainty without effects; `by_columns`:
   /// variance by what is declared.
   std::vector<double> draws(const Eigen::MatrixXd& moved, const StiffnessEstimate& own, const StiffnessEstimate& alone,
                             const JointVector& by_columns, int j, numerics::RandomStream& random) const {
-    const auto sdOf = [&](const StiffnessEstimate& one) {
-      return std::hypot(identification::coveringSd(one, j), std::sqrt(by_columns[j]));
-    };
-    const double sd = sdOf(own), alone_sd = unexplained_ ? sdOf(alone) : 0.0;
+    const double sd = fitSd(own, by_columns, j), alone_sd = unexplained_ ? fitSd(alone, by_columns, j) : 0.0;
     std::vector<double> values;
     if (!std::isfinite(sd + alone_sd)) return values;
     constexpr int kEach = 5;
@@ -350,8 +352,11 @@ class MethodWeigher {
       // leave out just that machine.
       std::tie(interval.low, interval.high) = numerics::shortestInterval(values, identification::kStatedCoverage);
       if (!possible) estimate.compliance[j] = values[values.size() / 2];
-      interval.low = std::min(interval.low, estimate.compliance[j]);
-      interval.high = std::max(interval.high, estimate.compliance[j]);
+      // The machine of the fit, with nothing more hidden in it, is known to its own uncertainty.
+      const double by_gain = declared_.gain_sd * estimate.compliance[j];
+      const double half = identification::kNormalFactor * std::hypot(fitSd(own, by_columns, j), by_gain);
+      interval.low = std::min(interval.low, estimate.compliance[j] - half);
+      interval.high = std::max(interval.high, estimate.compliance[j] + half);
     }
   }
 
@@ -389,7 +394,7 @@ void weighFrames(const Eigen::MatrixXd& of_seen, const frames::Frames* alone, fr
   frames.covariance.hidden = moved * moved.transpose() / static_cast<double>(moved.cols());
   if (alone != nullptr && alone->arm.points_placed) {
     const Eigen::VectorXd apart = frames::framesDifference(frames, *alone);
-    frames.covariance.hidden += 0.25 * apart * apart.transpose();
+    frames.covariance.hidden += 0.5 * apart * apart.transpose();
   }
   frames::stateUncertainties(frames.covariance, frames.axes, frames.arm, frames.links, frames.wrist);
 }
@@ -405,15 +410,11 @@ HiddenEffects weighHiddenEffects(const diagnosis::GapStudy& study, const EffectF
   result.lack_of_fit = fit.left_before.perEquation();
   result.left_over = diagnosis::leftPerEquation(fit);
   result.left_limit = fit.left_limit;
-  const double gap = result.lack_of_fit - 1.0, left = result.left_over - 1.0;
-  result.unexplained_share = gap > 0.0 ? std::clamp(left / gap, 0.0, 1.0) : 0.0;
-  // A model that explains seven eighths of the gap is the better one wherever that was tried. Where it has no effect it
-  // explains nothing.
+  // A model without effects explains nothing. Not by chi2, in whose noise is what no effect explains.
+  if (result.lack_of_fit > 1.0) result.unexplained_share = fitted.free.empty() ? 1.0 : fitted.gap.shareLeft();
+  // A model that explains seven eighths of the gap is the better one wherever that was tried.
   constexpr double kShare = 0.15;
-  if (diagnosis::leavesUnexplained(fit)) {
-    if (fit.set.models.empty()) result.unexplained_share = 1.0;
-    result.unexplained = result.unexplained_share > kShare;
-  }
+  result.unexplained = diagnosis::leavesUnexplained(fit) && result.unexplained_share > kShare;
   result.draws = hiddenDraws(study, fitted, declared);
   const HiddenDraws& hidden = result.draws;
   result.gain_sd = declared.gain_sd;

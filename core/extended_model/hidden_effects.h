@@ -134,8 +134,9 @@ struct HiddenEffects {
 /// was corrected for, theta from its posterior on the study's equations (below). Draws with a negative
 /// stiffness are left out, and where c_fit itself has one the medians of the rest stand for it. With the scatter
 /// between postures, what frames and calibration share, and what is declared (Declared) they give each interval: the
-/// shortest one of the stated coverage, tails in steps of 0.5 %, widened to hold c_fit. Where angles or point of the
-/// load cell are declared with an uncertainty, that is what is known beforehand of the effect that they are.
+/// shortest one of the stated coverage, tails in steps of 0.5 %, widened to hold c_fit and its own interval. Where
+/// angles or point of the load cell are declared with an uncertainty, that is what is known beforehand of the effect
+/// that they are.
 ///
 /// Where the model explains too little, half of the draws are those of `without`, joint springs alone: neither is
 /// right.

@@ -23,7 +23,10 @@ enum class RemarkId {
   // What to beware of.
   moves_while_load_stands,  ///< growth between first and last repeat, a share of the displacement
   changes_over_the_day,     ///< of all compliances from the first posture to the last, a share; its t
-  residual_beyond_noise,    ///< chi2 per equation of the model, of springs alone, whether no effect explains it
+  /// Chi2 per equation of the model, of springs alone, whether no effect explains it; what these have in their noise,
+  /// once
+  /// a posture at the largest load, m.
+  residual_beyond_noise,
 };
 
 }  // namespace stiffscope::extended_model

@@ -12,7 +12,7 @@ std::vector<SeenCombination> seenCombinations(const std::vector<HiddenParameter>
   std::vector<SeenCombination> seen;
   const auto draws = static_cast<double>(std::max<Eigen::Index>(1, moved.cols()));
   for (int j = 0; j < estimate.joints(); ++j) {
-    if (!estimate.identifiable[static_cast<std::size_t>(j)]) continue;
+    if (!estimate.identifiable[static_cast<std::size_t>(j)] || !std::isfinite(own(j, j))) continue;
     const double apart = moved.row(j).squaredNorm() / draws, rest = std::max(0.0, own(j, j));
     double least = apart;
     SeenCombination best;

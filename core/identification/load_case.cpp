@@ -232,6 +232,8 @@ std::optional<Eigen::Isometry3d> measuredFlange(const frames::LoadingGeometry& g
     at_zero.push_back(*target);
     measured.push_back(loaded ? move.loaded : move.unloaded);
   }
+  // About the line of three that nearly stand on one it would be noise that turns the flange.
+  if (metrology::nearlyOnOneLine(at_zero)) return std::nullopt;
   const metrology::RigidRegistration registration = metrology::registerRigid(at_zero, measured);
   if (!registration.determined) return std::nullopt;
   return registration.to_from_source * geometry.arm.base_from_flange_at_zero;

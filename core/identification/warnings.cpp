@@ -45,7 +45,16 @@ Remark residualWarning(const Identification& result, const MethodResult& method)
   return Remark(RemarkId::residual_above_noise, method.estimate.sigma, result.noise->per_coordinate);
 }
 
-/// Always said, whether they are left out or not.
+void addSweepWarnings(const frames::Frames& frames, std::vector<Remark>& cautions) {
+  for (std::size_t i = 0; i < frames.axes.size(); ++i) {
+    const metrology::AxisFit& fit = frames.axes[i].fit;
+    if (!frames.axes[i].measured || fit.chi2_per_dof < kAboveNoise * kAboveNoise) continue;
+    cautions.push_back(Remark(RemarkId::sweep_above_noise, i + 1, fit.rms, std::sqrt(fit.chi2_per_dof)));
+  }
+}
+
+}  // namespace
+
 Remark outlyingWarning(const campaign::Campaign& campaign, const Identification& result) {
   if (result.outlying.empty()) return {};
   std::vector<std::string> postures;
@@ -57,16 +66,6 @@ Remark outlyingWarning(const campaign::Campaign& campaign, const Identification&
   }
   return Remark(RemarkId::outlying_postures, postures, left, others, result.robust);
 }
-
-void addSweepWarnings(const frames::Frames& frames, std::vector<Remark>& cautions) {
-  for (std::size_t i = 0; i < frames.axes.size(); ++i) {
-    const metrology::AxisFit& fit = frames.axes[i].fit;
-    if (!frames.axes[i].measured || fit.chi2_per_dof < kAboveNoise * kAboveNoise) continue;
-    cautions.push_back(Remark(RemarkId::sweep_above_noise, i + 1, fit.rms, std::sqrt(fit.chi2_per_dof)));
-  }
-}
-
-}  // namespace
 
 std::vector<Remark> warningsOf(const campaign::Campaign& campaign, const Identification& result) {
   std::vector<Remark> cautions;

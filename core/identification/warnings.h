@@ -44,6 +44,9 @@ inline constexpr double kMissedGeometry = 0.020;
 /// misdeclared tracker explains), kMissedGeometry for a geometry, half the deflection for noise.
 std::vector<Remark> warningsOf(const campaign::Campaign& campaign, const Identification& result);
 
+/// The postures that disagree with the rest, whether they are left out or not; empty where there are none.
+Remark outlyingWarning(const campaign::Campaign& campaign, const Identification& result);
+
 /// Whether some available method has a joint with a positive stiffness.
 bool anyUsable(const Identification& result, const std::vector<Method>& methods);
 

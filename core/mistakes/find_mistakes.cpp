@@ -36,7 +36,16 @@ void keepBest(const campaign::Campaign& campaign, std::vector<ArmCure>& cures) {
 /// How near the reflectors are to one line: the least height of the triangle that has the largest.
 std::optional<Suspected> onOneLine(const campaign::Campaign& campaign, const ReadingsOfDay& day,
                                    const NominalFit& fit) {
-  const auto& at = fit.reflectors_in_flange;
+  // Those that were never read stand nowhere.
+  std::vector<bool> placed(fit.reflectors_in_flange.size(), false);
+  for (const UnloadedReading& reading : day.unloaded) placed[static_cast<std::size_t>(reading.target)] = true;
+  std::vector<Eigen::Vector3d> at;
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < placed.size(); ++k) {
+    if (!placed[k]) continue;
+    at.push_back(fit.reflectors_in_flange[k]);
+    names.push_back(campaign.targets[static_cast<std::size_t>(day.campaign_target[k])].id);
+  }
   if (at.size() < 3) return std::nullopt;
   double height = 0.0, longest = 0.0;
   for (std::size_t a = 0; a < at.size(); ++a) {
@@ -50,8 +59,6 @@ std::optional<Suspected> onOneLine(const campaign::Campaign& campaign, const Rea
   }
   constexpr double kLine = 0.05;  // of the longest side: the turn about it is then twenty times as uncertain as others
   if (longest <= 0.0 || height > kLine * longest) return std::nullopt;
-  std::vector<std::string> names;
-  for (const int target : day.campaign_target) names.push_back(campaign.targets[static_cast<std::size_t>(target)].id);
   return Suspected{"reflectors_on_line",
                    Remark(RemarkId::in_files, names),
                    Remark(RemarkId::reflectors_on_line, height, longest),

@@ -6,7 +6,7 @@
 namespace stiffscope::numerics {
 
 /// Columns of a Jacobian that the data cannot tell from those before them, in the order given: what is left
-/// of such a column across the span of the earlier ones is under 1e-5 of its length. Parameters that the data
+/// of such a column across the span of the earlier ones is under 1e-3 of its length. Parameters that the data
 /// would rather determine come first in `order`.
 std::vector<int> columnsInSpanOfEarlier(const Eigen::MatrixXd& jacobian, const std::vector<int>& order);
 

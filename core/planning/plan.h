@@ -62,7 +62,9 @@ struct Plan {
 
 /// Postures (and directions of pull) that identify best by the criterion, over random candidates that keep
 /// the rules, for the information of the joints' compliances by the reflectors' displacements with the noise
-/// expected there (and, after a campaign, the misfit its model left and the uncertainty of its effects). `identified`
+/// expected there (and, after a campaign, the misfit its model left and the uncertainty of its effects). Standard
+/// uncertainties are of the fit that weighs each reading by its noise, below which no method comes; the noise of the
+/// load cell and what could hide are not in them. `identified`
 /// is that campaign's identification, of readings corrected for these effects; it is needed to augment, and else places
 /// sweeps, hook and load where it is given. Throws InputError for what cannot be planned for.
 Plan planCampaign(const campaign::Campaign& campaign, const identification::Identification* identified,

@@ -18,18 +18,6 @@ namespace {
 
 using Stations = std::vector<NestsOfStation>;
 
-/// Whether the motion of points that agree is known about every axis: not where they stand on one line.
-bool onOneLine(const std::vector<Eigen::Vector3d>& points) {
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& point : points) mean += point / static_cast<double>(points.size());
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-  for (const Eigen::Vector3d& point : points) spread += (point - mean) * (point - mean).transpose();
-  const Eigen::Vector3d sizes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvalues();
-  // The turn about a line is worth nothing where the nests leave it by a hundredth of its length.
-  constexpr double kSlender = 1e-4;
-  return !(sizes[1] > kSlender * sizes[2]);
-}
-
 /// Poses by plain rigid registration, the station with most nests in common after the other; the order of joining.
 std::vector<std::size_t> registerInOrder(const Stations& stations, std::vector<StationPose>& poses) {
   std::map<int, Eigen::Vector3d> places;
@@ -62,7 +50,7 @@ std::vector<std::size_t> registerInOrder(const Stations& stations, std::vector<S
       std::vector<Eigen::Vector3d> apart;
       for (const auto& [nest, place] : common) apart.push_back(place);
       const metrology::RigidRegistration fit = metrology::registerRigid(own, first);
-      if (onOneLine(apart) || !fit.determined) {
+      if (metrology::nearlyOnOneLine(apart) || !fit.determined) {
         poses[s].joined = StationPose::Joined::common_nests_on_one_line;
         continue;
       }

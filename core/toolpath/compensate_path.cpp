@@ -89,7 +89,13 @@ CompensatedPath compensatePath(const compensation::DeflectingArm& arm, const Pat
   for (const PathPose& pose : job.path.poses) wanted.push_back(r0_from_workpiece * pose.workpiece_from_tool);
   const JointPath joints =
       jointPath(arm.geometry.arm, wanted, job.flange_from_tool, job.turn_free, jointOptions(arm, job));
-  const std::vector<ToolWrench> wrenches = toolWrenches(job.path, job.base_from_workpiece, job.load);
+  // Axes of the tool are those of the tool as it is held: about its own axis it may be turned.
+  ToolPath held = job.path;
+  for (std::size_t i = 0; i < held.poses.size(); ++i) {
+    if (joints.poses[i].q.size() > 0)
+      held.poses[i].workpiece_from_tool.linear() = from_r0 * joints.poses[i].base_from_tool.linear();
+  }
+  const std::vector<ToolWrench> wrenches = toolWrenches(held, job.base_from_workpiece, job.load);
   const std::vector<double> lengths = lengthsAlong(job.path);
 
   CompensatedPath result;

@@ -140,7 +140,14 @@ std::vector<std::optional<Eigen::Matrix3d>> feedAxes(const ToolPath& path) {
   for (std::size_t i = 0; i < path.poses.size(); ++i) {
     const Eigen::Vector3d up = -path.poses[i].workpiece_from_tool.linear().col(2);
     const auto across = [&](const Eigen::Vector3d& along) { return Eigen::Vector3d(along - along.dot(up) * up); };
-    const Eigen::Vector3d step = across(tip(std::min(i + 1, path.poses.size() - 1)) - tip(i > 0 ? i - 1 : 0));
+    const Eigen::Vector3d whole = tip(std::min(i + 1, path.poses.size() - 1)) - tip(i > 0 ? i - 1 : 0);
+    const Eigen::Vector3d step = across(whole);
+    // A tool that goes down its own axis feeds to no side; one that stands keeps the feed before.
+    constexpr double kPlunges = 1e-3;  // of the way
+    if (whole.norm() > kStandsStill && step.norm() < kPlunges * whole.norm()) {
+      all.emplace_back();
+      continue;
+    }
     if (step.norm() > kStandsStill) feed = step.normalized();
     std::optional<Eigen::Matrix3d> axes;
     if (feed && across(*feed).norm() > kStandsStill) {

@@ -26,9 +26,6 @@ YAxis linearAxis(const Canvas& canvas, double lower, double upper, double height
   }
   const int most = std::max(3, static_cast<int>(height / (46 * canvas.unit())));
   YAxis axis{lower, upper, false, linearTicks(lower, upper, most)};
-  // One tick tells no scale.
-  for (int more = most + 1; axis.ticks.positions.size() < 2 && more < most + 4; ++more)
-    axis.ticks = linearTicks(lower, upper, more);
   if (widen && axis.ticks.positions.size() > 1) {
     const double step = axis.ticks.positions[1] - axis.ticks.positions[0];
     axis.lower = std::floor(lower / step + 1e-9) * step;

@@ -177,7 +177,10 @@ Json calibrationJson(const campaign::Campaign& campaign, const calibration::Cali
   json["masses_known"] = day.masses_known;
   json["stiffness_by_own_weight"] = day.masses_known ? stiffnessJson(best) : Json(nullptr);
   json["joint_angles"] = anglesJson(calibration);
-  json["notes"] = words(calibration.notes);
+  std::vector<std::string> notes = words(calibration.notes);
+  if (std::string caution = geometryCaution(calibration); !caution.empty())
+    notes.insert(notes.begin(), std::move(caution));
+  json["notes"] = std::move(notes);
   return json;
 }
 

@@ -15,6 +15,7 @@ std::string lengthIn(double metres, const reports::LengthUnit& unit) {
 }
 
 std::string shareOf(double shrink, int decimals) {
+  if (std::isnan(shrink)) return "–";
   return shrink < -1.0 ? "below −100" : reports::fixed(100.0 * shrink, decimals);
 }
 
@@ -23,7 +24,7 @@ int placesOf(const diagnosis::Shrink& shrink) {
 }
 
 std::string interval(const diagnosis::Shrink& shrink) {
-  if (shrink.high < -1.0) return "–";
+  if (!shrink.judged() || shrink.high < -1.0) return "–";
   const int places = placesOf(shrink);
   return fmt::format("{} to {}", shareOf(shrink.low, places), shareOf(shrink.high, places));
 }

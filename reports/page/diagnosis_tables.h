@@ -51,7 +51,7 @@ reports::Table classesTable(const std::vector<Class>& classes, std::string (*fal
     table.groups.front().rows.push_back(
         {reports::Cell(reports::effectNames(one.effects), reports::asIs(reports::shortDetail(one.detail))),
          reports::Cell(one.in_verdict ? "yes" : "no", whyNamed(one)), fall_of(one), shareOf(one.shrink.value, 1),
-         interval(one.shrink), reports::fixed(100.0 * one.explained, 0)});
+         interval(one.shrink), shareOf(one.explained, 0)});
   }
   return table;
 }

@@ -128,9 +128,8 @@ void addErrors(const reports::ReportContent& content, reports::Table& table) {
       const auto found =
           std::find_if(models.begin(), models.end(), [model](const auto& m) { return m.model == model; });
       any = any || found != models.end();
-      const bool there = found != models.end();
-      const calibration::PositionErrors errors =
-          there ? (found->held_out.readings > 0 ? found->held_out : found->fitted) : calibration::PositionErrors{};
+      const bool there = found != models.end() && found->held_out.readings > 0;
+      const calibration::PositionErrors errors = there ? found->held_out : calibration::PositionErrors{};
       row.emplace_back(there ? reports::significant(errors.rms / io::kMillimetre, 3) : "–");
       row.emplace_back(there ? reports::significant(errors.largest / io::kMillimetre, 3) : "–");
     }

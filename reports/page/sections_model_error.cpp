@@ -48,12 +48,14 @@ std::string figuresOf(const diagnosis::Diagnosis& diagnosis) {
   }
   const auto entries = std::count_if(diagnosis.verdict.entries.begin(), diagnosis.verdict.entries.end(),
                                      [](const diagnosis::VerdictEntry& entry) { return !entry.effects.empty(); });
-  return fmt::format(
-      "With {} in the model the gap falls from {} to {} rms per coordinate, {}; on postures that took no part it "
-      "shrinks by {}\u00a0% (95\u00a0%: {}\u00a0%).",
-      entries > 1 ? "them" : "it", shown(diagnosis.gap.before), shown(diagnosis.gap.after), noise,
-      reports::fixed(100.0 * diagnosis.shrink_together.value, placesOf(diagnosis.shrink_together)),
-      interval(diagnosis.shrink_together));
+  const std::string falls =
+      fmt::format("With {} in the model the gap falls from {} to {} rms per coordinate, {}",
+                  entries > 1 ? "them" : "it", shown(diagnosis.gap.before), shown(diagnosis.gap.after), noise);
+  if (!diagnosis.shrink_together.judged()) return falls + ". " + reports::notHeldOutWords();
+  return falls +
+         fmt::format("; on postures that took no part it shrinks by {}\u00a0% (95\u00a0%: {}\u00a0%).",
+                     reports::fixed(100.0 * diagnosis.shrink_together.value, placesOf(diagnosis.shrink_together)),
+                     interval(diagnosis.shrink_together));
 }
 
 }  // namespace

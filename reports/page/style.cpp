@@ -190,10 +190,10 @@ constexpr const char* kPrint =
     // A caption is as wide as its table: of a narrow one it would be four lines.
     "table,.each table{font-size:7.5pt;line-height:1.3}.each table{min-width:95mm}th,td{padding:.1rem .36rem}"
     ".figures{margin:0}figure{margin:3mm 0}"
-    // The caption beside the figure: three fit on a page whatever their captions, and no half of it is empty.
+    // The caption beside the figure: three charts fit on a page whatever their captions, and no half of it is empty.
     "figure{container-type:normal}.picture{border:0}main figure{display:grid;grid-template-columns:128mm "
     "minmax(0,1fr);gap:5mm;align-items:start}figcaption{margin:0}"
-    "main figure img{max-height:74mm;object-fit:contain;object-position:left top}.first "
+    "main figure img{max-height:82mm;object-fit:contain;object-position:left top}.first "
     "figcaption{margin-top:1mm;font-size:7.5pt}"
     // Two pictures one above the other stand on the first page; a single one is as wide as its column.
     ".first figure img{max-height:49mm;object-fit:contain;object-position:left top}.first figure{margin:1.5mm 0}"

@@ -94,14 +94,19 @@ std::string accuracyText(const campaign::Campaign& campaign, const AccuracyDiagn
                  accuracy.postures, accuracy.readings, wrapped(verdictLine(accuracy), 9));
   for (const std::string& sentence : words(accuracy.reasons)) fmt::format_to(out, "  {}\n", wrapped(sentence, 2));
   if (accuracy.as_read) fmt::format_to(out, "  {}\n", wrapped(asReadWords(), 2));
-  fmt::format_to(
-      out,
-      "\nHow far: gap of the positions, µm rms per coordinate, held out\n  as the URDF has the arm{:>13.1f}\n"
-      "  geometry calibrated{:>18.1f}\n  with effects{:>25.1f}  (shrinks by {:.3f}, 95 %: {})\n"
-      "  noise of the readings{:>16.1f}\n",
-      um(accuracy.gap.nominal), um(accuracy.gap.before), um(accuracy.gap.after),
-      unsignedZero(accuracy.shrink_together.value, 3), shrinkInterval(accuracy.shrink_together),
-      um(accuracy.gap.noise));
+  if (std::isnan(accuracy.gap.before)) {
+    fmt::format_to(out, "\nHow far: too few postures to hold any out; noise of the readings {:.1f} µm\n",
+                   um(accuracy.gap.noise));
+  } else {
+    fmt::format_to(
+        out,
+        "\nHow far: gap of the positions, µm rms per coordinate, held out\n  as the URDF has the arm{:>13.1f}\n"
+        "  geometry calibrated{:>18.1f}\n  with effects{:>25.1f}  (shrinks by {:.3f}, 95 %: {})\n"
+        "  noise of the readings{:>16.1f}\n",
+        um(accuracy.gap.nominal), um(accuracy.gap.before), um(accuracy.gap.after),
+        unsignedZero(accuracy.shrink_together.value, 3), shrinkInterval(accuracy.shrink_together),
+        um(accuracy.gap.noise));
+  }
   if (!onlyVerdictFitted(accuracy)) {
     fmt::format_to(out, "  {}\n",
                    wrapped(fmt::format("effects in the model, also those that the verdict does not name: {}",

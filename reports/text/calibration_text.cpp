@@ -21,9 +21,11 @@ void writeModels(const calibration::Calibration& calibration, const calibration:
                  "\nPosition error, 3-D, mm (rms over reflectors and postures)\n  {:<12}{:>12}{:>12}{:>12}{:>14}\n",
                  "model", "fitted", "held out", "largest", "parameters");
   for (const calibration::ModelResult& model : calibration.models) {
-    fmt::format_to(out, "  {:<12}{:>12.4f}{:>12.4f}{:>12.3f}{:>14}\n", nameOf(model.model),
-                   model.fitted.rms / io::kMillimetre, model.held_out.rms / io::kMillimetre,
-                   model.held_out.largest / io::kMillimetre, model.fit.parameters);
+    const bool held_out = model.held_out.readings > 0;
+    fmt::format_to(
+        out, "  {:<12}{:>12.4f}{:>12}{:>12}{:>14}\n", nameOf(model.model), model.fitted.rms / io::kMillimetre,
+        held_out ? fmt::format("{:.4f}", model.held_out.rms / io::kMillimetre) : "-",
+        held_out ? fmt::format("{:.3f}", model.held_out.largest / io::kMillimetre) : "-", model.fit.parameters);
   }
   fmt::format_to(out, "  {}\n", foldWords(options));
   if (calibration.angles)

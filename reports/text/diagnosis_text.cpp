@@ -43,17 +43,21 @@ void writeClasses(const diagnosis::Diagnosis& diagnosis, Out out) {
   if (diagnosis.classes.empty()) return;
   fmt::format_to(out, "\nWhich: candidates, and what each takes off the deflection's gap on postures held out\n");
   fmt::format_to(out, "  {:<2}{:<44}{:>12}{:>9}  {:<17}{:>10}\n", "", "effect", "score", "shrink", "95 %", "explained");
+  const auto share = [](double value) {
+    return std::isnan(value) ? std::string("-") : fmt::format("{:.3f}", unsignedZero(value, 3));
+  };
   for (const diagnosis::EffectClass& one : diagnosis.classes) {
-    fmt::format_to(out, "  {:<2}{:<44}{:>12.0f}{:>9.3f}  {:<17}{:>10.3f}\n", one.in_verdict ? "*" : "",
-                   effectNames(one.effects), unsignedZero(one.score, 0), unsignedZero(one.shrink.value, 3),
-                   shrinkInterval(one.shrink), unsignedZero(one.explained, 3));
+    fmt::format_to(out, "  {:<2}{:<44}{:>12.0f}{:>9}  {:<17}{:>10}\n", one.in_verdict ? "*" : "",
+                   effectNames(one.effects), unsignedZero(one.score, 0), share(one.shrink.value),
+                   shrinkInterval(one.shrink), share(one.explained));
     if (!one.in_verdict) continue;
     if (!one.detail.empty()) fmt::format_to(out, "    {}\n", wrapped(one.detail, 4));
     if (!one.parameters.empty()) fmt::format_to(out, "    {}\n", wrapped(words(one.parameters), 4));
     if (diagnosis.positions_tested)
-      fmt::format_to(out, "    absolute positions: shrink {:.3f} ({})\n",
-                     unsignedZero(one.shrink_of_positions.value, 3), shrinkInterval(one.shrink_of_positions));
+      fmt::format_to(out, "    absolute positions: shrink {} ({})\n", share(one.shrink_of_positions.value),
+                     shrinkInterval(one.shrink_of_positions));
   }
+  if (!diagnosis.classes.front().shrink.judged()) fmt::format_to(out, "  {}\n", wrapped(notHeldOutWords(), 2));
 }
 
 /// "+-0.1234", "+-?" where the interval is open.

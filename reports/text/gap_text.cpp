@@ -11,6 +11,7 @@
 namespace stiffscope::reports {
 
 std::string shrinkInterval(const diagnosis::Shrink& shrink) {
+  if (!shrink.judged()) return "-";
   return fmt::format("{:.3f} to {:.3f}", unsignedZero(shrink.low, 3), unsignedZero(shrink.high, 3));
 }
 

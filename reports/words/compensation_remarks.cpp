@@ -54,8 +54,9 @@ std::string compensationWords(compensation::RemarkId id, const RemarkValues& val
           "come "
           "from",
           values.count(0), degrees(1), degrees(4), degrees(2), degrees(3));
+    case uncertainty_unknown:
+      return "the postures are too few for an uncertainty of the deflection";
     case uncertain_as_itself:
-      if (!std::isfinite(values.number(0))) return "the postures are too few for an uncertainty of the deflection";
       return fmt::format(
           "U of {:.3f} mm is as large as the deflection of {:.3f} mm: the day says too little of such a load in such a "
           "posture",

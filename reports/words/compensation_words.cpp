@@ -36,6 +36,8 @@ const char* refusalWords(compensation::RemarkId reason) {
       return "the load is far beyond those that the stiffnesses come from";
     case posture_far_beyond:
       return "the posture is far from those that the stiffnesses come from";
+    case uncertainty_unknown:
+      return "the postures are too few for an uncertainty of the deflection";
     case uncertain_as_itself:
       return "the deflection is as uncertain as it is large";
     case load_beyond:

@@ -90,6 +90,10 @@ const Words& wordsOf(effects::Effect effect) { return kWords[static_cast<std::si
 
 }  // namespace
 
+std::string notHeldOutWords() {
+  return "Fewer than four postures: none was held out, and what the effects take off other postures is not known.";
+}
+
 std::string effectName(effects::Effect effect) { return nameOfId(effects::idOf(effect)); }
 
 std::string effectNames(const std::vector<effects::Effect>& effects, const char* between) {

@@ -10,6 +10,9 @@
 
 namespace stiffscope::reports {
 
+/// Why no share held out is stated (diagnosis::Shrink::judged).
+std::string notHeldOutWords();
+
 std::string effectName(effects::Effect effect);  ///< "bearing tilt"
 /// "bearing tilt or link compliance".
 std::string effectNames(const std::vector<effects::Effect>& effects, const char* between = " or ");

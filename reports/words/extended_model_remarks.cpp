@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "reports/words/entry_words.h"
+#include "reports/words/numbers.h"
 #include "reports/words/remark_words.h"
 #include "reports/words/remarks.h"
 
@@ -59,9 +60,14 @@ std::string extendedModelWords(extended_model::RemarkId id, const RemarkValues& 
           "stiffness here is the day's mean, and its change is in the uncertainty",
           100.0 * std::abs(values.number(0)), values.number(0) > 0.0 ? "more" : "less", std::abs(values.number(1)));
     case residual_beyond_noise:
-      return fmt::format(
-                 "more than noise is left in the readings: {:.3g} times its chi-square, {:.3g} by springs alone",
-                 values.number(0), values.number(1)) +
+      // Of what no effect explains the chi-square says nothing: it is in its noise.
+      return (values.number(3) > 0.0
+                  ? fmt::format("more than the tracker's noise is left in the readings: once a posture {} at the "
+                                "largest load",
+                                withMicro(lengthWords(values.number(3), 1)))
+                  : fmt::format("more than noise is left in the readings: {:.3g} times its chi-square, {:.3g} by "
+                                "springs alone",
+                                values.number(0), values.number(1))) +
              (values.count(2) != 0 ? "; no effect that is known here explains it, and the stiffnesses are apparent ones"
                                    : "");
   }

@@ -25,13 +25,17 @@ std::string addedNames(const extended_model::EffectFit& effects) {
 std::string explainedWords(const extended_model::EffectFit& effects) {
   const diagnosis::Gap& gap = effects.gap;
   const diagnosis::Shrink& shrink = effects.shrink;
-  return fmt::format(
-      "Stiffnesses alone leave {0} rms per coordinate of the deflection in all load steps, {1} {2}; noise alone {3}. "
-      "On postures held out the rms shrinks by {4:.{8}f} % ({5:.{8}f} to {6:.{8}f} %), and {7} % of what is above the "
-      "noise is explained.",
-      withMicro(lengthWords(gap.before, 1)), "with the effects", withMicro(lengthWords(gap.after, 1)),
-      withMicro(lengthWords(gap.noise, 1)), 100.0 * shrink.value, 100.0 * shrink.low, 100.0 * shrink.high,
-      percentNumber(effects.explained, 0), placesThatTell(100.0 * shrink.low, 100.0 * shrink.high));
+  const std::string left = fmt::format(
+      "Stiffnesses alone leave {} rms per coordinate of the deflection in all load steps, with the effects {}; noise "
+      "alone {}. ",
+      withMicro(lengthWords(gap.before, 1)), withMicro(lengthWords(gap.after, 1)),
+      withMicro(lengthWords(gap.noise, 1)));
+  if (!shrink.judged()) return left + notHeldOutWords();
+  return left + fmt::format(
+                    "On postures held out the rms shrinks by {0:.{4}f} % ({1:.{4}f} to {2:.{4}f} %), and {3} % of what "
+                    "is above the noise is explained.",
+                    100.0 * shrink.value, 100.0 * shrink.low, 100.0 * shrink.high, percentNumber(effects.explained, 0),
+                    placesThatTell(100.0 * shrink.low, 100.0 * shrink.high));
 }
 
 namespace {

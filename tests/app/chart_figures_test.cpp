@@ -111,7 +111,7 @@ TEST(ChartFigures, WhatEffectsLeaveOverTheDayIsSeenBesideWhatTheGeometryLeaves) 
   };
   for (std::size_t i = 0; i < 6; i += 2) {
     EXPECT_TRUE(has(chart.diagrams[i + 1].title, chart.diagrams[i].title)) << i;
-    EXPECT_TRUE(has(chart.diagrams[i + 1].title, "enlarged")) << i;
+    EXPECT_TRUE(has(chart.diagrams[i + 1].title, "with effects")) << i;
     EXPECT_LT(largestY(chart.diagrams[i + 1]), 0.5 * largestY(chart.diagrams[i])) << i;
   }
 }

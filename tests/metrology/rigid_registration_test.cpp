@@ -162,6 +162,17 @@ TEST(NearestRotation, NoSmallTurnComesNearer) {
   }
 }
 
+TEST(NearlyOnOneLine, IsWhatLeavesItsLineByLessThanAHundredth) {
+  // Of three at -1, 0 and 1 the middle one off by h: squares 2 along, 2/3 h^2 across.
+  const auto bent = [](double h) {
+    return metrology::nearlyOnOneLine({{-1.0, 0.0, 0.0}, {0.0, h, 0.0}, {1.0, 0.0, 0.0}});
+  };
+  EXPECT_TRUE(bent(0.0));
+  EXPECT_TRUE(bent(0.99 * std::sqrt(3e-4)));
+  EXPECT_FALSE(bent(1.01 * std::sqrt(3e-4)));
+  EXPECT_TRUE(metrology::nearlyOnOneLine({{0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}}));
+}
+
 TEST(RegisterRigid, RefusesTooFewAndCollinear) {
   EXPECT_FALSE(metrology::registerRigid({}, {}).determined);
   EXPECT_FALSE(metrology::registerRigid({{0, 0, 0}, {1, 0, 0}}, {{0, 0, 0}, {1, 0, 0}}).determined);

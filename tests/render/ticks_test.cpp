@@ -34,6 +34,12 @@ TEST(Ticks, LinearTicksStayInsideAndAreNotTooMany) {
   }
 }
 
+TEST(Ticks, OneTickTellsNoScale) {
+  EXPECT_EQ(render::linearTicks(-0.12, 4.1, 2).labels, (Strings{"0", "2", "4"}));
+  EXPECT_EQ(render::linearTicks(0.7, 1.3, 2).labels, (Strings{"0.8", "1.0", "1.2"}));
+  EXPECT_EQ(render::linearTicks(1001, 1004, 2).labels, (Strings{"1002", "1004"}));
+}
+
 TEST(Ticks, LogTicksAreDecades) {
   EXPECT_EQ(render::logTicks(0.5, 2e4).labels, (Strings{"1", "10", "100", "1000", "10\u2074"}));
   EXPECT_GE(render::logTicks(3, 6).positions.size(), 3u);

@@ -53,9 +53,14 @@ TEST(ResultRemarks, OfAModelAndItsUse) {
                                   std::vector<std::string>{"backlash", "load_cell_bias"})),
             "hysteresis is added because it fits best; this data cannot tell it from backlash or load cell bias");
   EXPECT_EQ(
-      reports::words(Remark(extended_model::RemarkId::residual_beyond_noise, 4.104, 6.9, true)),
+      reports::words(Remark(extended_model::RemarkId::residual_beyond_noise, 4.104, 6.9, true, 0.0)),
       "more than noise is left in the readings: 4.1 times its chi-square, 6.9 by springs alone; no effect that is "
       "known here explains it, and the stiffnesses are apparent ones");
+  // A chi-square in whose noise that is would say that nothing is left.
+  EXPECT_EQ(
+      reports::words(Remark(extended_model::RemarkId::residual_beyond_noise, 0.945, 0.945, true, 54.3e-6)),
+      "more than the tracker's noise is left in the readings: once a posture 54.3 µm at the largest load; no effect "
+      "that is known here explains it, and the stiffnesses are apparent ones");
   EXPECT_EQ(reports::words(Remark(extended_model::RemarkId::changes_over_the_day, -0.042, -7.31)),
             "all joints give 4.2 % less at the end of the day than at its beginning (7.3 standard uncertainties): "
             "stiffness here is the day's mean, and its change is in the uncertainty");

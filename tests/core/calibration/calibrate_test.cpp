@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <random>
 
@@ -56,6 +57,37 @@ TEST(Calibrate, FindsAGearsOwnOrder) {
   EXPECT_NEAR(*fit.parts.front().order, 17.25, 1.0);
   EXPECT_LT(*fit.parts.front().chance, 1e-6);
   EXPECT_LT(result.of(CalibratedModel::effects).held_out.rms, 0.8 * result.of(CalibratedModel::geometry).held_out.rms);
+}
+
+// Two halves of 60 postures leave no piece of the day to four of five inner folds, unless these are cut smaller.
+TEST(Calibrate, LargeFoldsFindTheSameEffect) {
+  Noise noise(12);
+  UnloadedSpec spec = builtOtherwise(noise);
+  spec.postures = 60;
+  spec.joint_errors = [](const JointVector& q) {
+    return JointVector(300e-6 * std::sin(2.0 * q[1]) * JointVector::Unit(6, 1));
+  };
+  const campaign::Campaign day = unloadedCampaign(spec, noise);
+  for (const int size : {1, 30}) {
+    calibration::CalibrationOptions options;
+    options.folds = 2;
+    options.fold_size = size;
+    EXPECT_FALSE(calibration::calibrate(day, options).best().fit.parts.empty()) << size;
+  }
+}
+
+// Of four postures the others of a fold do not place the arm: then nothing was held out, which is no error of zero.
+TEST(Calibrate, TooFewPosturesHoldNoneOut) {
+  Noise noise(12);
+  UnloadedSpec spec = builtOtherwise(noise);
+  spec.postures = 4;
+  const calibration::Calibration result = calibration::calibrate(unloadedCampaign(spec, noise), {});
+  for (const calibration::ModelResult& model : result.models) {
+    EXPECT_EQ(model.held_out.readings, 0u);
+    EXPECT_TRUE(std::isnan(model.held_out.rms));
+    EXPECT_GT(model.fitted.readings, 0u);
+  }
+  ASSERT_FALSE(result.models.empty()) << reports::words(result.reason);
 }
 
 // A hundredth of the readings a decimetre off and some beams lost: the same effect is found, and only they are left

@@ -14,13 +14,18 @@
 namespace stiffscope {
 namespace compensation_test {
 
+const Eigen::Vector3d kForce{500, -400, -1500};  // N, R0
+
 /// That arm, asked for compensation.
 struct AskedArm : KnownArm {
   Eigen::Vector3d tcp{0.0, 0.0, 0.0};
 
-  compensation::PostureToCompensate asked(const JointVector& q,
-                                          const Eigen::Vector3d& force = {500, -400, -1500}) const {
-    return {"a", q, lab.cellReading(lab.settled(q), force)};
+  /// By what the load cell reads under the force, and by the force itself.
+  compensation::PostureToCompensate asked(const JointVector& q) const {
+    return {"a", q, lab.cellReading(lab.settled(q, kForce), kForce)};
+  }
+  compensation::PostureToCompensate askedByLoad(const JointVector& q, const Eigen::Vector3d& force) const {
+    return {"a", q, Vector6d::Zero(), effects::FlangeLoad{lab.hook_in_flange, force, Eigen::Vector3d::Zero()}};
   }
   compensation::CompensatedPosture run(const compensation::PostureToCompensate& one) const {
     return compensation::compensate(campaign, geometry, estimate, tcp, {one}).front();
@@ -32,12 +37,11 @@ TEST(Compensate, CommandsBringTheLoadedArmBack) {
   Noise noise(4);
   for (int k = 0; k < 6; ++k) {
     const JointVector q = somePosture(noise);
-    const Eigen::Vector3d force(500, -400, -1500);
-    const compensation::CompensatedPosture found = arm.run(arm.asked(q, force));
+    const compensation::CompensatedPosture found = arm.run(arm.askedByLoad(q, kForce));
     ASSERT_TRUE(found.solved) << reports::words(found.reason);
     const Eigen::Isometry3d wanted = arm.lab.actual.flangeAt(arm.lab.settled(q));
-    const Eigen::Isometry3d loaded = arm.lab.actual.flangeAt(arm.lab.settled(q, force));
-    const Eigen::Isometry3d back = arm.lab.actual.flangeAt(arm.lab.settled(found.commands, force));
+    const Eigen::Isometry3d loaded = arm.lab.actual.flangeAt(arm.lab.settled(q, kForce));
+    const Eigen::Isometry3d back = arm.lab.actual.flangeAt(arm.lab.settled(found.commands, kForce));
     // Newton stops at 1e-9 m and rad; the test's own equilibrium settles far below.
     EXPECT_LT((back.translation() - wanted.translation()).norm(), 5e-9);
     EXPECT_LT((back.linear() - wanted.linear()).norm(), 5e-9);
@@ -48,6 +52,28 @@ TEST(Compensate, CommandsBringTheLoadedArmBack) {
     // Mirrored once, micrometres remain: the second order of deflections of millimetres over metres.
     EXPECT_GT(found.mirrored_remaining, 1e-7);
     EXPECT_LT(found.mirrored_remaining, 0.03 * found.tcp.deflection.norm());
+  }
+}
+
+// A cell's axes stand as the flange of the loaded arm does: the same load, stated by its direction in R0, deflects the
+// arm alike. Five times as soft as the other tests' arm, whose flange turns by so much that a reading directed as the
+// unloaded flange stands would be off by the share `turn` of the load.
+TEST(Compensate, AReadingIsDirectedAsTheLoadedFlangeStands) {
+  AskedArm arm;
+  arm.lab.compliance *= 5.0;
+  arm.estimate.compliance = arm.lab.compliance;
+  Noise noise(5);
+  for (int k = 0; k < 4; ++k) {
+    const JointVector q = somePosture(noise);
+    const compensation::PostureToCompensate by_reading = arm.asked(q);
+    const Eigen::Matrix3d unloaded = arm.lab.actual.flangeAt(arm.lab.settled(q)).linear(),
+                          loaded = arm.lab.actual.flangeAt(arm.lab.settled(q, kForce)).linear();
+    const Eigen::Vector3d force = loaded * arm.lab.flange_from_cell.linear() * by_reading.wrench_in_cell.head<3>();
+    const compensation::CompensatedPosture found = arm.run(by_reading), expected = arm.run(arm.askedByLoad(q, force));
+    const double turn = Eigen::AngleAxisd(unloaded.transpose() * loaded).angle();
+    ASSERT_GT(turn, 5e-3);
+    EXPECT_LT((found.tcp.deflection - expected.tcp.deflection).norm(), 1e-6 * expected.tcp.deflection.norm());
+    EXPECT_LT((found.rotation - expected.rotation).norm(), 1e-6 * expected.rotation.norm());
   }
 }
 

@@ -90,6 +90,34 @@ TEST(Decide, StiffnessesAreThoseOfTheMethodShownFirst) {
   EXPECT_EQ(decisions[3].missing, Missing::not_identified);
 }
 
+// The compliance may be zero: U to first order is finite, and hides that the joint may be as stiff as one likes.
+TEST(Decide, AJointThatMayBeRigidKeepsNoUpperLimit) {
+  identification::Identification day = loadedDay();
+  identification::StiffnessEstimate& estimate =
+      day.methods[static_cast<std::size_t>(identification::Method::complete_pose)].estimate;
+  estimate.stated.clear();
+  estimate.covariance(1, 1) = estimate.parts.scatter(1, 1) = 0.15e-6 * 0.15e-6;  // of 0.2e-6
+  estimate.scatter_dof[1] = 1e4;
+  ASSERT_TRUE(std::isfinite(identification::expandedUncertainty(estimate, 1)));
+  conformity::DayResult result;
+  result.identification = &day;
+  const auto decided = [&](const Limit& limit) {
+    conformity::Limits limits;
+    limits.limits.push_back(limit);
+    return conformity::decide(limits, result).front();
+  };
+  for (const double most : {6e6, 1e8, 1e12}) {
+    const Decision decision = decided(atMost(most));
+    EXPECT_EQ(decision.verdict, Verdict::fail) << most;
+    EXPECT_TRUE(decision.in_guard_band) << most;
+  }
+  // It gives no more than c + U(c).
+  const double least =
+      1.0 / (0.2e-6 + identification::coverageFactor(estimate, 1, identification::kStatedCoverage) * 0.15e-6);
+  EXPECT_EQ(decided(atLeast(0.999 * least)).verdict, Verdict::pass);
+  EXPECT_EQ(decided(atLeast(1.001 * least)).verdict, Verdict::fail);
+}
+
 /// A posture whose softest known direction gives by `compliance` -+ 2 %; `unknown`: joints that move P_TCP.
 workspace::PointStiffness postureOf(double compliance, std::vector<int> unknown) {
   workspace::PointStiffness posture;

@@ -4,7 +4,8 @@
 #include "core/diagnosis/diagnosis_input.h"
 #include "core/effects/all.h"
 #include "core/effects/gravity_equilibrium.h"
-#include "tests/fixtures/chain_arm.h"
+#include "core/robot/gravity_load.h"
+#include "tests/fixtures/simulated_lab.h"
 
 // Where the unloaded arm stands with effects in the model, and what the readings say of where the load pulls.
 
@@ -86,6 +87,21 @@ TEST(LoadOffset, IsThePointAllPullsGoThrough) {
   // One direction alone: what lies along the pull stays at the declared point.
   const Eigen::Vector3d found = diagnosis::loadOffset(arm, {cases.front()}, 0.5);
   EXPECT_LT((found - Eigen::Vector3d(hook.x(), hook.y(), 0.0)).norm(), 1e-5);
+}
+
+// An arm on a wall, its base turned about an axis of its own against R0.
+TEST(StartState, DownIsTheCampaignsGravityInR0) {
+  SimulatedLab lab;
+  campaign::Campaign campaign = fullDay(lab, hangingForce);
+  campaign.gravity_in_base = {8.0, -3.0, 5.0};
+  frames::LoadingGeometry geometry;
+  geometry.arm = lab.nominal.robot();
+  geometry.r0_from_base_link = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1.0, -2.0, 0.5).normalized());
+  geometry.weight = robot::gravityLoad(campaign.robot, campaign.tool, campaign.gravity_in_base, geometry.arm,
+                                       geometry.r0_from_base_link);
+  const effects::LinearizationPoint at = diagnosis::startState(campaign, geometry, {}).at;
+  const Eigen::Vector3d expected = geometry.r0_from_base_link.linear() * campaign.gravity_in_base.normalized();
+  EXPECT_LT((at.down - expected).norm(), 1e-12);
 }
 
 }  // namespace gravity_equilibrium_test

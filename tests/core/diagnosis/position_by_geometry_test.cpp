@@ -1,8 +1,9 @@
 #include <gtest/gtest.h>
+#include "core/diagnosis/geometry_error.h"
 #include "core/diagnosis/linear_system.h"
 #include "core/effects/all.h"
 #include "core/effects/gravity_equilibrium.h"
-#include "tests/fixtures/chain_arm.h"
+#include "tests/fixtures/simulated_lab.h"
 
 // The derivatives of absolute positions by the geometry's steps, against differences of positions computed afresh.
 
@@ -154,6 +155,28 @@ TEST(PositionByGeometry, WithAFootThatRocksIsTheDifferences) {
   ASSERT_GT((expected - one.computed()).cwiseAbs().maxCoeff(), 1e-3);
   // One round of the equilibrium: a hundredth of what the rocking changes.
   EXPECT_LT((one.computed(at) - expected).cwiseAbs().maxCoeff(), 1e-4);
+}
+
+// A reflector that was declared and never read stands nowhere, and is no point that the nominal arm misses.
+TEST(GeometryError, IsThatOfTheReflectorsThatWereRead) {
+  SimulatedLab lab;
+  Noise noise(6);
+  lab.actual = lab.nominal.disturbed(noise, 1e-3, 1e-3);
+  const campaign::Campaign campaign = fullDay(lab, hangingForce);
+  diagnosis::SystemState state(6);
+  state.geometry.arm = lab.actual.robot();
+  for (const Eigen::Vector3d& target : lab.targets_in_flange)
+    state.geometry.targets_at_zero.push_back(state.geometry.arm.base_from_flange_at_zero * target);
+  const auto errorWith = [&](const campaign::Campaign& day) {
+    return diagnosis::geometryError({day, {}, 0.0, 0.0, {}, true, true, {}}, state);
+  };
+  const diagnosis::GeometryError error = errorWith(campaign);
+  ASSERT_TRUE(error.tested);
+  ASSERT_GT(error.rms, 50e-6);
+  campaign::Campaign another = campaign;
+  another.targets.push_back({"P13", {}});
+  state.geometry.targets_at_zero.push_back(std::nullopt);
+  EXPECT_NEAR(errorWith(another).rms, error.rms, 1e-9 * error.rms);
 }
 
 }  // namespace position_by_geometry_test

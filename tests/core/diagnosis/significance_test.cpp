@@ -79,5 +79,11 @@ TEST(DetectableSizes, GrowByWhatTheStiffnessesSoakUp) {
   EXPECT_FALSE(sizeOf(1e-6));
 }
 
+// By hand: chi2 over f degrees of freedom has the variance 2 / f, that of a noise estimated with g of its own 2 / g.
+TEST(Significance, TheDoubtOfTheNoiseDoesNotShrinkWithTheRows) {
+  EXPECT_NEAR(diagnosis::limitOfChiSquare(171.0, 1710.0), 1.0 + 4.0 * std::sqrt(2.0 / 171.0 + 2.0 / 1710.0), 1e-12);
+  EXPECT_NEAR(diagnosis::limitOfChiSquare(200.0, 0.0), 1.4, 1e-12);
+}
+
 }  // namespace significance_test
 }  // namespace stiffscope

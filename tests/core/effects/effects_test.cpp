@@ -473,6 +473,19 @@ TEST(LoadCellBias, IsInLoadedStatesOnly) {
   EXPECT_LT((model.columns(bench.at, posture, 1) - model.columns(bench.at, posture, 2)).norm(), kRounding);
 }
 
+// Of an arm that hangs or leans what was not weighed still pulls along gravity, wherever R0's own axes point.
+TEST(LoadCellBias, WhatWasNotWeighedPullsAlongGravity) {
+  Bench bench;
+  bench.at.down = Eigen::Vector3d(0.6, -0.3, -0.5).normalized();
+  bench.at.load_offset = {0.02, -0.05, 0.3};
+  const effects::PostureStates posture = bench.outAndBack();
+  const Eigen::VectorXd field = modelOf(effects::loadCellBias(), "along gravity").columns(bench.at, posture, 2).col(0);
+  const Eigen::Vector3d hook = bench.load.point + posture[2].flange.linear() * bench.at.load_offset;
+  const JointVector torque = bench.chain.torqueOf(bench.q, 6, hook, bench.at.down, Eigen::Vector3d::Zero());
+  const Eigen::VectorXd expected = effects::byJoints(posture[2], bench.at.compliance.cwiseProduct(torque));
+  EXPECT_LT((field - expected).norm(), 1e-9 * expected.norm());
+}
+
 // Every effect is nothing without a cause: no load, no own weight, no time, no sweeps apart.
 TEST(EffectTable, NothingMovesWithoutACause) {
   const Bench bench;

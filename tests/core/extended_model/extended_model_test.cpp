@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <numeric>
 #include "core/compensation/compensate.h"
+#include "core/diagnosis/gap_study.h"
 #include "core/effects/all.h"
 #include "core/extended_model/effect_deflection.h"
 #include "core/extended_model/remarks.h"
@@ -273,6 +274,27 @@ TEST(EffectFit, SaysWhatIsMissing) {
   EXPECT_NE(messageOf({"bearing_tlt"}).find("(did you mean 'bearing_tilt'?)"), std::string::npos);
   EXPECT_EQ(messageOf({"target_motion:P13"}), "--with: 'target_motion:P13': expected one of its parts: P10, P11, P12");
   EXPECT_EQ(messageOf({"frame_error:2"}), "--with: 'frame_error:2': frame_error has no parts to name");
+}
+
+// A station that wanders between two rounds of the nests is not where it was interpolated: its readings are weighed by
+// that, as the study of the diagnosis does, and not by the tracker's noise alone.
+TEST(EffectFit, KnowsThatTheStationWandersBetweenTheNests) {
+  simulation::SimulationSpec spec = springsAlone(3);
+  spec.timing.nest_interval_s = 1200.0;
+  spec.station.walk.head<3>().setConstant(3e-6);  // m after a second: 0.1 mm between two rounds
+  const preparation::PreparedCampaign prepared = preparation::prepareCampaign(simulation::simulate(spec));
+  const extended_model::EffectFit effects =
+      extended_model::fitEffects(prepared, extended_model::requestedEffects({"bearing_tilt:3"}, prepared.campaign));
+  const diagnosis::GapStudy study = diagnosis::studyGap(prepared);
+  ASSERT_TRUE(study.input->wandering);
+  ASSERT_FALSE(study.input->wandering->wander.isZero());
+  ASSERT_TRUE(effects.input->wandering);
+  EXPECT_EQ(effects.input->wandering->wander, study.input->wandering->wander);
+  ASSERT_EQ(effects.fit.data->postures.size(), study.fit.data->postures.size());
+  for (std::size_t p = 0; p < study.fit.data->postures.size(); ++p) {
+    const Eigen::MatrixXd &own = effects.fit.data->postures[p].noise, &of_study = study.fit.data->postures[p].noise;
+    EXPECT_NEAR(own.norm(), of_study.norm(), 1e-3 * of_study.norm()) << p;
+  }
 }
 
 TEST(EffectFit, GeometryIsIdentificationsOwnTask) {

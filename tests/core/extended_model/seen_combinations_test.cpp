@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 #include "tests/metrology/simulated_points.h"
 
 namespace stiffscope {
@@ -48,6 +51,9 @@ TEST(SeenCombinations, TheForearmsTwistIsNamedWithTheJointThatItHidesIn) {
   identification::StiffnessEstimate blind = estimateOf(compliance);
   blind.identifiable[3] = false;
   EXPECT_TRUE(extended_model::seenCombinations(parameters, moved, off, own, blind).empty());
+  // Nor has one whose scatter is not known.
+  own(3, 3) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(extended_model::seenCombinations(parameters, moved, off, own, estimateOf(compliance)).empty());
 }
 
 }  // namespace seen_combinations_test

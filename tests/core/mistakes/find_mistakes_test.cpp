@@ -232,6 +232,39 @@ TEST(FindMistakes, OfDisplacementsTheLoadsTell) {
   EXPECT_NE(text.find("turn the sign of fx_n, fy_n, fz_n"), std::string::npos) << text;
 }
 
+/// Whether the day of a rigid arm with reflectors at these places, of which only the first `read` were read, is said to
+/// have them on one line.
+bool saysOnLine(const std::vector<Eigen::Vector3d>& targets_in_flange, int read) {
+  SimulatedLab lab;
+  lab.withoutMasses();
+  lab.targets_in_flange = targets_in_flange;
+  campaign::Campaign day = fullDay(lab, hangingForce);
+  const auto keepRead = [&](auto& table) {
+    std::erase_if(table.rows, [&](const auto& row) { return row.target >= read; });
+  };
+  keepRead(*day.loading), keepRead(*day.circle_sweeps), keepRead(*day.wrist_sweep);
+  const mistakes::ModelAgreement agreement = mistakes::findMistakes(day);
+  EXPECT_LT(agreement.arm_miss.value_or(1.0), 1e-6) << "the arm was not fitted";
+  return std::any_of(agreement.arm.begin(), agreement.arm.end(),
+                     [](const mistakes::Suspected& one) { return one.mistake == "reflectors_on_line"; });
+}
+
+// Where a reflector stands that was never read nothing says: not at the flange's origin, and not on a line.
+TEST(FindMistakes, ReflectorsThatWereNeverReadAreOnNoLine) {
+  const std::vector<Eigen::Vector3d> spread = SimulatedLab().targets_in_flange;
+  EXPECT_FALSE(saysOnLine(spread, 3));
+  EXPECT_FALSE(saysOnLine(spread, 1));
+  // Two are always on a line, these with the flange's origin on it.
+  EXPECT_FALSE(saysOnLine({spread[0], 0.4 * spread[0], spread[2]}, 2));
+}
+
+TEST(FindMistakes, ThreeReflectorsOnALineAreNamedBesideOneThatWasNeverRead) {
+  const Eigen::Vector3d first(0.28, 0.05, 0.12), along(-0.2, 0.1, 0.05);
+  const std::vector<Eigen::Vector3d> on_line{first, first + along, first + 1.7 * along, {-0.1, -0.3, 0.21}};
+  EXPECT_TRUE(saysOnLine(on_line, 3));
+  EXPECT_FALSE(saysOnLine(on_line, 4));
+}
+
 // A day that no one mistake explains: noise for angles.
 TEST(FindMistakes, FailsForWhatItIs) {
   campaign::Campaign day = goodDay();

@@ -26,5 +26,14 @@ TEST(NormalMatrix, IsTheProductWithAndWithoutEmptyColumns) {
   }
 }
 
+// A choice of frame is seen by some 1e-4 of its length where a calibration is off by as much, and is a choice still.
+TEST(ColumnsInSpan, WhatIsNewByLessThanAThousandthIsNotSeen) {
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(5, 4);
+  columns(0, 0) = columns(1, 1) = 1.0;
+  columns.col(2) << 3.0, -2.0, 4e-4, 0.0, 0.0;
+  columns.col(3) << 1.0, 1.0, 0.0, 1e-2, 0.0;
+  EXPECT_EQ(numerics::columnsInSpanOfEarlier(columns, {0, 1, 2, 3}), std::vector<int>{2});
+}
+
 }  // namespace normal_equations_test
 }  // namespace stiffscope

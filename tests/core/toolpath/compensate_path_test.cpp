@@ -82,6 +82,25 @@ TEST(CompensatePath, HoldsThePathUnderLoad) {
   }
 }
 
+// Held turned about its axis, the tool takes its axes along, and what is stated in them.
+TEST(CompensatePath, AxesOfTheToolTurnWithIt) {
+  KnownPath path;
+  path.job.turn_free = true;
+  path.job.joints.start.reset();
+  path.job.load.axes = toolpath::WrenchAxes::tool;
+  path.job.load.constant << 300, 0, 0, 0, 0, 0;
+  double turned = 0.0;
+  for (const toolpath::CompensatedPathPose& pose : path.run().poses) {
+    ASSERT_TRUE(pose.joints.reason.empty());
+    turned = std::max(turned, std::abs(pose.joints.turn));
+    const Vector3d x = pose.joints.base_from_tool.linear().col(0);
+    const Vector3d force =
+        path.geometry.r0_from_base_link.linear() * path.job.base_from_workpiece.linear() * pose.wrench.force;
+    EXPECT_LT((force - 300.0 * x).norm(), 1e-6);
+  }
+  EXPECT_GT(turned, 0.05);
+}
+
 // A torque about the tool's axis and a force at half the depth.
 TEST(CompensatePath, MomentsAreAboutTheTip) {
   KnownPath path;

@@ -117,6 +117,12 @@ TEST(ToolWrenches, CuttingActsAtHalfTheDepth) {
   const toolpath::ToolPath down = read(kPoint + "\na,0,0,10\nb,0,0,5\n");
   EXPECT_TRUE(toolpath::toolWrenches(down, Eigen::Isometry3d::Identity(), load)[0].reason.is(
       toolpath::RemarkId::no_feed_direction));
+  // Nor has it after a way to the side; the poses beside it still move that way.
+  const toolpath::ToolPath pocket = read(kPoint + "\na,0,0,10\nb,10,0,10\nc,10,0,5\nd,10,0,0\ne,20,0,0\n");
+  const auto in_pocket = toolpath::toolWrenches(pocket, Eigen::Isometry3d::Identity(), load);
+  EXPECT_TRUE(in_pocket[1].force.isApprox(cut.force, 1e-9));
+  EXPECT_TRUE(in_pocket[2].reason.is(toolpath::RemarkId::no_feed_direction));
+  EXPECT_TRUE(in_pocket[3].force.isApprox(cut.force, 1e-9));
 }
 
 }  // namespace tool_path_test
