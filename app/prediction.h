@@ -26,6 +26,8 @@ class Prediction {
   int step() { return found_.result().step; }
   const compensation::DeflectingArm& arm() const { return predicted_->arm(); }
   const std::vector<campaign::KnownStiffness>& known() const { return known_; }
+  /// Whether U has what could hide besides the model: not by springs alone, nor by effects that were asked for.
+  bool weighsWhatHides() const { return found_.improved && found_.improved->hidden; }
 
   std::vector<compensation::CompensatedPosture> compensate(
       const std::vector<compensation::PostureToCompensate>& postures) const;

@@ -45,8 +45,8 @@ int compensateCampaign(const CompensateRequest& request, const CampaignSource& s
         return reports::compensationJson(prediction.campaign(), prediction.method(), rows, prediction.known());
       },
       [&](const auto& cautions) {
-        return reports::compensationText(prediction.campaign(), prediction.method(), rows, prediction.known(),
-                                         cautions);
+        return reports::compensationText(prediction.campaign(), prediction.method(), rows, prediction.known(), cautions,
+                                         prediction.weighsWhatHides());
       },
       outlet);
 }

@@ -201,8 +201,8 @@ int compensateProgram(const MotionRequest& request, const CampaignSource& source
             request.out, rows, rounding);
       },
       [&](const auto& cautions) {
-        return reports::compensationText(prediction.campaign(), prediction.method(), rows, prediction.known(),
-                                         cautions) +
+        return reports::compensationText(prediction.campaign(), prediction.method(), rows, prediction.known(), cautions,
+                                         prediction.weighsWhatHides()) +
                reports::programText(program, request.out, rows, rounding);
       },
       outlet);

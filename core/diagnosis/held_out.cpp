@@ -60,6 +60,13 @@ void trainOnEach(const SystemInput& input, const GapFit& alone, const GapFit& fi
   });
 }
 
+/// All postures but one, for each.
+std::vector<numerics::Weights> othersOfEach(std::size_t postures) {
+  std::vector<numerics::Weights> others;
+  for (std::size_t p = 0; p < postures; ++p) others.push_back(numerics::leaveOneOut(postures, p));
+  return others;
+}
+
 constexpr std::size_t kFewestHeldOut = 4;  // postures
 
 HeldOutShrink notJudged() {
@@ -192,12 +199,12 @@ std::vector<HeldOutShrink> shrinks(const SystemInput& input, const GapFit& alone
     return result;
   }
   std::vector<std::vector<HeldOut>> left(postures, std::vector<HeldOut>(recipes.size()));
-  std::vector<numerics::Weights> others;
-  for (std::size_t p = 0; p < postures; ++p) others.push_back(numerics::leaveOneOut(postures, p));
-  trainOnEach(input, alone, fit, allowed, recipes, others, [&](std::size_t p, const std::vector<Trained>& trained) {
-    for (std::size_t r = 0; r < recipes.size(); ++r)
-      left[p][r] = leftIn(alone.data->postures[p], trained[r].before, fit.data->postures[p], trained[r].after);
-  });
+  trainOnEach(input, alone, fit, allowed, recipes, othersOfEach(postures),
+              [&](std::size_t p, const std::vector<Trained>& trained) {
+                for (std::size_t r = 0; r < recipes.size(); ++r)
+                  left[p][r] =
+                      leftIn(alone.data->postures[p], trained[r].before, fit.data->postures[p], trained[r].after);
+              });
   std::mt19937_64 random(seed);
   std::vector<numerics::Weights> samples(static_cast<std::size_t>(resamples));
   double judged = 0.0;
@@ -243,10 +250,8 @@ std::vector<HeldOutShrink> shrinks(const SystemInput& input, const GapFit& alone
 std::vector<Eigen::VectorXd> parametersWithoutEach(const SystemInput& input, const GapFit& alone, const GapFit& fit,
                                                    const std::vector<bool>& allowed) {
   const std::size_t postures = fit.data->postures.size();
-  std::vector<numerics::Weights> others;
-  for (std::size_t p = 0; p < postures; ++p) others.push_back(numerics::leaveOneOut(postures, p));
   std::vector<Eigen::VectorXd> parameters(postures);
-  trainOnEach(input, alone, fit, allowed, {{true, {}}}, others,
+  trainOnEach(input, alone, fit, allowed, {{true, {}}}, othersOfEach(postures),
               [&](std::size_t p, const std::vector<Trained>& trained) { parameters[p] = trained.front().after; });
   return parameters;
 }

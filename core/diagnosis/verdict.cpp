@@ -250,7 +250,6 @@ class Decider {
     if (said) nameUnknownOnce();
   }
 
-  /// Share of a gap's squares beyond noise that stays with the effects in the model.
   std::size_t modelOf(std::size_t named) const { return decision_.recipes[named].front().model; }
 
   /// Squares of what an effect of the set does, in parts of the noise that the fit has: in unloaded positions and in

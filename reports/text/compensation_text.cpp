@@ -75,7 +75,7 @@ void addKnowledge(const std::vector<compensation::CompensatedPosture>& postures,
 std::string compensationText(const campaign::Campaign& campaign, identification::Method method,
                              const std::vector<compensation::CompensatedPosture>& postures,
                              const std::vector<campaign::KnownStiffness>& known,
-                             const std::vector<std::string>& cautions) {
+                             const std::vector<std::string>& cautions, bool weighs_what_hides) {
   std::string text;
   auto out = std::back_inserter(text);
   const campaign::JointConvention convention(campaign.joint_readings, campaign.robot.joints());
@@ -102,9 +102,9 @@ std::string compensationText(const campaign::Campaign& campaign, identification:
   fmt::format_to(
       out,
       "\n  Deflection of P_TCP under each row's load; U (coverage 95 %): it is within U of what is predicted, by "
-      "the\n  stiffnesses, the effects in the model, those that could hide, and what the day left unexplained. "
-      "Commands\n  are joints 1 to {}.\n",
-      campaign.robot.joints());
+      "the\n  stiffnesses, the effects in the model, {}, and what the day left unexplained. Commands\n"
+      "  are joints 1 to {}.\n",
+      weighs_what_hides ? "those that could hide" : "none that could hide", campaign.robot.joints());
   if (!campaign.joint_readings.empty()) fmt::format_to(out, "  {}\n", kAsControllerStates);
   addKnowledge(postures, known, cautions, text);
   return text;

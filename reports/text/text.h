@@ -103,7 +103,7 @@ std::string geometryChangeText(const campaign::Campaign& before, const campaign:
 std::string compensationText(const campaign::Campaign& campaign, identification::Method method,
                              const std::vector<compensation::CompensatedPosture>& postures,
                              const std::vector<campaign::KnownStiffness>& known,
-                             const std::vector<std::string>& cautions);
+                             const std::vector<std::string>& cautions, bool weighs_what_hides);
 
 /// The result of `compensate --path`: joints, deflection of the tool's tip along the path without and with
 /// compensation, why poses are refused, and what to know.

@@ -25,6 +25,16 @@ bool has(const calibration::ArmFit& fit, calibration::UnloadedEffect effect, con
   });
 }
 
+/// Joint 2 errs by a wave of two periods a turn.
+UnloadedSpec withWaveOfJoint2(Noise& noise, int postures, double size) {
+  UnloadedSpec spec = builtOtherwise(noise);
+  spec.postures = postures;
+  spec.joint_errors = [size](const JointVector& q) {
+    return JointVector(size * std::sin(2.0 * q[1]) * JointVector::Unit(6, 1));
+  };
+  return spec;
+}
+
 TEST(Calibrate, ACleanDayIsGeometryAlone) {
   Noise noise(11);
   const UnloadedSpec spec = builtOtherwise(noise);
@@ -62,11 +72,7 @@ TEST(Calibrate, FindsAGearsOwnOrder) {
 // Two halves of 60 postures leave no piece of the day to four of five inner folds, unless these are cut smaller.
 TEST(Calibrate, LargeFoldsFindTheSameEffect) {
   Noise noise(12);
-  UnloadedSpec spec = builtOtherwise(noise);
-  spec.postures = 60;
-  spec.joint_errors = [](const JointVector& q) {
-    return JointVector(300e-6 * std::sin(2.0 * q[1]) * JointVector::Unit(6, 1));
-  };
+  const UnloadedSpec spec = withWaveOfJoint2(noise, 60, 300e-6);
   const campaign::Campaign day = unloadedCampaign(spec, noise);
   for (const int size : {1, 30}) {
     calibration::CalibrationOptions options;
@@ -94,11 +100,7 @@ TEST(Calibrate, TooFewPosturesHoldNoneOut) {
 // out.
 TEST(Calibrate, GrossReadingsHideNoEffect) {
   Noise noise(16);
-  UnloadedSpec spec = builtOtherwise(noise);
-  spec.postures = 150;
-  spec.joint_errors = [](const JointVector& q) {
-    return JointVector(60e-6 * std::sin(2.0 * q[1]) * JointVector::Unit(6, 1));
-  };
+  const UnloadedSpec spec = withWaveOfJoint2(noise, 150, 60e-6);
   campaign::Campaign campaign = unloadedCampaign(spec, noise);
   for (const std::size_t row : {3u, 101u, 250u, 377u, 440u}) campaign.loading->rows[row].point.x() += 0.1;
   for (const std::size_t row : {400u, 200u, 10u}) campaign.loading->rows.erase(campaign.loading->rows.begin() + row);
