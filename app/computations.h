@@ -76,7 +76,8 @@ struct PredictionRequest {
 struct CompensateRequest {
   PredictionRequest prediction;
   std::string postures_file, out;
-  std::optional<std::vector<compensation::PostureToCompensate>> postures;  ///< in place of the file
+  /// In place of the file, with joint angles as it has them (compensation::withAnglesOfFigures).
+  std::optional<std::vector<compensation::PostureToCompensate>> postures;
 };
 int compensateCampaign(const CompensateRequest& request, const CampaignSource& source, const Outlet& outlet);
 

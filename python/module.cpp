@@ -18,6 +18,7 @@
 #include "core/campaign/read_campaign.h"
 #include "core/identification/motor_side.h"
 #include "core/io/input_error.h"
+#include "core/io/read_file.h"
 #include "core/io/read_points.h"
 #include "core/io/units.h"
 #include "python/to_python.h"
@@ -41,11 +42,20 @@ class OpenedCampaign {
     campaign::CampaignReading reading = campaign::readCampaign(folder_or_xml);
     read_ = std::move(reading.campaign);
     warnings_ = std::move(reading.warnings);
+    for (const campaign::InputFile& input : read_.inputs)
+      inputs_.push_back(std::filesystem::absolute(read_.folder / input.name));
   }
 
   const std::string& path() const { return path_; }
   const std::vector<std::string>& warnings() const { return warnings_; }
   const campaign::Campaign& read() const { return read_; }
+
+  /// Makes its files inputs of the calling thread's run, which may have been opened long before.
+  void recordInputs() const {
+    for (const std::filesystem::path& input : inputs_) {
+      if (const auto stamp = io::stampOf(input)) io::recordRead(*stamp);
+    }
+  }
 
   std::shared_ptr<const preparation::PreparedCampaign> prepared(bool raw) {
     const std::lock_guard<std::mutex> one_at_a_time(mutex_);
@@ -63,6 +73,7 @@ class OpenedCampaign {
   bool kept_;
   campaign::Campaign read_;
   std::vector<std::string> warnings_;
+  std::vector<std::filesystem::path> inputs_;
   std::mutex mutex_;
   std::array<std::shared_ptr<const preparation::PreparedCampaign>, 2> prepared_;
 };
@@ -70,10 +81,12 @@ class OpenedCampaign {
 using Opened = std::shared_ptr<OpenedCampaign>;
 
 app::CampaignSource sourceOf(const Opened& campaign, bool raw) {
+  campaign->recordInputs();
   return {campaign->path(), [campaign, raw] { return campaign->prepared(raw); }};
 }
 
-/// Runs a computation without the GIL; what it hands over becomes Python's.
+/// Runs a computation without the GIL; what it hands over becomes Python's. Its inputs are the files that it reads and
+/// those of its campaigns (sourceOf): what earlier calls have read may be written.
 template <class Compute>
 py::tuple resultOf(const Compute& compute) {
   py::object values = py::none();
@@ -82,6 +95,7 @@ py::tuple resultOf(const Compute& compute) {
   int status = 0;
   {
     const py::gil_scoped_release others_run;
+    const io::OneRun run;
     const app::Outlet outlet{[&](const auto& json, const auto& in_words) {
                                text = in_words();
                                const reports::JsonDocument document = json();
@@ -102,7 +116,8 @@ double checked(double value, campaign::CellKind kind, const io::InputPlace& plac
   throw io::InputError(place, fmt::format("{}", value), number.expectation);
 }
 
-/// Rows of arrays as the lines of a file of postures: the same columns, units and limits.
+/// Rows of arrays as the lines of a file of postures: the same columns, units and limits, angles as the controller
+/// states them.
 std::vector<compensation::PostureToCompensate> posturesOf(const std::vector<std::string>& ids, const Rows& q_deg,
                                                           const Rows& wrenches) {
   constexpr std::array kWrench{"fx_n", "fy_n", "fz_n", "mx_nm", "my_nm", "mz_nm"};

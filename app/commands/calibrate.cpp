@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <memory>
 
@@ -10,6 +11,7 @@
 #include "core/calibration/calibrate.h"
 #include "core/campaign/campaign.h"
 #include "core/io/input_error.h"
+#include "core/io/read_file.h"
 #include "core/io/write_file.h"
 #include "reports/json/campaign_json.h"
 #include "reports/json/json.h"
@@ -29,6 +31,13 @@ void checkFolds(const calibration::CalibrationOptions& options) {
     throw io::InputError({"--fold-size"}, std::to_string(options.fold_size), "expected 1 to 1000000 postures");
 }
 
+/// A part that is the whole day leaves nothing to hold out.
+void requireTwoFolds(const calibration::CalibrationOptions& options, std::size_t postures) {
+  if (static_cast<std::size_t>(options.fold_size) < postures || postures < 2) return;
+  throw io::InputError({"--fold-size"}, std::to_string(options.fold_size),
+                       fmt::format("expected fewer than the day's {} postures, so that some are held out", postures));
+}
+
 }  // namespace
 
 int calibrateCampaign(CalibrateRequest request, const CampaignSource& source, const Outlet& outlet) {
@@ -38,6 +47,11 @@ int calibrateCampaign(CalibrateRequest request, const CampaignSource& source, co
   const preparation::PreparedCampaign& prepared = *opened;
   const campaign::Campaign& campaign = prepared.campaign;
   requireCommanded(campaign, request.options.angles);
+  // Before all is computed and printed.
+  for (const std::string& file : {request.csv, request.urdf}) {
+    if (!file.empty()) io::requireNotRead(file);
+  }
+  requireTwoFolds(request.options, campaign.pose_ids.size());
   const calibration::Calibration calibration = calibration::calibrate(prepared, request.options);
   const bool done = calibration.reason.empty();
   outlet.deliver(
@@ -53,10 +67,7 @@ int calibrateCampaign(CalibrateRequest request, const CampaignSource& source, co
     outlet.explain(source.name + ": not calibrated: " + reports::words(calibration.reason));
     return kNotUsable;
   }
-  if (!request.csv.empty()) {
-    io::requireNotRead(request.csv);
-    io::writeFileWhole(request.csv, reports::calibrationCsv(calibration));
-  }
+  if (!request.csv.empty()) io::writeFileWhole(request.csv, reports::calibrationCsv(calibration));
   if (!request.urdf.empty())
     writeCalibratedUrdf(campaign, calibration.geometry().fit.arm(campaign.robot), request.urdf);
   return kDone;

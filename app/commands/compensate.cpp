@@ -21,7 +21,7 @@ namespace {
 std::vector<compensation::PostureToCompensate> posturesOf(const CompensateRequest& request,
                                                           const campaign::Campaign& campaign, int step,
                                                           const Outlet& outlet) {
-  if (request.postures) return *request.postures;
+  if (request.postures) return compensation::withAnglesOfFigures(*request.postures, campaign);
   if (request.postures_file.empty()) return compensation::campaignPostures(campaign, step);
   std::vector<std::string> warnings;
   const auto read = compensation::readPostures(request.postures_file, campaign, warnings);
@@ -132,7 +132,8 @@ void addCompensate(CLI::App& app, Run& run) {
                  "the tool may turn about its axis although the path has quaternions")
       ->needs(path);
   command
-      ->add_option("--start", arguments->motion.start, "joint angles (deg) near the first pose: the branch to stay on")
+      ->add_option("--start", arguments->motion.start,
+                   "joint angles (deg), as the controller states them, near the first pose: the branch to stay on")
       ->delimiter(',')
       ->needs(path);
   command

@@ -243,13 +243,18 @@ toolpath::PathJob pathJob(const MotionRequest& request, const Outlet& outlet) {
 }  // namespace
 
 int compensatePath(const MotionRequest& request, const CampaignSource& source, const Outlet& outlet) {
-  const toolpath::PathJob job = pathJob(request, outlet);
+  toolpath::PathJob job = pathJob(request, outlet);
   const CampaignSource counted{source.name, [&] {
                                  auto opened = source.open();
                                  requireJointCount("--start", request.start, opened->campaign.robot.joints());
                                  return opened;
                                }};
   Prediction prediction(counted, request.prediction);
+  const campaign::Campaign& campaign = prediction.campaign();
+  if (job.joints.start) {
+    const campaign::JointConvention convention(campaign.joint_readings, campaign.robot.joints());
+    job.joints.start = convention.angles(*job.joints.start);
+  }
   const toolpath::CompensatedPath path = toolpath::compensatePath(prediction.arm(), job);
   const std::vector<compensation::CompensatedPosture> rows = path.postures();
   if (!request.out.empty()) {

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <memory>
 
@@ -48,6 +49,16 @@ constexpr std::array kTables{
     FleetFile{"detectable.csv", &reports::detectableCsv}, FleetFile{"needs.csv", &reports::needsCsv}};
 constexpr const char* kPage = "fleet.html";
 
+/// How many reports that were asked for are not there, and why the first of them; empty where all are.
+std::string missingReportsText(const fleet::Fleet& fleet) {
+  const auto missing = [](const fleet::FleetCampaign& one) { return !one.report_failure.empty(); };
+  const auto count = std::count_if(fleet.campaigns.begin(), fleet.campaigns.end(), missing);
+  if (count == 0) return {};
+  const auto first = std::find_if(fleet.campaigns.begin(), fleet.campaigns.end(), missing);
+  return fmt::format("{} report{} not written (report_failure in fleet.csv): {}: {}\n", count, count == 1 ? "" : "s",
+                     first->folder, first->report_failure);
+}
+
 /// The machines that need something, a line each.
 std::string fleetText(const fleet::Fleet& fleet, const std::filesystem::path& out) {
   std::size_t failed = 0, well = 0;
@@ -64,7 +75,7 @@ std::string fleetText(const fleet::Fleet& fleet, const std::filesystem::path& ou
                         reports::plain(reports::words(need.reason)));
   }
   if (lines > kMostLines) text += fmt::format("and {} more machines (needs.csv)\n", lines - kMostLines);
-  text += fmt::format("{} machines need nothing\n", well);
+  text += fmt::format("{} machines need nothing\n", well) + missingReportsText(fleet);
   return text + (out / kPage).string() + '\n';
 }
 

@@ -74,6 +74,8 @@ int importCampaign(const DayArguments& arguments) {
   printWarnings(day.warnings);
   // What was measured is never written over, wherever DAY.xml stands.
   for (const auto& file : std::filesystem::directory_iterator(arguments.out, none)) io::requireNotRead(file.path());
+  // Before the folder is written, which would then stand in the way of the next run.
+  if (!arguments.json.empty() && !isStandardOutput(arguments.json)) io::requireNotRead(arguments.json);
   const io::ByteSource origins = [&day](const io::ByteSink& sink) { writeJson(reports::importJson(day), sink); };
   campaign::writeCampaign(day.campaign, day.urdf, arguments.out, {{"import.json", origins}},
                           campaign::WrittenDigits::as_read, expectation);
@@ -102,7 +104,7 @@ int writeNew(const std::filesystem::path& folder, const std::vector<io::FileToWr
       throw std::runtime_error((folder / file.name).string() + ": not written: it is there already");
   }
   io::writeFolderWhole(folder, files);
-  std::printf("%s: written, to be filled in\n", (folder / files.front().name).c_str());
+  printText((folder / files.front().name).string() + ": written, to be filled in\n");
   return kDone;
 }
 

@@ -195,8 +195,11 @@ void addPlan(CLI::App& app, Run& run) {
   command->add_option("--tracker", request.tracker_mm, "x,y,z (mm) of the tracker in base_link")
       ->delimiter(',')
       ->expected(3);
-  command->add_option("--min-deg", request.min_deg, "least joint angles, one a joint")->delimiter(',');
-  command->add_option("--max-deg", request.max_deg, "largest joint angles, one a joint")->delimiter(',');
+  command
+      ->add_option("--min-deg", request.min_deg,
+                   "least joint angles, one a joint, as the controller states them (joint_reading)")
+      ->delimiter(',');
+  command->add_option("--max-deg", request.max_deg, "largest joint angles, likewise")->delimiter(',');
   command->add_option("--repeats", request.repeats, "readings of each reflector in a state")->capture_default_str();
   const auto unloaded =
       command->add_flag("--unloaded", request.unloaded,

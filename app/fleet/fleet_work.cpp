@@ -64,9 +64,11 @@ FoundCampaign foundIn(const fs::path& folder, bool springs_only) {
   constexpr int kKept = 3;  // of what is kept of a campaign (reports::keptJson): one more where that changes
   std::string key =
       fmt::format("stiffscope {} {} {}\n", STIFFSCOPE_VERSION, kKept, springs_only ? "springs" : "supported");
+  // Before it is read as text: what cannot be is another campaign than the next one that cannot.
+  const std::string hash = hashOf(folder / "campaign.xml");
+  key += (hash.empty() ? folder.string() : hash) + '\n';
   try {
     const std::string xml = io::readTextFile(folder / "campaign.xml", io::kLargestXml);
-    key += io::sha256Hex(xml) + '\n';
     const io::XmlFile file((folder / "campaign.xml").string(), xml);
     readHead(folder, file.root(), found, key);
   } catch (const std::exception&) {
@@ -269,7 +271,11 @@ fleet::Fleet fleetFrom(const FleetRequest& request, const std::vector<FoundCampa
       ++missing;
     }
     const fs::path report = reportFolder(request, one.key) / "report.html";
-    if (request.reports && fs::exists(report, none)) campaign.report = report.lexically_relative(request.out).string();
+    if (request.reports && fs::exists(report, none))
+      campaign.report = report.lexically_relative(request.out).string();
+    else if (request.reports && campaign.result)
+      campaign.report_failure =
+          readMessage(report).value_or("not written yet: the same command without --merge does it");
     campaigns.push_back(std::move(campaign));
   }
   if (missing > 0) {

@@ -58,10 +58,11 @@ diagnosis::Shrink shrinkOf(const std::vector<double>& before, const std::vector<
     }
     values.push_back(of(was, is));
   }
-  std::sort(values.begin(), values.end());
-  constexpr double kTail = 0.025;
-  shrink.low = numerics::quantile(values, kTail);
-  shrink.high = numerics::quantile(values, 1.0 - kTail);
+  // About the draws' own middle, which is of all divisions, and the value of one.
+  const numerics::BootstrapSpread spread =
+      numerics::bootstrapSpread(std::move(values), static_cast<double>(before.size()));
+  shrink.low = std::min(shrink.value, spread.middle - spread.below);
+  shrink.high = std::min(1.0, std::max(shrink.value, spread.middle + spread.above));
   return shrink;
 }
 

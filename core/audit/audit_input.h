@@ -52,6 +52,14 @@ struct MovedMeanwhile {
   double explained = 0.0;  ///< share of the positions' misfit that goes with it
 };
 
+/// A joint that stands, in all of loading, by the same angle from where its reported angle and the sweeps put it.
+struct ZeroSinceSweeps {
+  int joint = 0;
+  double correction = 0.0;    ///< to be added to what is reported, rad
+  double displacement = 0.0;  ///< of the reflectors by it, rms, m
+  double explained = 0.0;     ///< share of the positions' misfit that goes with it
+};
+
 /// Unloaded absolute positions against forward kinematics in the swept geometry, with the arm's own sag. In
 /// R0.
 ///
@@ -74,6 +82,7 @@ struct AbsoluteFit {
   double rms_after = 0.0;    ///< with everything fitted
   double score_limit = 0.0;  ///< of PostureReadBack::score
   std::vector<MovedMeanwhile> moves;
+  std::optional<ZeroSinceSweeps> zero;
   std::vector<PostureReadBack> postures;
 };
 

@@ -166,6 +166,11 @@ preparation::AuditCheck positionsCheck(const AbsoluteFit& fit) {
   }
   check.verdict = preparation::AuditVerdict::warn;
   check.message = says({Remark(RemarkId::geometry_does_not_carry)});
+  if (!fit.zero) return check;
+  const ZeroSinceSweeps& zero = *fit.zero;
+  if (zero.displacement > 2.0 * identification::TrustLimits().position) check.verdict = preparation::AuditVerdict::fail;
+  check.where = Remark(RemarkId::at_loading);
+  check.message = says({Remark(RemarkId::zero_since_sweeps, zero.joint + 1, zero.correction, zero.explained)});
   return check;
 }
 

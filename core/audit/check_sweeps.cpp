@@ -5,9 +5,12 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 #include "core/audit/limits.h"
 #include "core/audit/remarks.h"
+#include "core/audit/sag_doubt.h"
 #include "core/campaign/row_names.h"
 #include "core/identification/identifiability.h"
 #include "core/identification/warnings.h"
@@ -20,6 +23,66 @@ namespace stiffscope::audit {
 
 namespace {
 
+/// A reading against its circle: away from the axis, and along it.
+struct OffCircle {
+  Eigen::Vector3d outward = Eigen::Vector3d::Zero();
+  double radial = 0.0, along = 0.0;  ///< m
+};
+
+OffCircle offCircle(const metrology::AxisFit& fit, std::size_t circle, const Eigen::Vector3d& point) {
+  const Eigen::Vector3d from_axis = point - fit.axis.line.point;
+  const double height = fit.axis.line.direction.dot(from_axis);
+  const Eigen::Vector3d across = from_axis - height * fit.axis.line.direction;
+  const double radius = across.norm();
+  return {across / radius, radius - fit.circles[circle].radius, height - fit.circles[circle].height};
+}
+
+/// How an axis's readings lie off their circles, in parts of the noise: two numbers a reading. `up`: the sense in which
+/// the axis points.
+Eigen::VectorXd offCircles(const metrology::AxisFit& fit, const std::vector<SweptCircle>& circles,
+                           const Eigen::Vector3d& up) {
+  const Eigen::Vector3d direction =
+      fit.axis.line.direction.dot(up) < 0.0 ? -fit.axis.line.direction : fit.axis.line.direction;
+  std::vector<double> all;
+  for (std::size_t k = 0; k < circles.size(); ++k) {
+    for (std::size_t i = 0; i < circles[k].lines.size(); ++i) {
+      const OffCircle off = offCircle(fit, k, circles[k].readings.points[i]);
+      Eigen::Matrix<double, 2, 3> seen;
+      seen << off.outward.transpose(), direction.transpose();
+      const Eigen::Matrix2d covariance = seen * circles[k].readings.covariances[i] * seen.transpose();
+      const Eigen::Vector2d left(off.radial, direction.dot(fit.axis.line.direction) < 0.0 ? -off.along : off.along);
+      const Eigen::Vector2d in_noise = covariance.llt().matrixL().solve(left);
+      all.insert(all.end(), {in_noise[0], in_noise[1]});
+    }
+  }
+  return Eigen::Map<const Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
+}
+
+/// chi2 of the circles that each axis's readings are left with once the sag that was taken off them has its doubt.
+class CirclesInDoubt {
+ public:
+  CirclesInDoubt(const AuditInput& input, const SweptCircles& circles) : input_(input), circles_(circles) {
+    for (const AuditInput& other : underOtherSags(input)) {
+      others_.push_back({other.frames.axes, sweptCircles(other)});
+    }
+  }
+
+  double left(std::size_t axis) const {
+    const metrology::AxisFit& fit = input_.frames.axes[axis].fit;
+    const Eigen::Vector3d up = fit.axis.line.direction;
+    std::vector<Eigen::VectorXd> moved;
+    for (const auto& [axes, circles] : others_) {
+      if (axes[axis].fit.determined) moved.push_back(offCircles(axes[axis].fit, circles[axis], up));
+    }
+    return fit.chi2_per_dof * fit.degrees_of_freedom - explainedBySag(offCircles(fit, circles_[axis], up), moved);
+  }
+
+ private:
+  const AuditInput& input_;
+  const SweptCircles& circles_;
+  std::vector<std::pair<frames::MeasuredAxes, SweptCircles>> others_;
+};
+
 /// The reading that is farthest from its circle.
 struct WorstReading {
   std::size_t line = 0;
@@ -31,10 +94,8 @@ WorstReading worstReading(const frames::MeasuredAxis& axis, const std::vector<Sw
   double farthest = -1.0, sum = 0.0;
   for (std::size_t k = 0; k < circles.size(); ++k) {
     for (std::size_t i = 0; i < circles[k].lines.size(); ++i) {
-      const Eigen::Vector3d from_axis = circles[k].readings.points[i] - axis.fit.axis.line.point;
-      const double height = axis.fit.axis.line.direction.dot(from_axis);
-      const double radius = (from_axis - height * axis.fit.axis.line.direction).norm();
-      const double off = std::hypot(radius - axis.fit.circles[k].radius, height - axis.fit.circles[k].height);
+      const OffCircle parts = offCircle(axis.fit, k, circles[k].readings.points[i]);
+      const double off = std::hypot(parts.radial, parts.along);
       sum += off * off;
       if (off > farthest) farthest = off, worst.line = circles[k].lines[i];
     }
@@ -72,6 +133,7 @@ preparation::AuditCheck residualCheck(const AuditInput& input, const SweptCircle
   check.value = 0.0;
   std::vector<Remark> beyond;
   Causes causes;
+  std::optional<CirclesInDoubt> in_doubt;  // asked only where noise alone does not do
   for (std::size_t axis = 0; axis < axes.size(); ++axis) {
     const frames::MeasuredAxis& measured = input.frames.axes[axis];
     const metrology::AxisFit& fit = measured.fit;
@@ -79,10 +141,15 @@ preparation::AuditCheck residualCheck(const AuditInput& input, const SweptCircle
     const double limit =
         numerics::chiSquareLimit(preparation::kLevel / static_cast<double>(axes.size()), fit.degrees_of_freedom) /
         fit.degrees_of_freedom;
-    const double ratio = std::sqrt(fit.chi2_per_dof);
+    double chi2_per_dof = fit.chi2_per_dof;
+    if (chi2_per_dof > limit) {
+      if (!in_doubt) in_doubt.emplace(input, axes);
+      chi2_per_dof = in_doubt->left(axis) / fit.degrees_of_freedom;
+    }
+    const double ratio = std::sqrt(chi2_per_dof);
     const WorstReading worst = worstReading(measured, axes[axis]);
     const std::string row = campaign::rowName(input.campaign.circle_sweeps->file, worst.line);
-    if (fit.chi2_per_dof > limit) {
+    if (chi2_per_dof > limit) {
       beyond.push_back(Remark(RemarkId::axis_off_circles, axis + 1, fit.rms, ratio));
       causes.add(axis, worst, row);
     }
@@ -117,25 +184,38 @@ Findings checkCircleResidual(const AuditInput& input) {
 
 namespace {
 
-/// The circle that says most about its axis.
-const metrology::AxisCircle& widest(const metrology::AxisFit& fit) {
-  return *std::max_element(
+/// The largest circle: one of a reflector near the axis is mostly noise.
+std::size_t largestCircle(const metrology::AxisFit& fit) {
+  const auto largest = std::max_element(
       fit.circles.begin(), fit.circles.end(),
       [](const metrology::AxisCircle& a, const metrology::AxisCircle& b) { return a.radius < b.radius; });
+  return static_cast<std::size_t>(largest - fit.circles.begin());
+}
+
+/// The circle over which the axis was seen to turn farthest: a reflector may be hidden over a part of the way.
+std::size_t widestCircle(const metrology::AxisFit& fit) {
+  std::size_t widest = largestCircle(fit);
+  for (std::size_t k = 0; k < fit.circles.size(); ++k) {
+    if (fit.circles[k].radius >= kReflectorRadius && fit.circles[k].arc > fit.circles[widest].arc) widest = k;
+  }
+  return widest;
 }
 
 /// Farthest that any swept reflector stands from the axis it turns about: the reach over which a tilt works.
 double reachOf(const frames::MeasuredAxes& axes) {
   double reach = 0.0;
   for (const frames::MeasuredAxis& axis : axes) {
-    if (axis.fit.determined) reach = std::max(reach, widest(axis.fit).radius);
+    if (axis.fit.determined) reach = std::max(reach, axis.fit.circles[largestCircle(axis.fit)].radius);
   }
   return reach;
 }
 
-preparation::AuditCheck arcCheck(const frames::MeasuredAxis& axis, std::size_t number, double reach, int readings) {
+preparation::AuditCheck arcCheck(const frames::MeasuredAxis& axis, const std::vector<SweptCircle>& circles,
+                                 std::size_t number, double reach) {
   const AxisUncertainty uncertainty = uncertaintyOf(axis.fit);
-  const double arc = widest(axis.fit).arc;
+  const std::size_t widest = widestCircle(axis.fit);
+  const double arc = axis.fit.circles[widest].arc;
+  const int readings = static_cast<int>(circles[widest].lines.size());
   const double at_reach = std::hypot(reach * uncertainty.direction, uncertainty.place);
   const double tolerance = kShareOfTolerance * identification::TrustLimits().position;
   preparation::AuditCheck check;
@@ -199,7 +279,7 @@ Findings checkCircleSweeps(const AuditInput& input) {
   for (std::size_t axis = 0; axis < axes.size(); ++axis) {
     const frames::MeasuredAxis& measured = input.frames.axes[axis];
     if (measured.fit.determined) {
-      findings.push_back(arcCheck(measured, axis, reach, static_cast<int>(axes[axis].front().lines.size())));
+      findings.push_back(arcCheck(measured, axes[axis], axis, reach));
     } else {
       findings.push_back(
           preparation::notTestable("circle_arc", Remark(MissingId::axis_not_measured, axis + 1, measured.reason)));
@@ -246,14 +326,6 @@ double reportedTurn(const campaign::CircleSweeps& sweeps, int axis, int target) 
     most = std::max(most, row.q[axis]);
   }
   return std::max(0.0, most - least);
-}
-
-/// The largest circle: one of a reflector near the axis is mostly noise.
-std::size_t largestCircle(const metrology::AxisFit& fit) {
-  const auto largest = std::max_element(
-      fit.circles.begin(), fit.circles.end(),
-      [](const metrology::AxisCircle& a, const metrology::AxisCircle& b) { return a.radius < b.radius; });
-  return static_cast<std::size_t>(largest - fit.circles.begin());
 }
 
 preparation::AuditCheck impossible(preparation::AuditCheck check) {

@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/audit/checks.h"
 #include "core/audit/limits.h"
 #include "core/audit/remarks.h"
+#include "core/audit/sag_doubt.h"
 #include "core/campaign/row_names.h"
 #include "core/numerics/distributions.h"
 #include "core/preparation/finding.h"
@@ -13,12 +15,18 @@ namespace stiffscope::audit {
 
 namespace {
 
-/// Squared difference of two lines in parts of its variance: place at the middle between the circles, and
-/// direction.
-double disagreement(const metrology::MeasuredLine& common, const metrology::AxisFit& a, const metrology::AxisFit& b,
-                    double height) {
-  Eigen::Vector4d difference;
+/// Of two lines: place at the middle between the circles, and direction.
+struct LineDifference {
+  Eigen::Vector4d value = Eigen::Vector4d::Zero();
   Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
+
+  /// In parts of its variance.
+  double squared() const { return mahalanobisSquared(Eigen::VectorXd(value), covariance); }
+};
+
+LineDifference differenceOf(const metrology::MeasuredLine& common, const metrology::AxisFit& a,
+                            const metrology::AxisFit& b, double height) {
+  LineDifference found;
   const Eigen::Vector3d at = common.line.point + height * common.line.direction;
   const auto add = [&](const metrology::AxisFit& fit, double sign) {
     const metrology::Line& line = fit.axis.line;
@@ -33,49 +41,80 @@ double disagreement(const metrology::MeasuredLine& common, const metrology::Axis
     to_common.topLeftCorner<2, 2>() = turn;
     to_common.topRightCorner<2, 2>() = sense * along * turn;
     to_common.bottomRightCorner<2, 2>() = sense * turn;
-    covariance += to_common * fit.axis.covariance * to_common.transpose();
-    difference.head<2>() += sign * Eigen::Vector2d(common.across_u.dot(place - at), common.across_v.dot(place - at));
-    difference.tail<2>() += sign * Eigen::Vector2d(common.across_u.dot(direction), common.across_v.dot(direction));
+    found.covariance += to_common * fit.axis.covariance * to_common.transpose();
+    found.value.head<2>() += sign * Eigen::Vector2d(common.across_u.dot(place - at), common.across_v.dot(place - at));
+    found.value.tail<2>() += sign * Eigen::Vector2d(common.across_u.dot(direction), common.across_v.dot(direction));
   };
-  difference.setZero();
   add(a, 1.0);
   add(b, -1.0);
-  return mahalanobisSquared(Eigen::VectorXd(difference), covariance);
+  return found;
 }
 
-preparation::AuditCheck agreementCheck(const AuditInput& input, const SweptCircles& axes) {
-  preparation::AuditCheck check;
-  check.id = "axis_agreement";
-  double worst = 0.0;
-  int pairs = 0;
+/// What two reflectors say of an axis they turn about.
+struct ReflectorPair {
+  std::size_t axis = 0, first = 0, second = 0;  ///< the reflectors by their circles
+  LineDifference difference;
+};
+
+/// Of all pairs of reflectors that say something of their axis by themselves. `measured`: of the axes to which the
+/// differences are referred, the same for circles under another sag.
+std::vector<ReflectorPair> reflectorPairs(const frames::MeasuredAxes& measured, const SweptCircles& axes) {
+  std::vector<ReflectorPair> pairs;
   for (std::size_t axis = 0; axis < axes.size(); ++axis) {
-    const frames::MeasuredAxis& measured = input.frames.axes[axis];
-    if (!measured.fit.determined) continue;
+    const metrology::AxisFit& common = measured[axis].fit;
+    if (!common.determined) continue;
     std::vector<std::pair<std::size_t, metrology::AxisFit>> own;
     for (std::size_t k = 0; k < axes[axis].size(); ++k) {
-      if (measured.fit.circles[k].radius < kReflectorRadius) continue;
+      if (common.circles[k].radius < kReflectorRadius) continue;
       metrology::AxisFit fit = metrology::fitAxis({axes[axis][k].readings});
       if (fit.determined) own.emplace_back(k, std::move(fit));
     }
     for (std::size_t a = 0; a < own.size(); ++a) {
       for (std::size_t b = a + 1; b < own.size(); ++b) {
-        ++pairs;
-        const double height =
-            0.5 * (measured.fit.circles[own[a].first].height + measured.fit.circles[own[b].first].height);
-        const double chi2 = disagreement(measured.fit.axis, own[a].second, own[b].second, height);
-        if (chi2 <= worst) continue;
-        worst = chi2;
-        check.where = Remark(RemarkId::at_axis_and_pair, axis + 1,
-                             campaign::targetName(input.campaign, axes[axis][own[a].first].target),
-                             campaign::targetName(input.campaign, axes[axis][own[b].first].target));
+        const double height = 0.5 * (common.circles[own[a].first].height + common.circles[own[b].first].height);
+        pairs.push_back(
+            {axis, own[a].first, own[b].first, differenceOf(common.axis, own[a].second, own[b].second, height)});
       }
     }
   }
-  if (pairs == 0) return preparation::notTestable("axis_agreement", Remark(MissingId::no_two_reflectors_off_axis));
-  const double limit = numerics::chiSquareLimit(preparation::kLevel / pairs, 4.0);
+  return pairs;
+}
+
+const ReflectorPair& farthestApart(const std::vector<ReflectorPair>& pairs) {
+  return *std::max_element(pairs.begin(), pairs.end(), [](const ReflectorPair& a, const ReflectorPair& b) {
+    return a.difference.squared() < b.difference.squared();
+  });
+}
+
+/// The sag that was taken off moves what the reflectors say; how well it is known is in the covariance then.
+void addDoubtOfSag(const AuditInput& input, std::vector<ReflectorPair>& pairs) {
+  std::vector<Eigen::Vector4d> as_found;
+  for (const ReflectorPair& pair : pairs) as_found.push_back(pair.difference.value);
+  for (const AuditInput& other : underOtherSags(input)) {
+    const std::vector<ReflectorPair> moved = reflectorPairs(input.frames.axes, sweptCircles(other));
+    if (moved.size() != pairs.size()) continue;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      const Eigen::Vector4d by_sag = moved[i].difference.value - as_found[i];
+      pairs[i].difference.covariance += by_sag * by_sag.transpose();
+    }
+  }
+}
+
+preparation::AuditCheck agreementCheck(const AuditInput& input, const SweptCircles& axes) {
+  preparation::AuditCheck check;
+  check.id = "axis_agreement";
+  std::vector<ReflectorPair> pairs = reflectorPairs(input.frames.axes, axes);
+  if (pairs.empty()) return preparation::notTestable("axis_agreement", Remark(MissingId::no_two_reflectors_off_axis));
+  const double limit = numerics::chiSquareLimit(preparation::kLevel / static_cast<double>(pairs.size()), 4.0);
+  if (farthestApart(pairs).difference.squared() > limit) addDoubtOfSag(input, pairs);
+  const ReflectorPair& farthest = farthestApart(pairs);
+  const double worst = farthest.difference.squared();
+  check.where = Remark(RemarkId::at_axis_and_pair, farthest.axis + 1,
+                       campaign::targetName(input.campaign, axes[farthest.axis][farthest.first].target),
+                       campaign::targetName(input.campaign, axes[farthest.axis][farthest.second].target));
   check.value = std::sqrt(worst / 4.0);
   check.limit = std::sqrt(limit / 4.0);
-  check.limit_source = preparation::byChance(Remark(LimitId::chi_square_of_pairs, pairs));
+  check.limit_source = preparation::byChance(Remark(LimitId::chi_square_of_pairs, pairs.size()));
   if (worst > limit) check.verdict = preparation::AuditVerdict::warn;
   check.message = Remark(worst > limit ? RemarkId::reflectors_disagree : RemarkId::reflectors_agree, *check.value);
   return check;

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <iterator>
 #include <map>
-#include <numeric>
+#include <set>
 
 #include "core/audit/checks.h"
 #include "core/audit/remarks.h"
@@ -20,7 +20,8 @@ namespace stiffscope::audit {
 
 namespace {
 
-preparation::AuditCheck scatterCheck(const std::string& id, bool along, double chi2, int dof, double rms) {
+preparation::AuditCheck scatterCheck(const std::string& id, bool along, double chi2, int dof, double rms,
+                                     double digit) {
   preparation::AuditCheck check;
   check.id = id;
   check.value = std::sqrt(chi2 / dof);
@@ -35,6 +36,8 @@ preparation::AuditCheck scatterCheck(const std::string& id, bool along, double c
   // Repeats within seconds do not see all that a data sheet covers; less than half of it is another matter.
   constexpr double kFarBelow = 0.5;
   if (*check.value < kFarBelow) check.details.push_back(Remark(RemarkId::repeats_scatter_little));
+  constexpr double kFelt = 0.05;  // of the variance
+  if (digit * digit / 12.0 > kFelt * rms * rms) check.details.push_back(Remark(RemarkId::repeats_rounded, digit));
   return check;
 }
 
@@ -46,8 +49,10 @@ Findings checkRepeatability(const AuditInput& input) {
     return {preparation::notTestable("repeatability_along", scatter.reason),
             preparation::notTestable("repeatability_across", scatter.reason)};
   }
-  return {scatterCheck("repeatability_along", true, scatter.along_chi2, scatter.along_dof, scatter.along_rms),
-          scatterCheck("repeatability_across", false, scatter.across_chi2, scatter.across_dof, scatter.across_rms)};
+  return {scatterCheck("repeatability_along", true, scatter.along_chi2, scatter.along_dof, scatter.along_rms,
+                       scatter.digit),
+          scatterCheck("repeatability_across", false, scatter.across_chi2, scatter.across_dof, scatter.across_rms,
+                       scatter.digit)};
 }
 
 namespace {
@@ -71,43 +76,83 @@ Sum sumOf(const ToolDistances& tool, const Counts& counts) {
   return sum;
 }
 
-/// Whether a state's distances are those of the tool if its reflectors carry each other's names in this
-/// order.
-bool fitsRenamed(const ToolDistances& tool, const campaign::StatePoints& state, const std::vector<std::size_t>& order,
-                 const metrology::TrackerNoise& noise) {
-  for (std::size_t a = 0; a < order.size(); ++a) {
-    for (std::size_t b = a + 1; b < order.size(); ++b) {
-      const auto* pair = tool.pair(state.reflectors[order[a]].target, state.reflectors[order[b]].target);
-      if (pair == nullptr) return false;
-      const campaign::ReflectorMean& first = state.reflectors[a];
-      const campaign::ReflectorMean& second = state.reflectors[b];
-      const Eigen::Vector3d between = second.point - first.point;
-      const Eigen::Vector3d along = between.normalized();
-      const double sd = std::sqrt(along.dot((first.covariance(noise) + second.covariance(noise)) * along) +
-                                  pair->reference_sd * pair->reference_sd);
-      if (std::abs(between.norm() - pair->reference) > tool.limit * sd) return false;
+/// Finds, in a state whose distances are not those of the tool, the names with which they are: one reflector after the
+/// other gets each name that suits its distances to those that have one. Two fixed reflectors leave the third few names
+/// and three leave the others one, so that this takes the cube of their number in steps, not its factorial.
+class Renaming {
+ public:
+  Renaming(const ToolDistances& tool, const campaign::StatePoints& state, const metrology::TrackerNoise& noise)
+      : limit_(tool.limit), count_(state.reflectors.size()), seen_(count_ * count_), reference_(count_ * count_) {
+    for (std::size_t a = 0; a < count_; ++a) {
+      for (std::size_t b = 0; b < a; ++b) {
+        const campaign::ReflectorMean &first = state.reflectors[a], &second = state.reflectors[b];
+        const Eigen::Vector3d between = second.point - first.point;
+        const Eigen::Vector3d along = between.normalized();
+        seen_[a * count_ + b] = {between.norm(),
+                                 along.dot((first.covariance(noise) + second.covariance(noise)) * along)};
+        const ToolDistances::Pair* pair = tool.pair(first.target, second.target);
+        if (pair == nullptr) continue;
+        reference_[a * count_ + b] =
+            reference_[b * count_ + a] = {pair->reference, pair->reference_sd * pair->reference_sd};
+      }
     }
   }
-  return true;
-}
+
+  /// By reflector which one it is; the first order in which all distances fit but one of no exchange. Empty: none does.
+  std::vector<std::size_t> order() const {
+    std::vector<std::size_t> found;
+    extend(found, true);
+    return found;
+  }
+
+ private:
+  struct Distance {
+    double length = -1.0;  ///< m; of a pair whose reference is not known below zero
+    double variance = 0.0;
+  };
+
+  /// Adds the other reflectors to `so_far`, of which all distances fit; false where that cannot be done.
+  bool extend(std::vector<std::size_t>& so_far, bool unchanged) const {
+    const std::size_t next = so_far.size();
+    if (next == count_) return !unchanged;
+    for (std::size_t name = 0; name < count_; ++name) {
+      if (std::find(so_far.begin(), so_far.end(), name) != so_far.end() || !fits(so_far, name)) continue;
+      so_far.push_back(name);
+      if (extend(so_far, unchanged && name == next)) return true;
+      so_far.pop_back();
+    }
+    return false;
+  }
+
+  bool fits(const std::vector<std::size_t>& so_far, std::size_t name) const {
+    for (std::size_t other = 0; other < so_far.size(); ++other) {
+      const Distance& seen = seen_[so_far.size() * count_ + other];
+      const Distance& reference = reference_[name * count_ + so_far[other]];
+      if (reference.length < 0.0) return false;
+      const double off = std::abs(seen.length - reference.length);
+      if (off > limit_ * std::sqrt(seen.variance + reference.variance)) return false;
+    }
+    return true;
+  }
+
+  double limit_;
+  std::size_t count_;
+  std::vector<Distance> seen_, reference_;  ///< of each two; seen: of a later one to an earlier one
+};
 
 /// The exchange of names that would make a state's distances those of the tool: in pairs, what a reflector is called
 /// and what it is.
 std::vector<std::string> exchangeIn(const campaign::Campaign& campaign, const ToolDistances& tool,
                                     const campaign::StatePoints& state, const metrology::TrackerNoise& noise) {
-  std::vector<std::size_t> order(state.reflectors.size());
-  std::iota(order.begin(), order.end(), 0);
-  while (order.size() >= 3 && std::next_permutation(order.begin(), order.end())) {
-    if (!fitsRenamed(tool, state, order, noise)) continue;
-    std::vector<std::string> names;
-    for (std::size_t k = 0; k < order.size(); ++k) {
-      if (order[k] == k) continue;
-      names.push_back(campaign::targetName(campaign, state.reflectors[k].target));
-      names.push_back(campaign::targetName(campaign, state.reflectors[order[k]].target));
-    }
-    return names;
+  if (state.reflectors.size() < 3) return {};
+  const std::vector<std::size_t> order = Renaming(tool, state, noise).order();
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    if (order[k] == k) continue;
+    names.push_back(campaign::targetName(campaign, state.reflectors[k].target));
+    names.push_back(campaign::targetName(campaign, state.reflectors[order[k]].target));
   }
-  return {};
+  return names;
 }
 
 class Inquiry {
@@ -150,8 +195,9 @@ class Inquiry {
   bool counts(const ToolDistance& one) const { return !exchanged_.contains(one.state); }
 
   void findExchanges() {
+    std::set<std::size_t> searched;  // a state in which one reflector moved has many distances beyond the limit
     for (const ToolDistance& one : tool_.distances) {
-      if (std::abs(one.change) <= tool_.limit * one.sd || exchanged_.contains(one.state)) continue;
+      if (std::abs(one.change) <= tool_.limit * one.sd || !searched.insert(one.state).second) continue;
       const std::vector<std::string> names = exchangeIn(campaign_, tool_, input_.states[one.state], *input_.noise);
       if (!names.empty()) exchanged_[one.state] = names;
     }

@@ -7,6 +7,7 @@
 
 #include "core/audit/checks.h"
 #include "core/audit/remarks.h"
+#include "core/audit/sag_doubt.h"
 #include "core/campaign/row_names.h"
 #include "core/frames/arm_parameters.h"
 #include "core/identification/decoupled_partial_pose.h"
@@ -83,42 +84,88 @@ Eigen::MatrixXd priorOf(const frames::Frames& frames, Eigen::Index targets) {
   return prior;
 }
 
+/// The wrist sweep's readings as one linear least squares in the centre, the radii and the wrist's axes.
+class WristFit {
+ public:
+  explicit WristFit(const AuditInput& input)
+      : targets_(static_cast<Eigen::Index>(input.campaign.targets.size())),
+        rows_(rowsOf(input)),
+        prior_(priorOf(input.frames, targets_)),
+        normal_(prior_) {
+    dof_ = static_cast<int>(rows_.size()) - static_cast<int>(kCentre);
+    for (const Row& row : rows_) {
+      const Eigen::RowVectorXd jacobian = row.jacobian(targets_);
+      normal_ += jacobian.transpose() * jacobian / (row.sd * row.sd);
+    }
+    for (Eigen::Index k = 0; k < targets_; ++k) {
+      // A reflector that was not swept has no radius to find.
+      if (normal_(kCentre + k, kCentre + k) == 0.0) {
+        normal_(kCentre + k, kCentre + k) = 1.0;
+      } else {
+        --dof_;
+      }
+    }
+  }
+
+  const std::vector<Row>& rows() const { return rows_; }
+  int dof() const { return dof_; }
+
+  /// What the fit leaves of the residuals of `rows`, which may be those under another sag, and of the axes by their own
+  /// sweeps: one number a reading and four an axis, all in parts of their standard deviations.
+  Eigen::VectorXd left(const std::vector<Row>& rows) const {
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(normal_.rows());
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+      right += rows_[i].jacobian(targets_).transpose() * rows[i].residual / (rows_[i].sd * rows_[i].sd);
+    const Eigen::VectorXd found = solveSymmetric(normal_, right);
+    const auto readings = static_cast<Eigen::Index>(rows_.size());
+    const Eigen::Index axes = normal_.rows() - kCentre - targets_;
+    Eigen::VectorXd all(readings + axes);
+    for (Eigen::Index i = 0; i < readings; ++i) {
+      const Row& row = rows_[static_cast<std::size_t>(i)];
+      all[i] = (rows[static_cast<std::size_t>(i)].residual - row.jacobian(targets_).dot(found)) / row.sd;
+    }
+    all.tail(axes) = choleskyLower(prior_.bottomRightCorner(axes, axes)).transpose() * found.tail(axes);
+    return all;
+  }
+
+ private:
+  Eigen::Index targets_;
+  std::vector<Row> rows_;
+  Eigen::MatrixXd prior_, normal_;
+  int dof_ = 0;
+};
+
+/// What of chi2 a sag explains that is off by no more than it is uncertain.
+double explainedInWrist(const AuditInput& input, const WristFit& fit, const Eigen::VectorXd& left) {
+  std::vector<Eigen::VectorXd> moved;
+  for (const AuditInput& other : underOtherSags(input)) {
+    const std::vector<Row> rows = rowsOf(other);
+    if (rows.size() == fit.rows().size()) moved.push_back(fit.left(rows));
+  }
+  return explainedBySag(left, moved);
+}
+
 }  // namespace
 
 WristResiduals wristResiduals(const AuditInput& input) {
-  const auto targets = static_cast<Eigen::Index>(input.campaign.targets.size());
-  const std::vector<Row> rows = rowsOf(input);
-  const Eigen::MatrixXd prior = priorOf(input.frames, targets);
-  Eigen::MatrixXd normal = prior;
-  Eigen::VectorXd right = Eigen::VectorXd::Zero(normal.rows());
-  for (const Row& row : rows) {
-    const Eigen::RowVectorXd jacobian = row.jacobian(targets);
-    normal += jacobian.transpose() * jacobian / (row.sd * row.sd);
-    right += jacobian.transpose() * row.residual / (row.sd * row.sd);
-  }
+  const WristFit fit(input);
+  const Eigen::VectorXd left = fit.left(fit.rows());
   WristResiduals result;
-  result.dof = static_cast<int>(rows.size()) - static_cast<int>(kCentre);
-  for (Eigen::Index k = 0; k < targets; ++k) {
-    // A reflector that was not swept has no radius to find.
-    if (normal(kCentre + k, kCentre + k) == 0.0) {
-      normal(kCentre + k, kCentre + k) = 1.0;
-    } else {
-      --result.dof;
-    }
-  }
-  const Eigen::VectorXd found = solveSymmetric(normal, right);
-  result.chi2 = found.dot(prior * found);
+  result.dof = fit.dof();
+  result.chi2 = left.squaredNorm();
   double farthest = -1.0;
-  std::size_t at = 0;
+  Eigen::Index at = 0;
   for (const campaign::WristReading& reading : input.campaign.wrist_sweep->rows) {
     if (!input.frames.targets_in_r0_at_zero[static_cast<std::size_t>(reading.target)]) continue;
-    const Row& row = rows[at++];
-    const double left = row.residual - row.jacobian(targets).dot(found), sigmas = std::abs(left) / row.sd;
-    result.chi2 += sigmas * sigmas;
-    result.rms += left * left;
+    const double sigmas = std::abs(left[at]), off = sigmas * fit.rows()[static_cast<std::size_t>(at)].sd;
+    ++at;
+    result.rms += off * off;
     if (sigmas > farthest) farthest = sigmas, result.worst = reading.line;
   }
   result.rms = result.dof > 0 ? std::sqrt(result.rms / result.dof) : 0.0;
+  // Asked only where noise alone does not do.
+  if (result.dof > 0 && result.chi2 > numerics::chiSquareLimit(preparation::kLevel, result.dof))
+    result.chi2 -= explainedInWrist(input, fit, left);
   return result;
 }
 

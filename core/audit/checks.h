@@ -63,13 +63,15 @@ Findings checkRigidTool(const AuditInput& input);
 /// shape from one to the other.
 Findings checkNests(const AuditInput& input);
 
-/// circle_arc (one an axis), circle_count: the sweeps of each axis.
+/// circle_arc (one an axis: how far it was seen to turn by the reflector that was read farthest), circle_count: the
+/// sweeps of each axis.
 Findings checkCircleSweeps(const AuditInput& input);
 
 /// sweep_angles: how far each axis turns by its reflectors, against what the joint reports. Fails beyond twice or half.
 Findings checkSweepAngles(const AuditInput& input);
 
-/// circle_residual: how the readings lie on their circles.
+/// circle_residual: how the readings lie on their circles. This, axis_agreement and wrist_sphere leave open what a sag
+/// does that is off by as much as it is uncertain (core/audit/sag_doubt.h).
 Findings checkCircleResidual(const AuditInput& input);
 
 /// axis_agreement, reflector_on_axis: what each reflector says of the axes it turns about.
@@ -108,6 +110,7 @@ Findings checkPostureSet(const AuditInput& input);
 
 /// arm_model, load_model: unloaded readings against the URDF's arm, loads against joint springs that give way
 /// (core/mistakes/find_mistakes.h). Fail where they contradict it by more than machines do; both then are impossible.
+/// load_model warns of single postures that contradict the springs of the others (core/identification/outliers.h).
 Findings checkModel(const AuditInput& input);
 
 /// controller_poses: the URDF's forward kinematics against the poses that the controller states

@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "core/audit/limits.h"
 #include "core/audit/remarks.h"
 #include "core/frames/arm_parameters.h"
 #include "core/numerics/distributions.h"
@@ -285,6 +286,41 @@ void describe(const frames::AbsoluteRows& rows, const PostureWeights& weights, A
   fit.rms_after = std::sqrt(fit.rms_after);
 }
 
+/// The joint whose zero, another in all of loading than in the sweeps, takes most of chi2 with it: beyond chance, and
+/// more than is left. With everything else of the fit free (Schur complement); a joint whose zero a motion of the base
+/// or of the reflectors imitates, as of the first and the last, is none.
+std::optional<ZeroSinceSweeps> zeroSinceSweeps(const frames::AbsoluteRows& rows, const PostureWeights& weights,
+                                               const AbsoluteFit& fit) {
+  const PositionNormal normal = sumUp(rows, weights);
+  const Eigen::Index size = normal.right.size();
+  const Eigen::MatrixXd inverse = solveSymmetric(normal.matrix, Eigen::MatrixXd::Identity(size, size));
+  const Eigen::VectorXd parameters = inverse * normal.right;
+  std::optional<ZeroSinceSweeps> best;
+  double most = 0.0;
+  for (int j = 0; j < rows.joints; ++j) {
+    Eigen::VectorXd cross = Eigen::VectorXd::Zero(size);
+    double own = 0.0, right = 0.0, squares = 0.0;
+    for (const frames::AbsoluteRow& row : rows.rows) {
+      const double weight = weights[static_cast<std::size_t>(row.pose)];
+      if (weight == 0.0) continue;
+      const Eigen::Vector3d turned = row.by_angles.col(j), weighted = weight * row.weight * turned;
+      cross += row.jacobian.transpose() * weighted;
+      own += turned.dot(weighted);
+      right += weighted.dot(row.residual);
+      squares += turned.squaredNorm();
+    }
+    constexpr double kSeen = 1e-4;  // of the squares that the joint alone would make
+    const double seen = own - cross.dot(inverse * cross), left = right - cross.dot(parameters);
+    if (!(seen > kSeen * own) || left * left / seen <= most) continue;
+    most = left * left / seen;
+    best = {j, left / seen, std::abs(left / seen) * std::sqrt(squares / fit.positions), most / fit.chi2};
+  }
+  if (!best || best->explained < kExplains) return std::nullopt;
+  const double misfit = std::max(1.0, (fit.chi2 - most) / fit.dof);
+  const double limit = numerics::chiSquareLimit(preparation::kLevel / rows.joints, 1.0);
+  return most > misfit * limit ? best : std::nullopt;
+}
+
 }  // namespace
 
 AbsoluteFit fitAbsolutePositions(const campaign::Campaign& campaign, const frames::Frames& frames,
@@ -311,6 +347,7 @@ AbsoluteFit fitAbsolutePositions(const campaign::Campaign& campaign, const frame
   fit.moves = takeOffMoves(campaign, geometry, states, weights_of, rows);
   const PostureWeights weights = weights_of(rows);
   describe(rows, weights, fit);
+  fit.zero = zeroSinceSweeps(rows, weights, fit);
   fit.done = true;
   return fit;
 }

@@ -123,7 +123,7 @@ ToolDistances toolDistances(const std::vector<campaign::StatePoints>& states, in
 /// What the wrist sweep leaves of P_wrist's spheres once the swept axes of the wrist (4-6 of six), which do not quite
 /// meet, have their share.
 struct WristResiduals {
-  double chi2 = 0.0;      ///< by the tracker's noise along each radius
+  double chi2 = 0.0;      ///< by the tracker's noise along each radius; beyond it less what the sag's doubt explains
   int dof = 0;            ///< readings less centre and radii
   double rms = 0.0;       ///< m, over `dof`
   std::size_t worst = 0;  ///< line of the reading that is farthest off, in parts of its noise

@@ -52,6 +52,7 @@ enum class RemarkId {
   // repeatability_along, repeatability_across, noise_declared, rigid_tool.
   repeats_scatter,  ///< whether along the beam, one sigma in m, in parts of what is declared, whether beyond the limit
   repeats_scatter_little,
+  repeats_rounded,     ///< last digit of the readings, m
   noise_borne_out,     ///< times, remarks: the eight below
   noise_too_large,     ///< the same
   noise_too_small,     ///< the same
@@ -136,6 +137,7 @@ enum class RemarkId {
   positions_miss,            ///< positions, rms as read m, rms as fitted m, in parts of what is left open, more
   positions_impossible,
   geometry_does_not_carry,
+  zero_since_sweeps,  ///< joint, rad to be added, explained share of the misfit
   angles_agree,
   angles_stale,  ///< remarks joint_off
   joint_off,     ///< row, posture, joint, rad

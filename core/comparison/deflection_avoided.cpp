@@ -49,10 +49,9 @@ DeflectionAvoided shareAvoided(std::vector<PostureDeflection> postures, const Bo
     });
     if (sum_before > 0.0) shares.push_back(1.0 - sum_after / sum_before);
   }
-  std::sort(shares.begin(), shares.end());
-  const double middle = numerics::quantile(shares, 0.5), wider = numerics::spreadOfFew(static_cast<double>(n));
-  result.low = result.share + wider * (numerics::quantile(shares, 0.025) - middle);
-  result.high = result.share + wider * (numerics::quantile(shares, 0.975) - middle);
+  const numerics::BootstrapSpread spread = numerics::bootstrapSpread(std::move(shares), static_cast<double>(n));
+  result.low = result.share - spread.below;
+  result.high = result.share + spread.above;
   return result;
 }
 

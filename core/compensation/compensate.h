@@ -237,10 +237,15 @@ std::vector<Remark> implausibleCommands(const std::vector<CompensatedPosture>& p
 /// What there is to know of all commands where a machine has not six joints, and some posture has commands; else none.
 std::vector<Remark> jointCountRemarks(const std::vector<CompensatedPosture>& postures);
 
+/// Postures as they are given, with joint angles as the campaign's tables have them (the controller's figures, where it
+/// declares joint readings): with the URDF's angles in their place.
+std::vector<PostureToCompensate> withAnglesOfFigures(std::vector<PostureToCompensate> postures,
+                                                     const campaign::Campaign& campaign);
+
 /// Reads postures and wrenches of the campaign's machine from a CSV file: `pose` (any name, not repeated), `q1_deg`,
-/// `q2_deg` and so on of each joint, as the campaign's tables have them (the controller's figures, where it declares
-/// joint readings), and the load-cell reading expected there, `fx_n fy_n fz_n mx_nm my_nm mz_nm`; columns in any order.
-/// Throws InputError as the campaign's tables do; unknown columns go to `warnings`.
+/// `q2_deg` and so on of each joint, as withAnglesOfFigures takes them, and the load-cell reading expected there, `fx_n
+/// fy_n fz_n mx_nm my_nm mz_nm`; columns in any order. Throws InputError as the campaign's tables do; unknown columns
+/// go to `warnings`.
 std::vector<PostureToCompensate> readPostures(const std::filesystem::path& file, const campaign::Campaign& campaign,
                                               std::vector<std::string>& warnings);
 

@@ -26,18 +26,24 @@ campaign::TableLayout<PostureRow> posturesLayout(int joints) {
 
 }  // namespace
 
+std::vector<PostureToCompensate> withAnglesOfFigures(std::vector<PostureToCompensate> postures,
+                                                     const campaign::Campaign& campaign) {
+  const campaign::JointConvention convention(campaign.joint_readings, campaign.robot.joints());
+  for (PostureToCompensate& posture : postures) posture.q = convention.angles(posture.q);
+  return postures;
+}
+
 std::vector<PostureToCompensate> readPostures(const std::filesystem::path& file, const campaign::Campaign& campaign,
                                               std::vector<std::string>& warnings) {
   const int joints = campaign.robot.joints();
-  const campaign::JointConvention convention(campaign.joint_readings, joints);
   const std::string bytes = io::readTextFile(file);
   campaign::CampaignNames names;
   std::vector<PostureToCompensate> postures;
   for (PostureRow& row :
        campaign::readTable<PostureRow>({file.string(), bytes}, posturesLayout(joints), names, warnings)) {
-    postures.push_back({std::move(row.id), convention.angles(row.q), row.wrench_in_cell});
+    postures.push_back({std::move(row.id), row.q, row.wrench_in_cell});
   }
-  return postures;
+  return withAnglesOfFigures(std::move(postures), campaign);
 }
 
 std::vector<NamedReading> readWrenches(const std::filesystem::path& file, std::vector<std::string>& warnings) {

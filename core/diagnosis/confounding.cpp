@@ -25,16 +25,19 @@ double leftBy(const SystemInput& input, const GapFit& fit, const Projection& mad
   const Selector selector(input.models, fit.data->layout, made, 1.0, fit.rules, only);
   const FittedSet base = selector.fit(others);
   std::vector<ChosenModel> models = base.models;
-  std::vector<std::size_t> parts(input.models[model].parts.size());
+  // At the shape where it has settled: a straight step from there leads where no passage, no grip is.
+  std::vector<std::size_t> parts;
+  for (std::size_t p = 0; p < input.models[model].parts.size(); ++p) {
+    if (!input.models[model].parts[p].is_shape) parts.push_back(p);
+  }
   double least = base.chi2;
   constexpr double kRough = 1e-6;  // far above what roughChi2 is off by
   const auto mayLeave = [&](double chi2) { return selector.roughChi2(models) <= chi2 + kRough * made.chi2_none; };
   if (input.models[model].most_parts >= parts.size()) {
-    for (std::size_t p = 0; p < parts.size(); ++p) parts[p] = p;
     models.push_back({model, parts});
     return mayLeave(matters) ? std::min(least, selector.fit(models).chi2) : least;
   }
-  for (std::size_t p = 0; p < parts.size(); ++p) {
+  for (const std::size_t p : parts) {
     models = base.models;
     models.push_back({model, {p}});
     if (!mayLeave(std::min(least, matters))) continue;

@@ -203,6 +203,10 @@ GapFit settle(const SystemInput& input, const SystemState& start, const std::vec
     }
     if (fit.rounds == kMostRounds) break;
     contained = correct(input, fit.data->layout, fit.set, fit.nuisances, fit.state);
+    if (!rules.fixed) {
+      const double postures = static_cast<double>(fit.data->postures.size());
+      settleRivals(input, fit, selectorOf(input, fit, fit.projection, postures, allowed), allowed, fit.state.at);
+    }
   }
   fit.data = std::make_shared<const LinearSystem>();
   best.data = remade(input, best_contained, by_geometry, best);
@@ -292,8 +296,9 @@ double leftAtLargestLoad(const GapFit& fit) {
 }  // namespace
 
 double limitOfChiSquare(double freedom, double noise_degrees) {
-  constexpr double kSigmas = 4.0;
-  return 1.0 + kSigmas * std::sqrt(2.0 / freedom + (noise_degrees > 0.0 ? 2.0 / noise_degrees : 0.0));
+  constexpr double kSigmas = 4.0, kAsDeclared = 1.6;  // declared noise is right to a quarter
+  if (noise_degrees > 0.0) return 1.0 + kSigmas * std::sqrt(2.0 / freedom + 2.0 / noise_degrees);
+  return kAsDeclared + kSigmas * std::sqrt(2.0 / freedom);
 }
 
 double modelError(const GapFit& fit, const FitRules& rules) {

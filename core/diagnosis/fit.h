@@ -71,7 +71,8 @@ inline double leftPerEquation(const GapFit& fit) { return fit.left.perEquation()
 double varianceFactor(const GapFit& fit);
 
 /// What chi2 over its degrees of freedom may be by chance: four standard deviations, with the doubt of a noise that was
-/// itself estimated with so many degrees of freedom (0: known).
+/// itself estimated with so many degrees of freedom; beyond 1.6 where it is as declared (0), which is right to a
+/// quarter.
 double limitOfChiSquare(double freedom, double noise_degrees);
 
 /// Whether deflections stay that no effect explains: beyond chance (left_limit), and large enough to matter. A verdict
@@ -90,6 +91,12 @@ Selector selectorOf(const SystemInput& input, const GapFit& fit, const Projectio
 /// then contain.
 ContainedEffects correct(const SystemInput& input, const GapLayout& layout, const FittedSet& set,
                          const Eigen::VectorXd& nuisances, SystemState& state);
+
+/// Effects that bend with their own size and were not chosen would be judged at whatever shape they began with. Brings
+/// each in `at` to the shape of the best set that has it beside the chosen ones or in the place of one of them, and
+/// where it is not worth it in any, to none. `selector`: of the equations that `fit` stands on.
+void settleRivals(const SystemInput& input, const GapFit& fit, const Selector& selector,
+                  const std::vector<bool>& allowed, effects::LinearizationPoint& at);
 
 /// Whether the effect, once estimated, is part of what the equations are made with: of the unloaded arm's places at
 /// least.

@@ -77,20 +77,11 @@ HeldOutShrink notJudged() {
 
 double shrinkOf(double before, double after) { return before > 0.0 ? 1.0 - std::sqrt(after / before) : 0.0; }
 
-/// Value below which such a share of the draws lies; 0 without any.
-double quantileOf(std::vector<double> drawn, double share) {
-  if (drawn.empty()) return 0.0;
-  std::sort(drawn.begin(), drawn.end());
-  return numerics::quantile(drawn, share);
-}
-
-/// Spread of the bootstrap about its median, narrowed by the root of judged over all postures and widened for
-/// their small number, put on the value.
-Shrink withInterval(double value, const std::vector<double>& drawn, double judged_share, std::size_t postures) {
-  const double middle = quantileOf(drawn, 0.5);
-  const double scale = std::sqrt(judged_share) * numerics::spreadOfFew(std::max(2.0, static_cast<double>(postures)));
-  return {value, value + scale * (quantileOf(drawn, 0.025) - middle),
-          value + scale * (quantileOf(drawn, 0.975) - middle)};
+/// Spread of the bootstrap about its median, narrowed by the root of judged over all postures, put on the value.
+Shrink withInterval(double value, std::vector<double> drawn, double judged_share, std::size_t postures) {
+  const numerics::BootstrapSpread spread = numerics::bootstrapSpread(std::move(drawn), static_cast<double>(postures));
+  const double scale = std::sqrt(judged_share);
+  return {value, value - scale * spread.below, value + scale * spread.above};
 }
 
 void add(HeldOut& sum, const HeldOut& one) {

@@ -43,8 +43,6 @@ ContainedEffects correct(const SystemInput& input, const GapLayout& layout, cons
   state.at.compensator.resize(0);
   ContainedEffects contained{Eigen::VectorXd::Zero(set.effects.size()), Eigen::VectorXd::Zero(set.effects.size())};
   state.at.present.clear();
-  state.at.harder_by_square.setZero();
-  state.at.harder_by_size.setZero();
   for (const ChosenModel& one : set.models) {
     const effects::EffectModel& model = input.models[one.model];
     Eigen::VectorXd own = ownOf(input, layout, set.effects, one.model);

@@ -122,6 +122,15 @@ Gap positionGap(const GapFit& alone, const StiffnessesAlone& before, const GapFi
   });
 }
 
+PositionsLeft positionsLeft(const GapFit& fit, const Gap& positions) {
+  const auto apart = [](double larger, double smaller) {
+    return std::sqrt(std::max(0.0, larger * larger - smaller * smaller));
+  };
+  constexpr double kStates = 2.0, kShareOfRemoved = 0.1;
+  return {apart(positions.after, positions.noise),
+          std::max(kStates * fit.data->state_noise, kShareOfRemoved * apart(positions.before, positions.after))};
+}
+
 namespace {
 
 /// What is left of one reflector in one state, and the covariance of its reading noise.

@@ -36,6 +36,14 @@ Gap deflectionGap(const GapFit& alone, const StiffnessesAlone& before, const Gap
 /// The gap of the unloaded absolute positions; all zero where they are not held against the arm.
 Gap positionGap(const GapFit& alone, const StiffnessesAlone& before, const GapFit& fit, const Eigen::VectorXd& after);
 
+/// What a fit leaves of unloaded positions beyond their noise, and what the repeatability of an arm, or a tenth of what
+/// the fit takes off, may leave, m.
+struct PositionsLeft {
+  double left = 0.0, limit = 0.0;
+  bool beyondLimit() const { return left > limit; }
+};
+PositionsLeft positionsLeft(const GapFit& fit, const Gap& positions);
+
 /// Where the gap lies that stiffnesses alone leave: the deflection's by reflector, axes of R0, axes of the
 /// flange, along and across the beam, joint (what angles of the joints would explain, shared out among them), posture,
 /// load step and quarter of the time; that of unloaded positions by reflector, axes, beam and posture. `parameters`: of

@@ -41,8 +41,12 @@ FittedSet Selector::nothing() const {
   return none;
 }
 
-/// Which model, and which of its parts, was looked for: a choice among so many.
-double Selector::penaltyOfModel() const { return 2.0 * std::log(static_cast<double>(models_.size())); }
+/// Which model, and which of its parts, was looked for: a choice among so many. A shape that has settled takes no step
+/// any more, and was a parameter all the same.
+double Selector::penaltyOfModel(std::size_t model) const {
+  const double shape = models_[model].shapeAt != nullptr ? std::log(postures_) : 0.0;
+  return 2.0 * std::log(static_cast<double>(models_.size())) + shape;
+}
 
 double Selector::penaltyOfPart(std::size_t model, std::size_t parameters) const {
   return 2.0 * std::log(static_cast<double>(models_[model].parts.size())) +
@@ -56,7 +60,7 @@ FittedSet Selector::fit(const std::vector<ChosenModel>& models) const {
   std::vector<bool> positive, is_shape;
   for (const ChosenModel& one : models) {
     const effects::EffectModel& model = models_[one.model];
-    set.penalty += penaltyOfModel();
+    set.penalty += penaltyOfModel(one.model);
     for (const std::size_t p : one.parts) {
       const effects::EffectPart& part = model.parts[p];
       set.penalty += penaltyOfPart(one.model, part.most.size());
@@ -203,7 +207,7 @@ bool Selector::mayScoreBelow(double limit, const FittedSet& base, std::size_t mo
     smallest = std::min(smallest, parts[p].most.size());
   }
   if (smallest == std::numeric_limits<std::size_t>::max()) return false;  // nothing to choose from
-  const double penalty = base.penalty + penaltyOfModel() + penaltyOfPart(model, smallest);
+  const double penalty = base.penalty + penaltyOfModel(model) + penaltyOfPart(model, smallest);
   constexpr double kRough = 1e-6;  // far above what mostDrop is off by
   return projection_.chi2_none * (1.0 - kRough) - subset.mostDrop() + penalty < limit;
 }

@@ -61,25 +61,27 @@ class Selector {
   FittedSet fit(const std::vector<ChosenModel>& models) const;
   /// chi2 of fit(models) to within rounding, at a fraction of its cost.
   double roughChi2(const std::vector<ChosenModel>& models) const;
+  /// One model on top of `base`, its parts chosen greedily; empty where nothing plausible comes of it.
+  std::optional<FittedSet> grown(const FittedSet& base, std::size_t model) const;
+  /// Whether what `with` has beyond `without` is significant and matters.
+  bool worth(const FittedSet& with, const FittedSet& without) const;
+  bool isGiven(std::size_t model) const;  ///< put in by other evidence
 
   /// How far beyond noise the best set leaves the loading: chi2 per equation, at least 1. Parameters are not taken off:
   /// by them it would be above 1 in half of the days where noise is all that is left.
   double misfit(const FittedSet& set) const;
 
  private:
-  double penaltyOfModel() const;
+  double penaltyOfModel(std::size_t model) const;
   double penaltyOfPart(std::size_t model, std::size_t parameters) const;
   bool mayScoreBelow(double limit, const FittedSet& base, std::size_t model) const;
-  std::optional<FittedSet> grown(const FittedSet& base, std::size_t model) const;
   std::optional<FittedSet> withBestPart(std::vector<ChosenModel> models, GrowingSubset& subset) const;
   void addPart(std::size_t model, std::size_t part, GrowingSubset& subset) const;
   GrowingSubset subsetOf(const std::vector<ChosenModel>& models) const;
   bool isSeen(std::size_t model, std::size_t part) const;
-  bool worth(const FittedSet& with, const FittedSet& without) const;
   FittedSet regrown(FittedSet set) const;  ///< parts of each model chosen again beside the others
   FittedSet pruned(FittedSet set) const;
   bool negativeCompliance(const FittedSet& set, const std::vector<Eigen::Index>& indices) const;
-  bool isGiven(std::size_t model) const;
 
   const std::vector<effects::EffectModel>& models_;
   const GapLayout& layout_;

@@ -200,7 +200,8 @@ SpikedDay::Field SpikedDay::fieldOf(const Spike& spike, double size) const {
   const effects::EffectModel& model = input_.models[spike.model];
   effects::LinearizationPoint at = start_.state.at;
   Eigen::VectorXd own = parameters;
-  if (model.settle != nullptr) model.settle(at, own);
+  constexpr int kRounds = 50;  // a stiffness that drops settles in steps
+  for (int round = 0; round < kRounds && model.settle != nullptr; ++round) model.settle(at, own);
   return [&model, at, own](const effects::PostureStates& posture, std::size_t s) -> Eigen::VectorXd {
     return model.columns(at, posture, s) * own;
   };

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/diagnosis/confounding.h"
+#include "core/diagnosis/localization.h"
 #include "core/preparation/standing_motion.h"
 
 namespace stiffscope::diagnosis {
@@ -192,15 +193,11 @@ class Decider {
 
   /// Unloaded positions that scatter beyond what noise and the repeatability of an arm put there.
   void nameUnknownPositions() {
-    const Gap& gap = from_.positions;
-    const double left = std::sqrt(std::max(0.0, gap.after * gap.after - gap.noise * gap.noise));
-    const double removed = std::sqrt(std::max(0.0, gap.before * gap.before - gap.after * gap.after));
-    constexpr double kStates = 2.0, kShareOfRemoved = 0.1;
-    const double limit = std::max(kStates * from_.fit.data->state_noise, kShareOfRemoved * removed);
-    if (left <= limit) return;
+    const PositionsLeft positions = positionsLeft(from_.fit, from_.positions);
+    if (!positions.beyondLimit()) return;
     unknown_positions_ = true;
     nameUnknownOnce();
-    besides_.emplace_back(RemarkId::positions_not_explained, left, limit);
+    besides_.emplace_back(RemarkId::positions_not_explained, positions.left, positions.limit);
   }
 
   /// A name must leave what looks like noise. Where something significant stays that no effect explains, an effect

@@ -26,11 +26,13 @@ JointAngles backlashAngles(const LinearizationPoint& at, const PostureStates& po
   return result;
 }
 
-void settle(LinearizationPoint& at, Eigen::VectorXd& own) {
+void settleWidth(LinearizationPoint& at, Eigen::VectorXd& own) {
   const Eigen::Index joints = at.compliance.size();  // then the step of the width
   at.play = own.head(joints);
-  constexpr double kStride = 1.0, kSharpest = 1e-3, kWidest = 1.0;
+  constexpr double kStride = 1.0, kSharpest = 1e-3;
+  constexpr double kWidest = 0.25;  // beyond, it is no passage but a spring that hardens
   at.passage = std::clamp(at.passage * std::exp(std::clamp(own[joints], -kStride, kStride)), kSharpest, kWidest);
+  if (at.play.isZero(0.0)) at.passage = LinearizationPoint().passage;
   own[joints] = 0.0;
 }
 
@@ -45,7 +47,7 @@ std::vector<EffectModel> backlashModels(const ModelScope& scope) {
   EffectModel model{.parts = jointParts(scope, 20e-3, true, "rad"),
                     .most_parts = static_cast<std::size_t>(scope.joints) + 1,
                     .angles = &backlashAngles,
-                    .settle = &settle,
+                    .settle = &settleWidth,
                     .shapeAt = &passageAt};
   constexpr double kMost = 1.0;  // a stride: what a posture left out would say of it is not to be guessed from far
   model.parts.push_back({.detail = "width of the passage",

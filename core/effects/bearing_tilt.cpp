@@ -7,9 +7,9 @@ namespace stiffscope::effects {
 // A joint also gives about the two directions across its axis (moment compliance of its main bearing, alike
 // in both): rotation s (M - z (z.M)) about the joint origin, M what the joint carries there (own weight and
 // load), z the axis; of joints' own axes, not of those that only follow. s in rad/Nm, never negative; at most 1e-5, a
-// bearing a hundred times softer than a light industrial arm's, or what the arm gives as a whole if that is more: the
-// small gears of soft arms have bearings of 2e-5. Source: bearing catalogues (moment rigidity of crossed-roller and
-// angular bearings).
+// bearing a hundred times softer than a light industrial arm's, or twenty times what the arm gives as a whole if that
+// is more: of soft arms the wrist's joints give ten times as much as those that carry the arm, and their bearings may
+// as well. Source: bearing catalogues (moment rigidity of crossed-roller and angular bearings).
 
 namespace {
 
@@ -26,7 +26,7 @@ std::vector<BodyTwist> bearingTiltTwists(const LinearizationPoint&, const Postur
 }
 
 std::vector<EffectModel> bearingTiltModels(const ModelScope& scope) {
-  return {{.parts = jointParts(scope, std::max(1e-5, scope.compliance), true, "rad/Nm"),
+  return {{.parts = jointParts(scope, std::max(1e-5, 20.0 * scope.compliance), true, "rad/Nm"),
            .most_parts = static_cast<std::size_t>(scope.joints),
            .twists = &bearingTiltTwists}};
 }

@@ -140,7 +140,8 @@ struct EffectModel {
   /// Its twists are those of the tool beyond the flange: the arm itself stays where it is.
   bool beyond_flange = false;
   /// Where its equations bend with their own parameters: moves the working point to these, and leaves in
-  /// `own` those that are sizes of the effect (not shapes). Null: they do not bend.
+  /// `own` those that are sizes of the effect (not shapes); to none of the effect where all are zero. Models with the
+  /// same function bend by the same numbers of the working point. Null: they do not bend.
   void (*settle)(LinearizationPoint& at, Eigen::VectorXd& own) = nullptr;
   /// What the working point has of the part that is a shape. Null: no part is.
   double (*shapeAt)(const LinearizationPoint& at) = nullptr;

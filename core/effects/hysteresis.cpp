@@ -107,11 +107,11 @@ void frictionFrom(LinearizationPoint& at, const Eigen::VectorXd& own) {
     at.friction[j] = at.compliance[j] > 0.0 ? own[j] / at.compliance[j] : 0.0;
 }
 
-void settleRigid(LinearizationPoint& at, Eigen::VectorXd& own) { frictionFrom(at, own); }
-
-void settleSoft(LinearizationPoint& at, Eigen::VectorXd& own) {
+void settleFriction(LinearizationPoint& at, Eigen::VectorXd& own) {
   frictionFrom(at, own);
   const Eigen::Index last = at.compliance.size();
+  if (at.friction.isZero(0.0)) at.sticking = LinearizationPoint().sticking;
+  if (own.size() == last) return;  // a rigid grip
   constexpr double kStride = 1.0, kSoftest = 0.05, kFirmest = 20.0;
   at.sticking = std::clamp(at.sticking * std::exp(std::clamp(own[last], -kStride, kStride)), kSoftest, kFirmest);
   own[last] = 0.0;
@@ -124,7 +124,7 @@ EffectModel softModel(const ModelScope& scope, const char* shape, decltype(Effec
                     .parts = jointParts(scope, 20e-3, true, "rad"),
                     .most_parts = static_cast<std::size_t>(scope.joints) + 1,
                     .angles = angles,
-                    .settle = &settleSoft,
+                    .settle = &settleFriction,
                     .shapeAt = &firmnessAt};
   constexpr double kMost = 5.0;
   model.parts.push_back({.detail = "firmness of the grip",
@@ -145,7 +145,7 @@ std::vector<EffectModel> hysteresisModels(const ModelScope& scope) {
            .parts = jointParts(scope, 20e-3, true, "rad"),
            .most_parts = static_cast<std::size_t>(scope.joints),
            .angles = &rigidGrip,
-           .settle = &settleRigid},
+           .settle = &settleFriction},
           softModel(scope, "a slider held by a spring", &softGrip<1>),
           softModel(scope, "many sliders held by springs", &softGrip<8>)};
 }

@@ -55,14 +55,24 @@ JointAngles squareWhole(const LinearizationPoint& at, const PostureStates& postu
   return JointAngles((-torque * torque.abs() / by).matrix().asDiagonal());
 }
 
-/// a_j = h_j / c_j.
-JointVector overCompliance(const LinearizationPoint& at, const Eigen::VectorXd& own) {
-  return (at.compliance.array() > 0.0).select(own.array() / at.compliance.array(), 0.0);
+/// Brings a_j towards h_j / c_j. A stiffness that drops (a < 0) makes the column the larger the
+/// further it drops, and h_j is found the smaller: whole steps would swing about a_j, of a strong drop ever wider.
+/// `torque`: |tau| or tau^2 where the joint's torque is largest.
+void settle(const JointArray& compliance, const JointArray& torque, const Eigen::VectorXd& own, JointVector& harder) {
+  for (Eigen::Index j = 0; j < harder.size(); ++j) {
+    const double found = compliance[j] > 0.0 ? own[j] / compliance[j] : 0.0;
+    const double drop = std::max(0.0, -found * torque[j]);
+    harder[j] += (found - harder[j]) / (1.0 + drop);
+  }
 }
 
-void settleSquare(LinearizationPoint& at, Eigen::VectorXd& own) { at.harder_by_square = overCompliance(at, own); }
+void settleSquare(LinearizationPoint& at, Eigen::VectorXd& own) {
+  settle(at.compliance.array(), at.largest_torque.array().square(), own, at.harder_by_square);
+}
 
-void settleSize(LinearizationPoint& at, Eigen::VectorXd& own) { at.harder_by_size = overCompliance(at, own); }
+void settleSize(LinearizationPoint& at, Eigen::VectorXd& own) {
+  settle(at.compliance.array(), at.largest_torque.array(), own, at.harder_by_size);
+}
 
 EffectModel bySquare(const ModelScope& scope, const char* shape, decltype(EffectModel::angles) angles) {
   return {.shape = shape,

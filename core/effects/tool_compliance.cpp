@@ -8,7 +8,7 @@ namespace stiffscope::effects {
 // the moment there, shift along them by the force, in flange axes. Either of the load and of what hangs on
 // the flange, or of the load alone, where the tool's weight does not go through the plate. The turn about
 // the last axis is that joint's own compliance where both axes agree. rad/Nm and m/N, never negative; turns of at most
-// 1e-4 rad/Nm, or ten times what the arm gives as a whole if that is more.
+// 1e-4 rad/Nm, or forty times what the arm gives as a whole if that is more.
 
 namespace {
 
@@ -31,7 +31,7 @@ std::vector<BodyTwist> byLoad(const LinearizationPoint&, const PostureStates& po
 }
 
 EffectModel modelOf(const char* shape, decltype(EffectModel::twists) twists, const ModelScope& scope) {
-  const double most_turn = std::max(1e-4, 10.0 * scope.compliance);
+  const double most_turn = std::max(1e-4, 40.0 * scope.compliance);
   EffectModel model{.shape = shape, .most_parts = 6, .twists = twists, .beyond_flange = true};
   for (const char* name : {"bending about x", "bending about y", "twist about z"})
     model.parts.push_back({.detail = name, .most = {most_turn}, .positive = true, .unit = "rad/Nm", .alike = 1});

@@ -105,15 +105,17 @@ EffectFit chosenEffects(const preparation::PreparedCampaign& prepared, const dia
 }
 
 /// Gap and shrink as the diagnosis states them, of the study's own fit, the selection repeated inside the shrink. What
-/// the nests put in is off the readings here and not there, so then the fit's own stand.
-void describeAsDiagnosed(diagnosis::GapStudy& study, EffectFit& chosen) {
-  if (chosen.free.empty() || !study.given.empty()) return;
+/// the nests put in is off the readings here and not there, so then the fit's own stand. Returns whether unloaded
+/// positions contradict the fit, so that they speak for no effect.
+bool describeAsDiagnosed(diagnosis::GapStudy& study, EffectFit& chosen) {
+  if (chosen.free.empty() || !study.given.empty()) return false;
   const diagnosis::GapFit& fit = study.fit;
   const diagnosis::GapFit& alone =
       study.alone.emplace(diagnosis::withoutEffects(*study.input, study.start->state, fit));
   const diagnosis::StiffnessesAlone before =
       diagnosis::stiffnessesAlone(*alone.data, std::vector<double>(alone.data->postures.size(), 1.0), alone.projection);
-  chosen.gap = diagnosis::deflectionGap(alone, before, fit, diagnosis::allParameters(fit.nuisances, fit.set.effects));
+  const Eigen::VectorXd after = diagnosis::allParameters(fit.nuisances, fit.set.effects);
+  chosen.gap = diagnosis::deflectionGap(alone, before, fit, after);
   const diagnosis::DiagnoseOptions as_there;
   const diagnosis::HeldOutShrink held_out = diagnosis::heldOutShrinks(*study.input, alone, fit, study.allowed,
                                                                       {{true, {}}}, as_there.resamples, as_there.seed)
@@ -121,6 +123,7 @@ void describeAsDiagnosed(diagnosis::GapStudy& study, EffectFit& chosen) {
   study.held_out = {fit.rules.detect, as_there.resamples, as_there.seed, held_out};
   chosen.shrink = held_out.deflection;
   chosen.explained = held_out.explained;
+  return diagnosis::positionsLeft(fit, diagnosis::positionGap(alone, before, fit, after)).beyondLimit();
 }
 
 /// More than noise in the residual is said, whatever its size; that joints change as the day goes on, or as a load
@@ -205,10 +208,11 @@ ExtendedModel supportedModel(const preparation::PreparedCampaign& prepared, cons
     return extendModel(campaign, std::move(none), options);
   }
   EffectFit chosen = chosenEffects(spread ? *spread : prepared, study);
-  describeAsDiagnosed(study, chosen);
+  const bool positions_refuted = describeAsDiagnosed(study, chosen);
   if (followed == Followed::by_nothing) study.keepStates();
-  // Chosen anew on the other postures, what they choose makes those left out worse: it is not this machine's.
-  if (!chosen.free.empty() && chosen.shrink.value <= 0.0) {
+  // Chosen anew on the other postures, what they choose makes those left out worse: it is not this machine's. Nor is
+  // what the deflections hardly show, where the positions that do show it contradict the model beyond that.
+  if (!chosen.free.empty() && (chosen.shrink.value <= 0.0 || (positions_refuted && chosen.shrink.low <= 0.0))) {
     chosen = {};
     chosen.notes.emplace_back(RemarkId::effects_do_not_help);
   }

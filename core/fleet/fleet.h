@@ -124,7 +124,8 @@ struct FleetCampaign {
   std::string machine, date;             ///< whose and when, even where there is no result
   std::optional<CampaignResult> result;  ///< empty: `failure` says why
   std::string failure;
-  std::string report;  ///< its own, relative to the fleet's page; empty: none
+  std::string report;          ///< its own, relative to the fleet's page; empty: none
+  std::string report_failure;  ///< why one that was asked for is not there, of a campaign with a result
 };
 
 /// Whose a campaign is: `robot_serial`, else `item`, else the name of the folder that holds the campaign's.

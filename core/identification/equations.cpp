@@ -11,6 +11,7 @@
 #include "core/robot/kinematics.h"
 #include "core/robot/wrench.h"
 #include "metrology/linear_algebra.h"
+#include "metrology/registration.h"
 #include "metrology/trilateration.h"
 
 namespace stiffscope::identification {
@@ -193,6 +194,8 @@ std::optional<WristMove> wristMove(const LoadCase& load_case, const std::vector<
   const auto three = largestTriangle(load_case, radii);
   if (!three) return std::nullopt;
   const auto& [a, b, c] = *three;
+  // Of reflectors on one line the readings' noise would place the centre on a circle about it.
+  if (metrology::nearlyOnOneLine({a->unloaded, b->unloaded, c->unloaded})) return std::nullopt;
   const std::array<double, 3> known{radii[static_cast<std::size_t>(a->target)],
                                     radii[static_cast<std::size_t>(b->target)],
                                     radii[static_cast<std::size_t>(c->target)]};

@@ -56,7 +56,8 @@ LoadReadings::LoadReadings(const campaign::Campaign& campaign, std::vector<int> 
     : steps_(std::move(steps)),
       poses_(campaign.pose_ids.size()),
       targets_(campaign.targets.size()),
-      states_((steps_.size() + 1) * poses_, nullptr) {
+      states_((steps_.size() + 1) * poses_, nullptr),
+      largest_force_(poses_, 0.0) {
   const auto asked = [&](int step) { return slot(step) <= steps_.size(); };
   const auto add = [&](const auto& row, const Eigen::Vector3d& value, std::vector<ReadingSum>& table) -> ReadingSum* {
     if (!asked(row.step)) return nullptr;
@@ -70,7 +71,11 @@ LoadReadings::LoadReadings(const campaign::Campaign& campaign, std::vector<int> 
     if (!campaign.states) return;
     for (const campaign::State& state : campaign.states->rows) {
       if (asked(state.step)) states_[at(static_cast<std::size_t>(state.pose), state.step)] = &state;
+      double& largest = largest_force_[static_cast<std::size_t>(state.pose)];
+      if (state.step != 0) largest = std::max(largest, state.wrench_in_cell.head<3>().norm());
     }
+    loaded_ = loadedSteps(campaign);
+    std::erase_if(loaded_, [&](int step) { return !asked(step); });
   };
   const auto gatherReadings = [&] {
     if (campaign.loading) {
@@ -87,6 +92,12 @@ LoadReadings::LoadReadings(const campaign::Campaign& campaign, std::vector<int> 
   };
   numerics::onAllCores(
       2, [&](std::size_t i) { i == 0 ? gatherStates() : gatherReadings(); }, poses_ >= numerics::kWorthThreads);
+}
+
+bool LoadReadings::backAtZero(std::size_t pose, int step) const {
+  const campaign::State* const own = state(pose, step);
+  return own != nullptr && std::find(loaded_.begin(), loaded_.end(), step) != loaded_.end() &&
+         own->wrench_in_cell.head<3>().norm() < campaign::kReturnShare * largestForce(pose);
 }
 
 std::size_t LoadReadings::slot(int step) const {
@@ -379,8 +390,14 @@ std::vector<LoadCase> loadCases(const campaign::Campaign& campaign, const LoadRe
   if (!maker.any()) return cases;
   cases.resize(readings.poses());
   std::vector<Remark> lacking(cases.size());
-  numerics::smallWorkOnAllCores(cases.size(),
-                                [&](std::size_t pose) { lacking[pose] = maker.fill(pose, step, cases[pose]); });
+  numerics::smallWorkOnAllCores(cases.size(), [&](std::size_t pose) {
+    if (readings.backAtZero(pose, step)) {
+      lacking[pose] = Remark(RemarkId::back_at_zero, readings.state(pose, step)->wrench_in_cell.head<3>().norm(),
+                             readings.largestForce(pose));
+    } else {
+      lacking[pose] = maker.fill(pose, step, cases[pose]);
+    }
+  });
   std::size_t kept = 0;
   for (std::size_t pose = 0; pose < cases.size(); ++pose) {
     if (lacking[pose].empty()) {

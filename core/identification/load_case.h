@@ -46,6 +46,11 @@ class LoadReadings {
 
   /// Of one of the steps, or of 0; null where the posture has none.
   const campaign::State* state(std::size_t pose, int step) const { return states_[at(pose, step)]; }
+  /// The posture's largest force in any step, N.
+  double largestForce(std::size_t pose) const { return largest_force_[pose]; }
+  /// Whether the posture is back at zero in that step while the campaign's other postures are loaded in it: fewer loads
+  /// put its return under the number of a load.
+  bool backAtZero(std::size_t pose, int step) const;
   /// Of `loading` in that state, by target; empty without the table.
   std::span<const ReadingSum> points(std::size_t pose, int step) const { return of(points_, pose, step); }
   /// Of `displacements` to that step, by target; empty without the table.
@@ -60,6 +65,8 @@ class LoadReadings {
   std::vector<int> steps_;
   std::size_t poses_, targets_;
   std::vector<const campaign::State*> states_;    // by slot, then pose
+  std::vector<int> loaded_;                       // those of the steps in which the campaign is loaded
+  std::vector<double> largest_force_;             // by pose
   std::vector<ReadingSum> points_, differences_;  // by slot, then pose, then target
 };
 
@@ -157,8 +164,8 @@ class LoadCaseMaker {
 };
 
 /// The load cases of one of the readings' steps, a posture each, in the order of the campaign's poses. A
-/// posture without that step, without an unloaded state or without a common reflector has none, and is named
-/// in `left_out`.
+/// posture without that step, without an unloaded state or without a common reflector has none, nor has one that is
+/// back at zero there (LoadReadings::backAtZero); it is named in `left_out`.
 std::vector<LoadCase> loadCases(const campaign::Campaign& campaign, const LoadReadings& readings,
                                 const frames::LoadingGeometry& geometry, int step,
                                 std::vector<LeftOutPosture>* left_out = nullptr);

@@ -3,10 +3,12 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/identification/estimate.h"
 #include "core/identification/remarks.h"
 #include "core/numerics/parallel.h"
+#include "core/numerics/resampling.h"
 #include "metrology/tail_probability.h"
 
 namespace stiffscope::identification {
@@ -15,6 +17,7 @@ namespace {
 
 constexpr double kLevel = 0.001;
 constexpr std::size_t kFewest = 5;
+constexpr double kMostHidden = 0.25;  // of the postures: where more disagree at once, it is not they that are wrong
 
 /// One posture in a fit of all.
 struct Posture {
@@ -175,24 +178,175 @@ OutlyingPosture worstOf(const std::vector<Posture>& postures, const robot::Joint
   }
   return most;
 }
+/// The fit to postures that are not suspected, by which others are judged: as judge and pValue do for one that is left
+/// out of all.
+class FitOfOthers {
+ public:
+  FitOfOthers(const std::vector<const CaseEquations*>& others, const robot::JointMask& unknown)
+      : unknown_(unknown), coordinates_(others.front()->right.size()) {
+    normal_ = numerics::sumInBlocks<NormalEquations>(
+        others.size(), [&](std::size_t p, NormalEquations& sum) { sum += normalEquations(*others[p]); });
+    compliance_ = solveNormal(normal_, unknown);
+    moments_.setZero(coordinates_, coordinates_);
+    for (const CaseEquations* one : others) {
+      const Eigen::VectorXd residual = one->right - one->matrix * compliance_;
+      const double count = static_cast<double>(residual.size());
+      squares_ += residual.squaredNorm();
+      rows_ += count;
+      largest_ = std::max(largest_, std::sqrt(residual.squaredNorm() / count));
+      if (residual.size() != coordinates_) coordinates_ = 0;
+      if (coordinates_ > 0) moments_ += residual * residual.transpose();
+    }
+    if (coordinates_ > 0) independent_ = std::max(1.0, satterthwaite(moments_));
+  }
+
+  /// Largest residual of a posture of the fit, per coordinate, m.
+  double largest() const { return largest_; }
+
+  /// `unknowns`: joints solved for. `postures`: how many are judged, all together.
+  OutlyingPosture judged(const CaseEquations& own, double unknowns, double postures) const {
+    const Eigen::VectorXd deleted = own.right - own.matrix * compliance_;
+    NormalEquations with = normalEquations(own);
+    with.matrix += normal_.matrix;
+    with.right = own.matrix.transpose() * deleted;
+    const double count = static_cast<double>(deleted.size()), left = rows_ - unknowns;
+    OutlyingPosture one;
+    one.posture = own.posture;
+    one.rms = std::sqrt(deleted.squaredNorm() / count);
+    one.others = std::sqrt(squares_ / rows_);
+    if (!(left > 0.0) || !(squares_ > 0.0)) return one;
+    one.f = deleted.dot(deleted - own.matrix * solveNormal(with, unknown_)) / count / (squares_ / left);
+    const double per_posture = deleted.size() == coordinates_ ? independent_ : 1.0;
+    const double tail =
+        metrology::fTail(one.f, std::max(1, static_cast<int>(per_posture)), std::max(1.0, per_posture * left / count));
+    one.p_value = std::min(1.0, tail * postures);
+    return one;
+  }
+
+ private:
+  robot::JointMask unknown_;
+  NormalEquations normal_;
+  JointVector compliance_;
+  Eigen::MatrixXd moments_;       ///< of the residuals
+  Eigen::Index coordinates_ = 0;  ///< of each posture; 0 where they differ
+  double squares_ = 0.0, rows_ = 0.0, largest_ = 0.0, independent_ = 1.0;
+};
+
+/// The worst is taken away first and the rest judged again; `rest` is left with the others.
+std::vector<OutlyingPosture> oneByOne(std::vector<const CaseEquations*>& rest, const robot::JointMask& unknown,
+                                      double unknowns) {
+  std::vector<OutlyingPosture> found;
+  const std::size_t all = rest.size();
+  while (rest.size() >= kFewest && 2 * rest.size() > all) {
+    std::size_t worst = 0;
+    const OutlyingPosture most = worstOf(fitAll(rest, unknown), unknown, unknowns, worst);
+    if (most.p_value >= kLevel) break;
+    found.push_back(most);
+    rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(worst));
+  }
+  return found;
+}
+
+/// By posture, its residual per coordinate against a fit that several wrong postures do not pull to themselves: first
+/// least sums of residuals instead of squares, which has one solution, then Cauchy weights, which leave those far off
+/// none. The scale is the median of the postures.
+std::vector<double> robustResiduals(const std::vector<const CaseEquations*>& equations,
+                                    const robot::JointMask& unknown) {
+  struct Parts {
+    NormalEquations normal;
+    double squares = 0.0, rows = 0.0;
+
+    double residual(const JointVector& c) const {
+      const double left = squares - 2.0 * c.dot(normal.right) + c.dot(normal.matrix * c);
+      return std::sqrt(std::max(0.0, left) / rows);
+    }
+  };
+  std::vector<Parts> postures(equations.size());
+  numerics::smallWorkOnAllCores(equations.size(), [&](std::size_t p) {
+    postures[p] = {normalEquations(*equations[p]), equations[p]->right.squaredNorm(),
+                   static_cast<double>(equations[p]->right.size())};
+  });
+  std::vector<double> residuals(equations.size(), 0.0), weights(equations.size(), 1.0);
+  constexpr int kRounds = 30;  // of each kind
+  bool of_sums = true;
+  for (int round = 0; round < 2 * kRounds; ++round) {
+    NormalEquations sum(static_cast<Eigen::Index>(unknown.size()));
+    for (std::size_t p = 0; p < postures.size(); ++p) {
+      sum.matrix += weights[p] * postures[p].normal.matrix;
+      sum.right += weights[p] * postures[p].normal.right;
+    }
+    const JointVector compliance = solveNormal(sum, unknown);
+    double change = 0.0;
+    for (std::size_t p = 0; p < postures.size(); ++p) {
+      const double before = residuals[p];
+      residuals[p] = postures[p].residual(compliance);
+      change = std::max(change, std::abs(residuals[p] - before));
+    }
+    const double scale = numerics::upperMedian(residuals);
+    constexpr double kLeast = 0.1, kSettled = 0.01;  // of the scale: nearer, a posture is met
+    if (!(scale > 0.0) || (!of_sums && change < kSettled * scale)) break;
+    of_sums = of_sums && change >= kSettled * scale && round < kRounds;
+    for (std::size_t p = 0; p < postures.size(); ++p) {
+      const double apart = residuals[p] / scale;
+      weights[p] = of_sums ? 1.0 / std::max(kLeast, apart) : 1.0 / (1.0 + apart * apart);
+    }
+  }
+  return residuals;
+}
+
+/// Those that the others hide from the one by one, all at once: suspected are those far from a robust fit, and each is
+/// judged by the fit of those that are not. One that does not disagree with these joins them, and the rest are judged
+/// again. `found` are those that were found one by one, judged with the others. Empty where nothing was hidden, and
+/// where it does not stand apart: what the model lacks puts postures at all distances.
+std::vector<OutlyingPosture> allAtOnce(const std::vector<const CaseEquations*>& equations,
+                                       const std::vector<OutlyingPosture>& found, const robot::JointMask& unknown,
+                                       double unknowns) {
+  constexpr double kFar = 2.5;  // times the median
+  const std::vector<double> residuals = robustResiduals(equations, unknown);
+  const double far = kFar * numerics::upperMedian(residuals);
+  std::vector<const CaseEquations*> suspected, others;
+  for (std::size_t p = 0; p < equations.size(); ++p) {
+    const bool known = std::any_of(found.begin(), found.end(),
+                                   [&](const OutlyingPosture& one) { return one.posture == equations[p]->posture; });
+    (known || residuals[p] > far ? suspected : others).push_back(equations[p]);
+  }
+  while (suspected.size() > found.size() && others.size() >= kFewest && 2 * others.size() > equations.size()) {
+    const FitOfOthers fit(others, unknown);
+    std::vector<OutlyingPosture> all;
+    std::vector<const CaseEquations*> still;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const CaseEquations* one : suspected) {
+      all.push_back(fit.judged(*one, unknowns, static_cast<double>(equations.size())));
+      nearest = std::min(nearest, all.back().rms);
+      (all.back().p_value < kLevel ? still : others).push_back(one);
+    }
+    if (still.size() < suspected.size()) {
+      suspected = std::move(still);
+      continue;
+    }
+    constexpr double kApart = 3.0;
+    if (nearest < kApart * fit.largest() ||
+        static_cast<double>(all.size()) > kMostHidden * static_cast<double>(equations.size()))
+      return {};
+    std::stable_sort(all.begin(), all.end(),
+                     [](const OutlyingPosture& a, const OutlyingPosture& b) { return a.f > b.f; });
+    return all;
+  }
+  return {};
+}
 
 }  // namespace
 
 std::vector<OutlyingPosture> outlyingPostures(const std::vector<CaseEquations>& equations,
                                               const robot::JointMask& unknown) {
-  std::vector<OutlyingPosture> found;
-  std::vector<const CaseEquations*> postures;
-  for (const CaseEquations& one : equations) postures.push_back(&one);
+  std::vector<const CaseEquations*> all;
+  for (const CaseEquations& one : equations) all.push_back(&one);
   const auto unknowns = static_cast<double>(std::count(unknown.begin(), unknown.end(), true));
-  if (unknowns == 0.0) return found;
-  while (postures.size() >= kFewest && 2 * postures.size() > equations.size()) {
-    std::size_t worst = 0;
-    const OutlyingPosture most = worstOf(fitAll(postures, unknown), unknown, unknowns, worst);
-    if (most.p_value >= kLevel) break;
-    found.push_back(most);
-    postures.erase(postures.begin() + static_cast<std::ptrdiff_t>(worst));
-  }
-  return found;
+  if (unknowns == 0.0 || all.size() < kFewest) return {};
+  std::vector<const CaseEquations*> rest = all;
+  const std::vector<OutlyingPosture> found = oneByOne(rest, unknown, unknowns);
+  const std::vector<OutlyingPosture> hidden = allAtOnce(all, found, unknown, unknowns);
+  return hidden.empty() ? found : hidden;
 }
 
 namespace {

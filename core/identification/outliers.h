@@ -20,9 +20,11 @@ struct OutlyingPosture {
 /// Leave-one-posture-out: Q_p = e^T (I - H_p) e, e = b_p - A_p c(without p), against the mean of the others' Q in the
 /// fit without p, an F ratio. Coordinates of a posture are not independent (a wrench error moves all of them), so a Q
 /// counts for tr(S)^2 / tr(S^2) degrees of freedom only, S the residuals' second moments over the postures. The worst
-/// is taken away first and the rest judged again, down to half of the postures. `unknown`: joints solved for.
-/// Equations: one a posture, positions. Empty with fewer than five postures. A posture counts as outlying at 0.1 %, all
-/// postures together.
+/// is taken away first and the rest judged again, down to half of the postures. Several that err alike hide each other
+/// from that: those far from a robust fit are then judged by the fit to the rest without them, and named where they, up
+/// to a quarter of the postures, are three times as far off as any other. `unknown`: joints solved for. Equations: one
+/// a posture, positions. Empty with fewer than five postures. A posture counts as outlying at 0.1 %, all postures
+/// together.
 std::vector<OutlyingPosture> outlyingPostures(const std::vector<CaseEquations>& equations,
                                               const robot::JointMask& unknown);
 

@@ -34,6 +34,7 @@ enum class RemarkId {
   // why a posture is left out
   no_state_of_step,
   no_reflector_in_both_states,
+  back_at_zero,  ///< force N, the posture's largest N
   under_three_reflectors,
   no_wrist_point,
   disagrees,  ///< left per coordinate rms m, times that of the other postures

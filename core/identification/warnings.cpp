@@ -55,16 +55,21 @@ void addSweepWarnings(const frames::Frames& frames, std::vector<Remark>& caution
 
 }  // namespace
 
-Remark outlyingWarning(const campaign::Campaign& campaign, const Identification& result) {
-  if (result.outlying.empty()) return {};
+Remark outlyingWarning(const campaign::Campaign& campaign, const std::vector<OutlyingPosture>& outlying,
+                       bool left_out) {
+  if (outlying.empty()) return {};
   std::vector<std::string> postures;
   std::vector<double> left, others;
-  for (const OutlyingPosture& one : result.outlying) {
+  for (const OutlyingPosture& one : outlying) {
     postures.push_back(campaign.pose_ids[static_cast<std::size_t>(one.posture)]);
     left.push_back(one.rms);
     others.push_back(one.others);
   }
-  return Remark(RemarkId::outlying_postures, postures, left, others, result.robust);
+  return Remark(RemarkId::outlying_postures, postures, left, others, left_out);
+}
+
+Remark outlyingWarning(const campaign::Campaign& campaign, const Identification& result) {
+  return outlyingWarning(campaign, result.outlying, result.robust);
 }
 
 std::vector<Remark> warningsOf(const campaign::Campaign& campaign, const Identification& result) {

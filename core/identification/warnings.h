@@ -45,6 +45,7 @@ inline constexpr double kMissedGeometry = 0.020;
 std::vector<Remark> warningsOf(const campaign::Campaign& campaign, const Identification& result);
 
 /// The postures that disagree with the rest, whether they are left out or not; empty where there are none.
+Remark outlyingWarning(const campaign::Campaign& campaign, const std::vector<OutlyingPosture>& outlying, bool left_out);
 Remark outlyingWarning(const campaign::Campaign& campaign, const Identification& result);
 
 /// Whether some available method has a joint with a positive stiffness.

@@ -87,7 +87,22 @@ std::string DayNames::nestOf(const PointsSource& source, const PointReading& poi
   return kept ? name : std::string();
 }
 
-void DayNames::requireEqualOccurrences(std::size_t source_index, const PointFile& points) const {
+std::vector<DayReading> DayNames::lostReadings(std::size_t source, const PointFile& points) const {
+  std::vector<DayReading> lost;
+  for (const PointReading& point : points.lost) {
+    if (const auto reading = readingOf(source, point)) lost.push_back(*reading);
+  }
+  return lost;
+}
+
+void DayNames::refuseNames(std::size_t source, const PointFile& points, const char* of) const {
+  throw io::InputError({day_.file, day_.points[source].line, "names"}, day_.points[source].file,
+                       fmt::format("expected readings of {}; none of its {} names is of one, the first is '{}'", of,
+                                   points.points.size(), points.points.empty() ? "" : points.points.front().name));
+}
+
+void DayNames::requireEqualOccurrences(std::size_t source_index, const PointFile& points,
+                                       OccurrencesByStep& before) const {
   const PointsSource& source = day_.points[source_index];
   const bool posed =
       !source.pose.empty() || source.names.has("pose") || source.names.has("index") ||
@@ -95,8 +110,12 @@ void DayNames::requireEqualOccurrences(std::size_t source_index, const PointFile
   if (posed || source.by == JoinBy::clock || source.role == Role::nests) return;
   using Name = std::tuple<std::string, std::string, std::string>;
   std::map<Name, const PointReading*> last;
+  std::map<std::pair<int, int>, const PointReading*> last_of_step;
   const auto count = [&](const PointReading& point) {
-    if (!readingOf(source_index, point)) return;
+    const auto reading = readingOf(source_index, point);
+    if (!reading) return;
+    const PointReading*& most_of_step = last_of_step[{reading->axis, reading->step}];
+    if (most_of_step == nullptr || point.occurrence > most_of_step->occurrence) most_of_step = &point;
     const PointReading*& most = last[Name{point.collection(), point.group(), point.name}];
     if (most == nullptr || point.occurrence > most->occurrence) most = &point;
   };
@@ -105,12 +124,21 @@ void DayNames::requireEqualOccurrences(std::size_t source_index, const PointFile
   const auto [least, most] = std::minmax_element(last.begin(), last.end(), [](const auto& a, const auto& b) {
     return a.second->occurrence < b.second->occurrence;
   });
-  if (last.empty() || least->second->occurrence == most->second->occurrence) return;
-  throw io::InputError(
-      {day_.pathOf(source.file), least->second->line, "name"}, least->second->name,
-      fmt::format("expected names that repeat once a pose; this one stands {} times, {} {} times: say the pose in "
-                  "the names, or join by the clock",
-                  least->second->occurrence, most->second->name, most->second->occurrence));
+  const std::string file = day_.pathOf(source.file);
+  constexpr const char* kOtherWays = ": say the pose in the names, or join by the clock";
+  if (!last.empty() && least->second->occurrence != most->second->occurrence)
+    throw io::InputError(
+        {file, least->second->line, "name"}, least->second->name,
+        fmt::format("expected names that repeat once a pose; this one stands {} times, {} {} times{}",
+                    least->second->occurrence, most->second->name, most->second->occurrence, kOtherWays));
+  for (const auto& [axis_and_step, point] : last_of_step) {
+    const auto [other, first] = before.emplace(axis_and_step, Occurrences{point->occurrence, file});
+    if (first || other->second.count == point->occurrence) continue;
+    throw io::InputError({file, point->line, "name"}, point->name,
+                         fmt::format("expected names that repeat once a pose; this one stands {} times, those of {} {} "
+                                     "times (a lost beam is a row of 0 0 0){}",
+                                     point->occurrence, other->second.file, other->second.count, kOtherWays));
+  }
 }
 
 }  // namespace stiffscope::interchange

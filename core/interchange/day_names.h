@@ -3,6 +3,8 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/interchange/day_files.h"
 #include "core/interchange/state_join.h"
@@ -23,9 +25,24 @@ class DayNames {
   /// Without `only` all names are nests that are no reflectors.
   std::string nestOf(const PointsSource& source, const PointReading& point) const;
 
-  /// Where names have no pose, their occurrence is the pose: throws InputError where the reflectors of a file were not
-  /// read equally often, so that an occurrence of one is another pose than that of another. Lost beams count.
-  void requireEqualOccurrences(std::size_t source, const PointFile& points) const;
+  /// The rows of lost beams whose names are of the role.
+  std::vector<DayReading> lostReadings(std::size_t source, const PointFile& points) const;
+
+  /// Of the files looked at, by axis and step: how often names occur, and in which file first.
+  struct Occurrences {
+    int count = 0;
+    std::string file;
+  };
+  using OccurrencesByStep = std::map<std::pair<int, int>, Occurrences>;
+
+  /// Where names have no pose, their occurrence is the pose: throws InputError where the reflectors of a file, or those
+  /// of files before it (`before`, to which it is added), were not read equally often, so that an occurrence of one is
+  /// another pose than that of another. Lost beams count.
+  void requireEqualOccurrences(std::size_t source, const PointFile& points, OccurrencesByStep& before) const;
+
+  /// A file of which nothing is of its role is another file, or its names are others: throws InputError. `of` is what
+  /// was expected.
+  [[noreturn]] void refuseNames(std::size_t source, const PointFile& points, const char* of) const;
 
  private:
   using Fields = std::map<std::string, std::string>;

@@ -27,10 +27,10 @@ MakerLines makerLines(Maker maker) {
           "clock"};
     case Maker::kuka:
       return {
-          "  <!-- KUKA turns axes 1, 4 and 6 against the ROS models of most of its arms, and its zero of axes 2 and 3 "
-          "is another:\n"
-          "       compare A1..A6 in one posture with the URDF, and state what differs -->\n"
-          "  <joint_reading joint=\"1\" sign=\"-1\"/>\n",
+          "  <!-- URDFs of KUKA's arms are of two kinds: with <axis xyz=\"0 0 -1\"/> joint 1 turns as A1 does, with\n"
+          "       0 0 1 the other way; axes 4 and 6 may as well, and the zero of axes 2 and 3 may be another. Compare\n"
+          "       A1..A6 in one posture with the URDF, and state what differs, for example\n"
+          "       <joint_reading joint=\"1\" sign=\"-1\"/> -->\n",
           "  <!-- taught axes of a .dat file, named P1, P2, ...: DECL E6AXIS XP1={A1 ...} -->\n"
           "  <log file=\"program.dat\" format=\"kuka_krl\" names=\"XP{pose}\"/>\n",
           "name"};

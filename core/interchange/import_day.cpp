@@ -86,14 +86,15 @@ class DayImport {
     return !before;
   }
 
-  std::vector<DayReading> readingsOf(Role role, JoinBy by, std::size_t log) {
+  std::vector<DayReading> readingsOf(Role role, JoinBy by, std::size_t log, std::vector<DayReading>& lost) {
     std::vector<DayReading> readings;
+    DayNames::OccurrencesByStep occurrences;
     for (std::size_t s = 0; s < day_.points.size(); ++s) {
       const PointsSource& source = day_.points[s];
       if (source.role != role || source.by != by || logOf(source) != log) continue;
       const std::size_t before = readings.size();
       readings.reserve(before + files_.points[s].content.points.size());
-      names_.requireEqualOccurrences(s, files_.points[s].content);
+      names_.requireEqualOccurrences(s, files_.points[s].content, occurrences);
       for (const PointReading& point : files_.points[s].content.points) {
         if (const auto reading = names_.readingOf(s, point)) {
           readings.push_back(*reading);
@@ -103,19 +104,15 @@ class DayImport {
         }
       }
       for (const SkippedRow& row : files_.points[s].content.skipped) skipped_.emplace_back(files_.points[s].file, row);
-      if (readings.size() == before) refuseNames(s, "the targets");
+      if (readings.size() == before) names_.refuseNames(s, files_.points[s].content, "the targets");
+      if (by == JoinBy::order) {
+        const std::vector<DayReading> own = names_.lostReadings(s, files_.points[s].content);
+        lost.insert(lost.end(), own.begin(), own.end());
+      }
       // Each file of points is read for one role: what it said is in the readings now.
       files_.points[s].content = {};
     }
     return readings;
-  }
-
-  /// A file of which nothing is of its role is another file, or its names are others.
-  [[noreturn]] void refuseNames(std::size_t source, const char* of) const {
-    const std::vector<PointReading>& points = files_.points[source].content.points;
-    throw io::InputError({day_.file, day_.points[source].line, "names"}, day_.points[source].file,
-                         fmt::format("expected readings of {}; none of its {} names is of one, the first is '{}'", of,
-                                     points.size(), points.empty() ? "" : points.front().name));
   }
 
   /// Of a day without any log.
@@ -155,12 +152,14 @@ class DayImport {
       if (source.role == role) joins.emplace(source.by, logOf(source));
     }
     for (const auto& [by, log] : joins) {
-      const std::vector<DayReading> readings = readingsOf(role, by, log);
+      std::vector<DayReading> lost;
+      const std::vector<DayReading> readings = readingsOf(role, by, log, lost);
       if (log == kNoLog) {
         addRows(role, log, joinNothing(readings), readings);
         continue;
       }
-      const JoinTask task = taskOf(log, role);
+      JoinTask task = taskOf(log, role);
+      task.lost = std::move(lost);
       const StateJoin join = by == JoinBy::name    ? joinByName(task, readings)
                              : by == JoinBy::order ? joinByOrder(task, readings)
                                                    : joinByClock(task, readings);
@@ -396,7 +395,7 @@ class DayImport {
         table.rows.push_back({point.time->seconds, nest->second, point.point, table.rows.size() + 2});
         result_.rows["nests"].push_back({files_.points[s].file, point.line, point.line});
       }
-      if (table.rows.size() == before) refuseNames(s, "nests");
+      if (table.rows.size() == before) names_.refuseNames(s, files_.points[s].content, "nests");
     }
     if (result_.campaign.nests) keepNestsApart(result_.campaign.nests->rows, resolutions);
   }

@@ -44,8 +44,9 @@ struct JoinTask {
   const robot::Robot& robot;
   const LogSource& source;
   const RobotLog& log;
-  std::string file;           ///< the log's, for messages
-  Role role = Role::loading;  ///< of the readings; sweeps take the joints alone
+  std::string file;                   ///< the log's, for messages
+  Role role = Role::loading;          ///< of the readings; sweeps take the joints alone
+  std::vector<DayReading> lost = {};  ///< rows of lost beams, by file and line: they count where order says the posture
 };
 
 }  // namespace stiffscope::interchange

@@ -288,7 +288,7 @@ RobotLog readJointColumns(const LogText& text) {
     if (position)
       sample.tool_pose.position = {table.number(row, "px"), table.number(row, "py"), table.number(row, "pz")};
     if (turn) sample.tool_pose.rpy = {table.number(row, "pw"), table.number(row, "pp"), table.number(row, "pr")};
-    if (table.hasNumber("temperature")) sample.temperature_c = table.number(row, "temperature");
+    if (table.hasNumber("temperature")) sample.temperature_c = table.numberOrBlank(row, "temperature");
     if (wrench) sample.wrench = table.wrench(row);
     if (!motors.empty()) log.motor_side.push_back(anglesIn(table, row, "m", motors, text));
     if (!commands.empty()) log.commanded.push_back(anglesIn(table, row, "c", commands, text));

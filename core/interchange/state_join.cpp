@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "core/interchange/day_files.h"
+#include "core/interchange/state_order.h"
 #include "core/interchange/state_samples.h"
 #include "core/io/input_error.h"
 
@@ -48,7 +49,8 @@ std::string difference(const JoinTask& task, std::size_t a, std::size_t b) {
   if (differ(one.figures, other.figures)) return "joints";
   if (task.role != Role::loading) return {};
   if (takesWrench(task) && differ(one.wrench, other.wrench)) return "wrench";
-  if (one.temperature_c != other.temperature_c && !std::isnan(one.temperature_c)) return "temperature";
+  const bool no_temperature = std::isnan(one.temperature_c) && std::isnan(other.temperature_c);
+  if (one.temperature_c != other.temperature_c && !no_temperature) return "temperature";
   if (differ(one.tool_pose.position, other.tool_pose.position) || differ(one.tool_pose.rpy, other.tool_pose.rpy))
     return "pose of the tool";
   if (!log.motor_side.empty() && differ(log.motor_side[a], log.motor_side[b])) return "angles of the motors' side";
@@ -147,6 +149,16 @@ void requireSteady(const JoinTask& task, const std::vector<JoinedState>& states,
   for (const JoinedState& state : states) requireSteadyWrench(task, steadiness, state, hint);
 }
 
+bool wasNotRead(const JoinedState& state) { return state.readings.empty(); }
+
+/// Postures of lost beams alone have had their row of the log, and are none of the table.
+void leaveUnreadOut(StateJoin& join) {
+  for (const JoinedState& state : join.states) {
+    if (wasNotRead(state)) join.stretches.emplace_back(state.first, state.last);
+  }
+  std::erase_if(join.states, wasNotRead);
+}
+
 }  // namespace
 
 StateJoin joinByName(const JoinTask& task, const std::vector<DayReading>& readings) {
@@ -163,22 +175,26 @@ StateJoin joinByName(const JoinTask& task, const std::vector<DayReading>& readin
 }
 
 StateJoin joinByOrder(const JoinTask& task, const std::vector<DayReading>& readings) {
-  StateJoin join{statesInOrder(readings), {}, {}, std::nullopt};
+  StateJoin join{statesInKnownOrder(task, readings), {}, {}, std::nullopt};
   const std::size_t samples = task.log.samples.size(), wanted = join.states.size();
   if (samples == wanted) {
     for (std::size_t i = 0; i < wanted; ++i) setSamples(join.states[i], task.log, i, i);
+    leaveUnreadOut(join);
     return join;
   }
   std::vector<Standstill> standstills;
   if (isTimed(task.log)) standstills = standstillsOf(task.log.samples, task.day.clock.standstill);
   if (standstills.size() != wanted) {
+    const auto unread = std::count_if(join.states.begin(), join.states.end(), wasNotRead);
     throw io::InputError(
         {task.file, 0, "by"}, "order",
-        fmt::format("expected as many postures in the log as were read, {}; it has {} rows{}", wanted, samples,
+        fmt::format("expected as many postures in the log as were read, {}{}; it has {} rows{}", wanted,
+                    unread > 0 ? fmt::format(", {} of them by lost beams alone", unread) : "", samples,
                     isTimed(task.log) ? fmt::format(" and {} standstills", standstills.size()) : ""));
   }
   for (std::size_t i = 0; i < wanted; ++i)
     setSamples(join.states[i], task.log, standstills[i].first, standstills[i].last);
+  leaveUnreadOut(join);
   requireSteady(task, join.states, "joined by the clock a state has what the cell read when its reflectors were");
   return join;
 }

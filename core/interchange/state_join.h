@@ -72,8 +72,9 @@ struct StateJoin {
 /// pose and step that differ, and for two steps that would share a wrench or an angle of the motor's side.
 StateJoin joinByName(const JoinTask& task, const std::vector<DayReading>& readings);
 
-/// Poses in the order in which they were first read, and the log's targets, or the standstills of a log by time, in
-/// theirs. Throws InputError where they are not as many, and where the wrench changes within a standstill.
+/// Poses in the order in which the robot came to them (statesInKnownOrder), and the log's targets, or the standstills
+/// of a log by time, in theirs. Throws InputError where that order cannot be known, where they are not as many, and
+/// where the wrench changes within a standstill.
 StateJoin joinByOrder(const JoinTask& task, const std::vector<DayReading>& readings);
 
 /// Poses by their names or occurrences, without joints: of a day that has no log.

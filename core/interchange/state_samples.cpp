@@ -127,6 +127,19 @@ JointVector meanOfGiven(const std::vector<JointVector>& angles, std::size_t firs
   return mean;
 }
 
+/// Of the samples that have one; where all are equal, that value to the last digit.
+double meanTemperature(const std::vector<JointSample>& samples, std::size_t first, std::size_t last) {
+  double start = campaign::kNotGiven, sum = 0.0;
+  std::size_t given = 0;
+  for (std::size_t i = first; i <= last; ++i) {
+    const double temperature = samples[i].temperature_c;
+    if (std::isnan(temperature)) continue;
+    if (given++ == 0) start = temperature;
+    sum += temperature - start;
+  }
+  return given == 0 ? start : start + sum / static_cast<double>(given);
+}
+
 }  // namespace
 
 StateMeans meansOf(const RobotLog& log, std::size_t first, std::size_t last) {
@@ -134,12 +147,8 @@ StateMeans meansOf(const RobotLog& log, std::size_t first, std::size_t last) {
   const double count = static_cast<double>(last - first + 1);
   // By the differences from the first: where all are equal the mean is that value to the last digit.
   Vector6d wrench = Vector6d::Zero();
-  double temperature = 0.0;
-  for (std::size_t i = first; i <= last; ++i) {
-    wrench += samples[i].wrench - samples[first].wrench;
-    temperature += samples[i].temperature_c - samples[first].temperature_c;
-  }
-  return {samples[first].wrench + wrench / count, samples[first].temperature_c + temperature / count,
+  for (std::size_t i = first; i <= last; ++i) wrench += samples[i].wrench - samples[first].wrench;
+  return {samples[first].wrench + wrench / count, meanTemperature(samples, first, last),
           meanToolPose(samples, first, last), meanOfGiven(log.motor_side, first, last),
           meanOfGiven(log.commanded, first, last)};
 }

@@ -10,9 +10,9 @@
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
+#include <map>
 #include <mutex>
 #include <numeric>
-#include <set>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -39,7 +39,8 @@ namespace {
 
 struct FilesRead {
   std::mutex mutex;
-  std::set<std::pair<std::uint64_t, std::uint64_t>> ids;  ///< device and inode
+  std::uint64_t readings = 0;                                             ///< so far
+  std::map<std::pair<std::uint64_t, std::uint64_t>, std::uint64_t> last;  ///< reading of a device and inode, from 1
 };
 
 FilesRead& filesRead() {
@@ -47,21 +48,33 @@ FilesRead& filesRead() {
   return files;
 }
 
+thread_local std::uint64_t readings_before_run = 0;
+
 }  // namespace
 
 void recordRead(const FileStamp& stamp) {
   FilesRead& files = filesRead();
   const std::lock_guard lock(files.mutex);
-  files.ids.emplace(stamp.device, stamp.inode);
+  files.last[{stamp.device, stamp.inode}] = ++files.readings;
 }
 
 void requireNotRead(const std::filesystem::path& path) {
   const auto stamp = stampOf(path);
   FilesRead& files = filesRead();
   const std::lock_guard lock(files.mutex);
-  if (!stamp || !files.ids.contains({stamp->device, stamp->inode})) return;
+  if (!stamp) return;
+  const auto read = files.last.find({stamp->device, stamp->inode});
+  if (read == files.last.end() || read->second <= readings_before_run) return;
   throw std::runtime_error(path.string() + ": not written: it is an input of this run; expected another file");
 }
+
+OneRun::OneRun() : readings_before_outer_(readings_before_run) {
+  FilesRead& files = filesRead();
+  const std::lock_guard lock(files.mutex);
+  readings_before_run = files.readings;
+}
+
+OneRun::~OneRun() { readings_before_run = readings_before_outer_; }
 
 #if defined(MADV_HUGEPAGE)
 

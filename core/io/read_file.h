@@ -31,8 +31,23 @@ std::optional<FileStamp> stampOf(const std::filesystem::path& path);
 /// cannot be had again: who writes a result asks first whether that would be over one of them.
 void recordRead(const FileStamp& stamp);
 
-/// Throws std::runtime_error where `path` was read.
+/// Throws std::runtime_error where `path` was read; while a OneRun of the calling thread stands, only where it was read
+/// since that began.
 void requireNotRead(const std::filesystem::path& path);
+
+/// While it stands, what its thread does is one run, whose inputs are what is read from now on, by whichever thread.
+/// For a process that computes again and again: what one call has read, a later one may write anew. A program that runs
+/// once needs none.
+class OneRun {
+ public:
+  OneRun();
+  ~OneRun();
+  OneRun(const OneRun&) = delete;
+  OneRun& operator=(const OneRun&) = delete;
+
+ private:
+  std::uint64_t readings_before_outer_;
+};
 
 /// Asks for large pages for memory that is about to be filled for the first time, where the system has them: each page
 /// of four kilobytes that is touched costs its attention, a quarter of the time that reading a million rows takes.

@@ -1,12 +1,14 @@
 #include "core/mistakes/load_search.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <utility>
 
+#include "core/identification/load_case.h"
 #include "core/io/units.h"
 #include "core/mistakes/arm_mistakes.h"
 #include "core/mistakes/remarks.h"
@@ -297,6 +299,56 @@ std::optional<std::pair<int, int>> posesOfEqualWrenches(const campaign::Campaign
     earlier.push_back(pose);
   }
   return std::nullopt;
+}
+
+namespace {
+
+/// Whether the reflectors of a posture stand apart in two of its loaded steps by more than a fifth of what they moved:
+/// one load leaves them where they were, but for friction.
+bool standApart(const identification::LoadReadings& readings, std::size_t pose, int a, int b) {
+  constexpr double kApart = 0.2;
+  double between = 0.0, moved = 0.0;
+  const auto add = [&](const Vector3d& by_a, const Vector3d& by_b) {
+    between += (by_b - by_a).squaredNorm();
+    moved += std::max(by_a.squaredNorm(), by_b.squaredNorm());
+  };
+  const auto at_rest = readings.points(pose, 0), at_a = readings.points(pose, a), at_b = readings.points(pose, b);
+  for (std::size_t k = 0; k < at_rest.size(); ++k) {
+    if (at_rest[k].readings > 0 && at_a[k].readings > 0 && at_b[k].readings > 0)
+      add(at_a[k].mean() - at_rest[k].mean(), at_b[k].mean() - at_rest[k].mean());
+  }
+  const auto by_a = readings.differences(pose, a), by_b = readings.differences(pose, b);
+  for (std::size_t k = 0; k < by_a.size(); ++k) {
+    if (by_a[k].readings > 0 && by_b[k].readings > 0) add(by_a[k].mean(), by_b[k].mean());
+  }
+  return between > kApart * kApart * moved;
+}
+
+}  // namespace
+
+std::optional<RepeatedSteps> stepsOfEqualWrenches(const campaign::Campaign& campaign) {
+  if (campaign.load_cell->axes_link) return std::nullopt;
+  std::map<int, std::vector<const campaign::State*>> postures;
+  for (const campaign::State& row : campaign.states->rows) {
+    if (row.step != 0 && (row.wrench_in_cell.array().abs() > 0.0).all()) postures[row.pose].push_back(&row);
+  }
+  std::map<std::pair<int, int>, std::vector<int>> alike;  // by the earlier and the later step
+  for (const auto& [pose, rows] : postures) {
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      for (std::size_t k = i + 1; k < rows.size(); ++k) {
+        if (rows[i]->wrench_in_cell == rows[k]->wrench_in_cell)
+          alike[std::minmax(rows[i]->step, rows[k]->step)].push_back(pose);
+      }
+    }
+  }
+  std::optional<RepeatedSteps> most;
+  for (auto& [steps, poses] : alike) {
+    const int own = steps.first, step = steps.second;
+    const identification::LoadReadings readings(campaign, {own, step});
+    std::erase_if(poses, [&](int pose) { return !standApart(readings, static_cast<std::size_t>(pose), own, step); });
+    if (!poses.empty() && (!most || poses.size() > most->poses.size())) most = RepeatedSteps{poses, step, own};
+  }
+  return most;
 }
 
 }  // namespace stiffscope::mistakes

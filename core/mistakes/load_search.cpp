@@ -52,7 +52,7 @@ class LoadSearcher {
     keepMending(trials);
     if (trials.empty()) {
       if (addTare()) return std::move(found_);
-      if (searchRepeatedWrenches()) return std::move(found_);
+      if (searchRepeatedWrenches() || searchRepeatedSteps()) return std::move(found_);
       trials = triedPoint();
       keepMending(trials);
     }
@@ -77,7 +77,14 @@ class LoadSearcher {
         return std::move(found_);
       }
     }
-    if (trials.empty()) return searchUnits(table), std::move(found_);
+    if (trials.empty()) {
+      found_.cures = unitsByScatter(campaign_, day_, loads_, found_.fit, table);
+      return std::move(found_);
+    }
+    // Of all states, and not of some: believed where it does as well.
+    if (std::any_of(trials.begin(), trials.end(), shiftsSteps) &&
+        searchExchangedSteps({}, kLoadsAsWell * trials.front().fit.left + 0.005))
+      return std::move(found_);
     report(trials);
     return std::move(found_);
   }
@@ -307,35 +314,55 @@ class LoadSearcher {
     }
   }
 
+  /// Share that the springs leave of a posture, none of one that is not among the loads.
+  double leftAt(int pose) const {
+    const auto at = std::find(loads_.poses().begin(), loads_.poses().end(), pose);
+    return at == loads_.poses().end() ? 0.0
+                                      : found_.fit.pose_left[static_cast<std::size_t>(at - loads_.poses().begin())];
+  }
+
   /// Wrenches of a posture that are those of another, in all steps.
   bool searchRepeatedWrenches() {
     const std::optional<std::pair<int, int>> poses = posesOfEqualWrenches(campaign_);
     if (!poses) return false;
     // The later of two is the one that was not updated, unless the springs say otherwise.
-    const auto left = [&](int of) {
-      const auto at = std::find(loads_.poses().begin(), loads_.poses().end(), of);
-      return at == loads_.poses().end() ? 0.0
-                                        : found_.fit.pose_left[static_cast<std::size_t>(at - loads_.poses().begin())];
-    };
     const auto [earlier, later] = *poses;
-    const bool of_later = left(later) >= left(earlier);
+    const bool of_later = leftAt(later) >= leftAt(earlier);
     const int stale = of_later ? later : earlier, own = of_later ? earlier : later;
     found_.cures.push_back({"row_order", whereOf(stale),
                             Remark(RemarkId::wrenches_repeated, nameOf(stale), nameOf(own)),
-                            Remark(RemarkId::loads_left, left(stale), left(own)), left(stale), left(own)});
+                            Remark(RemarkId::loads_left, leftAt(stale), leftAt(own)), leftAt(stale), leftAt(own)});
     return true;
   }
 
-  // Load steps: two exchanged, or one apart from the others.
+  // Load steps: of one the wrenches of another, two exchanged, or one apart from the others.
 
-  void searchExchangedSteps(std::optional<int> pose) {
+  bool searchRepeatedSteps() {
+    const std::optional<RepeatedSteps> repeated = stepsOfEqualWrenches(campaign_);
+    if (!repeated) return false;
+    std::vector<std::string> poses;
+    for (const int pose : repeated->poses) poses.push_back(nameOf(pose));
+    const double before = leftAt(repeated->poses.front()), others = numerics::upperMedian(found_.fit.pose_left);
+    found_.cures.push_back({"row_order", whereOf(repeated->poses.front()),
+                            Remark(RemarkId::steps_repeated, poses, repeated->step, repeated->own),
+                            Remark(RemarkId::loads_left, before, others), before, others});
+    return true;
+  }
+
+  /// Mends an exchange in part: one of the two wrenches where it belongs, and states at the end left out.
+  static bool shiftsSteps(const LoadTrial& trial) {
+    return trial.mistake.meant.row == WrenchRow::previous_step || trial.mistake.meant.row == WrenchRow::next_step;
+  }
+
+  /// `below`: what the exchange has to leave less than. Whether one does.
+  bool searchExchangedSteps(std::optional<int> pose, double below = INFINITY) {
     constexpr double kLeast = 0.3, kMends = 0.5;
     std::size_t at = 0;
     if (pose) {
       at = static_cast<std::size_t>(std::find(loads_.poses().begin(), loads_.poses().end(), *pose) -
                                     loads_.poses().begin());
     } else if (found_.fit.left < kLeast) {
-      return;
+      return false;
     }
     std::vector<int> steps{0};
     for (const LoadedReading& row : day_.loaded) {
@@ -343,10 +370,10 @@ class LoadSearcher {
     }
     const auto leftOf = [&](const SpringFit& fit) { return pose ? fit.pose_left[at] : fit.left; };
     const double before = leftOf(found_.fit);
-    double best = kMends * before;
+    double best = std::min(kMends * before, below);
     std::optional<Suspected> cure;
     constexpr std::size_t kMostSteps = 8;
-    if (steps.size() > kMostSteps) return;
+    if (steps.size() > kMostSteps) return false;
     for (std::size_t i = 0; i < steps.size(); ++i) {
       for (std::size_t k = i + 1; k < steps.size(); ++k) {
         const int a = std::min(steps[i], steps[k]), b = std::max(steps[i], steps[k]);
@@ -372,6 +399,7 @@ class LoadSearcher {
       }
     }
     if (cure) found_.cures.push_back(std::move(*cure));
+    return cure.has_value();
   }
 
   /// Displacements grow as the load does: a step whose load is written too large moves too little for it.
@@ -400,33 +428,6 @@ class LoadSearcher {
            Remark(RemarkId::step_scale_off, step, factor), Remark(RemarkId::loads_left, found_.fit.left, fit.left),
            found_.fit.left, fit.left});
       return;
-    }
-  }
-
-  // Units that leave the loads explained nearly as well: all in one other unit makes springs as much softer. The cell's
-  // unloaded scatter against what is declared shows them, and the own weight's sag by these springs.
-
-  void searchUnits(const std::vector<LoadMistake>& table) {
-    const CellScatter scatter = unloadedScatter(campaign_);
-    if (scatter.force <= 0.0 || scatter.moment <= 0.0) return;
-    constexpr double kOff = 1.0, kRight = 0.4, kSagRight = 0.5, kSagOff = 0.7;  // logarithms of factors
-    const auto off = [](double factor) { return std::abs(std::log(factor)); };
-    if (std::max(off(scatter.force), off(scatter.moment)) < kOff) return;
-    const double sag = sagBy(day_, found_.fit);
-    for (const LoadMistake& mistake : table) {
-      if (mistake.id != "wrench_unit") continue;
-      const double forces = mistake.meant.on_force(0, 0), moments = mistake.meant.on_moment(0, 0);
-      if (off(scatter.force * forces) > kRight || off(scatter.moment * moments) > kRight) continue;
-      const SpringFit fit = loads_.fit(mistake.meant);
-      const double after = sagBy(day_, fit);
-      const bool by_sag = sag > 0.0 && off(sag) > kSagOff && after > 0.0 && off(after) < kSagRight;
-      constexpr double kBetter = 0.93;
-      const bool by_springs = fit.left < kBetter * found_.fit.left;
-      if (!by_sag && !by_springs) continue;
-      found_.cures.push_back({mistake.id, mistake.where, mistake.remedy,
-                              by_sag ? Remark(RemarkId::sag_against_load, 1.0 / sag, 1.0 / after)
-                                     : Remark(RemarkId::loads_left, found_.fit.left, fit.left),
-                              by_sag ? 1.0 / sag : found_.fit.left, by_sag ? 1.0 / after : fit.left});
     }
   }
 

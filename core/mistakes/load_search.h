@@ -37,6 +37,15 @@ LoadMistake movedCell(const campaign::Campaign& campaign, const Eigen::Vector3d&
 /// not: no load cell repeats to the last digit of six columns. None where the cell's axes do not turn with the flange.
 std::optional<std::pair<int, int>> posesOfEqualWrenches(const campaign::Campaign& campaign);
 
+/// Postures in which two loaded steps, in the same way in all of them, have one wrench digit by digit although the
+/// reflectors stand elsewhere.
+struct RepeatedSteps {
+  std::vector<int> poses;
+  int step = 0, own = 0;  ///< the later has the wrench of the earlier, whose own it is
+};
+/// Those two steps that the most postures have so; none where posesOfEqualWrenches has none for the cell.
+std::optional<RepeatedSteps> stepsOfEqualWrenches(const campaign::Campaign& campaign);
+
 /// Whether the forces of some load step are three times those of another (rms): a load of couples alone leaves the
 /// same noise in all of them, loaded or not, of which no lever and no stiffness follows. The ratio does not ask for
 /// units. True of a single step.
@@ -71,6 +80,13 @@ CellScatter unloadedScatter(const campaign::Campaign& campaign);
 
 /// Sag of the own weight in parts of what these springs make of it; 0 where no masses are known.
 double sagBy(const ReadingsOfDay& day, const SpringFit& springs);
+
+/// Units in which the wrenches may be although springs explain them as they are: all in one other unit makes springs as
+/// much softer. The cell's unloaded scatter against what is declared shows them, and the own weight's sag by these
+/// springs. `as_read`: the fit of the loads as they stand; `table`: loadMistakes.
+std::vector<Suspected> unitsByScatter(const campaign::Campaign& campaign, const ReadingsOfDay& day,
+                                      const LoadsOfDay& loads, const SpringFit& as_read,
+                                      const std::vector<LoadMistake>& table);
 
 /// The own weight's sag is the opposite of what masses and springs make of it, and the day fits by that.
 std::optional<Suspected> gravityReversed(const ReadingsOfDay& day, const SpringFit& springs);

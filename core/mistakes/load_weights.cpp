@@ -92,4 +92,32 @@ std::optional<Suspected> gravityReversed(const ReadingsOfDay& day, const SpringF
                    sagging.rms};
 }
 
+std::vector<Suspected> unitsByScatter(const campaign::Campaign& campaign, const ReadingsOfDay& day,
+                                      const LoadsOfDay& loads, const SpringFit& as_read,
+                                      const std::vector<LoadMistake>& table) {
+  const CellScatter scatter = unloadedScatter(campaign);
+  if (scatter.force <= 0.0 || scatter.moment <= 0.0) return {};
+  constexpr double kOff = 1.0, kRight = 0.4, kSagRight = 0.5, kSagOff = 0.7;  // logarithms of factors
+  std::vector<Suspected> cures;
+  const auto off = [](double factor) { return std::abs(std::log(factor)); };
+  if (std::max(off(scatter.force), off(scatter.moment)) < kOff) return {};
+  const double sag = sagBy(day, as_read);
+  for (const LoadMistake& mistake : table) {
+    if (mistake.id != "wrench_unit") continue;
+    const double forces = mistake.meant.on_force(0, 0), moments = mistake.meant.on_moment(0, 0);
+    if (off(scatter.force * forces) > kRight || off(scatter.moment * moments) > kRight) continue;
+    const SpringFit fit = loads.fit(mistake.meant);
+    const double after = sagBy(day, fit);
+    const bool by_sag = sag > 0.0 && off(sag) > kSagOff && after > 0.0 && off(after) < kSagRight;
+    constexpr double kBetter = 0.93;
+    const bool by_springs = fit.left < kBetter * as_read.left;
+    if (!by_sag && !by_springs) continue;
+    cures.push_back({mistake.id, mistake.where, mistake.remedy,
+                     by_sag ? Remark(RemarkId::sag_against_load, 1.0 / sag, 1.0 / after)
+                            : Remark(RemarkId::loads_left, as_read.left, fit.left),
+                     by_sag ? 1.0 / sag : as_read.left, by_sag ? 1.0 / after : fit.left});
+  }
+  return cures;
+}
+
 }  // namespace stiffscope::mistakes

@@ -75,6 +75,7 @@ enum class RemarkId {
   wrench_of_row,        ///< WrenchRow
   wrenches_exchanged,   ///< both postures
   wrenches_repeated,    ///< posture, the one whose wrenches it has
+  steps_repeated,       ///< postures, step, the step whose wrench it has
   steps_exchanged,      ///< both steps, whether the points' rather than the wrenches'
   gravity_reversed,     ///< sag in parts of what masses and springs make of it
   step_scale_off,       ///< load step, factor of its wrench against the other steps

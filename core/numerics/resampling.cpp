@@ -60,6 +60,14 @@ double spreadOfFew(double count) {
   return std::sqrt(count / (count - 1.0)) * studentLimit(kTail, count - 1.0) / normalLimit(kTail);
 }
 
+BootstrapSpread bootstrapSpread(std::vector<double> draws, double count) {
+  if (draws.empty()) return {};
+  std::sort(draws.begin(), draws.end());
+  constexpr double kTail = 0.025;
+  const double middle = quantile(draws, 0.5), wider = spreadOfFew(std::max(2.0, count));
+  return {middle, wider * (middle - quantile(draws, kTail)), wider * (quantile(draws, 1.0 - kTail) - middle)};
+}
+
 Weights leaveOneOut(std::size_t count, std::size_t left_out) {
   Weights weights(count, 1.0);
   weights[left_out] = 0.0;

@@ -47,6 +47,12 @@ Weights drawWeights(std::mt19937_64& random, std::size_t count);
 /// a 95 % quantile of draws knows nothing of the variance's own error, which Student's t does. Two at least.
 double spreadOfFew(double count);
 
+/// How far below and above their middle 95 % of bootstrap draws over `count` reach, widened by spreadOfFew.
+struct BootstrapSpread {
+  double middle = 0.0, below = 0.0, above = 0.0;
+};
+BootstrapSpread bootstrapSpread(std::vector<double> draws, double count);
+
 /// All but one.
 Weights leaveOneOut(std::size_t count, std::size_t left_out);
 

@@ -10,7 +10,6 @@
 #include "core/identification/load_case.h"
 #include "core/identification/posture_stiffness.h"
 #include "core/io/input_error.h"
-#include "core/io/units.h"
 #include "core/robot/wrench.h"
 #include "metrology/linear_algebra.h"
 
@@ -160,6 +159,7 @@ PlanningArm planningArm(const campaign::Campaign& campaign, const identification
   PlanningArm arm;
   arm.geometry = geometryFor(campaign, identified);
   arm.repeats = inputs.repeats;
+  arm.joint_readings = campaign.joint_readings;
   arm.effects = inputs.effects;
   if (arm.effects) arm.assumed.emplace_back(RemarkId::effects_as_known_now);
   arm.outward_in_flange = outwardInFlange(arm.geometry.arm);
@@ -187,6 +187,7 @@ PlanningArm unloadedPlanningArm(const campaign::Campaign& campaign, const Planni
   PlanningArm arm;
   arm.geometry.arm = campaign.robot;
   arm.repeats = inputs.repeats;
+  arm.joint_readings = campaign.joint_readings;
   arm.pull = true;
   arm.outward_in_flange = outwardInFlange(campaign.robot);
   placeTargets(campaign, arm);
@@ -265,6 +266,8 @@ const char* wordsFor(PostureRule rule) {
   switch (rule) {
     case PostureRule::none:
       break;
+    case PostureRule::figures:
+      return "what the controller states of a joint outside --min-deg or --max-deg";
     case PostureRule::follower:
       return "an axis that follows others outside its limits, or a balancer outside its stroke";
     case PostureRule::singularity:
@@ -317,29 +320,6 @@ PostureRule brokenRule(const PlanningArm& arm, const PostureRules& rules, const 
     if (nearBody(skeleton, target, rules.body_clearance)) return PostureRule::body;
   }
   return brokenBySight(arm, rules, skeleton, targets);
-}
-
-PerJoint<robot::JointLimits> postureBox(const robot::Robot& arm, const PostureRules& rules) {
-  PerJoint<robot::JointLimits> box(arm.limits.size());
-  for (std::size_t j = 0; j < box.size(); ++j) {
-    const auto joint = static_cast<Eigen::Index>(j);
-    box[j].lower = std::max(arm.limits[j].lower + rules.limit_margin, rules.low[joint]);
-    box[j].upper = std::min(arm.limits[j].upper - rules.limit_margin, rules.high[joint]);
-    if (box[j].lower <= box[j].upper) continue;
-    const double low = rules.low[joint] / io::kDegree, high = rules.high[joint] / io::kDegree;
-    if (low > high) {
-      throw io::InputError({"--min-deg"}, fmt::format("{:g}", low),
-                           fmt::format("expected at most the {:g} of --max-deg for joint {}", high, j + 1));
-    }
-    const bool starts_too_high = rules.low[joint] > arm.limits[j].upper - rules.limit_margin;
-    throw io::InputError(
-        {starts_too_high ? "--min-deg" : "--max-deg"}, fmt::format("{:g}", starts_too_high ? low : high),
-        fmt::format("expected a range of joint {} within its limits {:.1f} to {:.1f} deg less {:.0f} deg "
-                    "at each end",
-                    j + 1, arm.limits[j].lower / io::kDegree, arm.limits[j].upper / io::kDegree,
-                    rules.limit_margin / io::kDegree));
-  }
-  return box;
 }
 
 namespace {
@@ -408,7 +388,8 @@ Candidate candidateAt(const PlanningArm& arm, const JointVector& q, const Eigen:
 }
 
 CandidateDraw drawCandidates(const PlanningArm& arm, const PostureRules& rules, int count, std::uint64_t seed) {
-  const PerJoint<robot::JointLimits> box = postureBox(arm.geometry.arm, rules);
+  const PostureLimits limits(arm.geometry.arm, arm.joint_readings, rules);
+  const PerJoint<robot::JointLimits>& box = limits.box();
   const std::vector<Eigen::Vector3d> directions = loadDirections(arm);
   std::mt19937_64 random(seed);
   CandidateDraw draw;
@@ -420,9 +401,10 @@ CandidateDraw drawCandidates(const PlanningArm& arm, const PostureRules& rules, 
     const Eigen::Vector3d& direction = directions[random() % directions.size()];
     ++draw.drawn;
     const PostureRule broken =
-        robot::withinAxisLimits(arm.geometry.arm, q)
-            ? brokenRule(arm, rules, robot::postureAt(arm.geometry.arm, arm.geometry.sagged(q)), direction)
-            : PostureRule::follower;
+        !limits.hold(q) ? PostureRule::figures
+        : !robot::withinAxisLimits(arm.geometry.arm, q)
+            ? PostureRule::follower
+            : brokenRule(arm, rules, robot::postureAt(arm.geometry.arm, arm.geometry.sagged(q)), direction);
     ++draw.broken[static_cast<std::size_t>(broken)];
     if (broken == PostureRule::none) draw.kept.push_back(candidateAt(arm, q, direction));
   }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/identification/identify.h"
+#include "core/planning/posture_limits.h"
 #include "core/planning/remarks.h"
 #include "metrology/remark.h"
 
@@ -53,8 +54,9 @@ struct PlanningArm {
   double sigma = 0.0;                            ///< m per coordinate of one reading, where `noise` is empty
   double misfit = 0.0;  ///< m per coordinate: what the identified model leaves beyond the tracker's noise; 0 if unknown
   int repeats = 1;
-  EffectDoubt effects;          ///< as in PlanningInputs
-  std::vector<Remark> assumed;  ///< what was taken for granted
+  EffectDoubt effects;                                 ///< as in PlanningInputs
+  std::vector<campaign::JointReading> joint_readings;  ///< what the controller states of the joints
+  std::vector<Remark> assumed;                         ///< what was taken for granted
 
   /// Covariance of a reflector's displacement at `point` (R0), m^2: unloaded and loaded means, and the
   /// misfit.
@@ -73,12 +75,7 @@ PlanningArm planningArm(const campaign::Campaign& campaign, const identification
 PlanningArm unloadedPlanningArm(const campaign::Campaign& campaign, const PlanningInputs& inputs);
 
 /// What a person at the robot would keep to. Lengths m, angles rad.
-struct PostureRules {
-  /// The box that postures are drawn from, cut by the URDF's limits less `limit_margin`; beyond the machine's last
-  /// joint its numbers play no part.
-  JointVector low = JointVector::Constant(kMostJoints, -3.14159265358979);
-  JointVector high = JointVector::Constant(kMostJoints, 3.14159265358979);
-  double limit_margin = 0.0873;    ///< 5 deg: room for compensation, and URDFs differ from controllers
+struct PostureRules : JointRules {
   double least_dexterity = 0.15;   ///< 1 / kappa of Dumas et al., lengths over 1 m
   double most_outward_up = 0.349;  ///< 20 deg: a hanging load stays clear of the flange (not asked of a pull)
   double least_hook_height = 0.8;  ///< above base_link's origin: weights hang below (not asked of a pull)
@@ -90,8 +87,8 @@ struct PostureRules {
 };
 
 /// The rules in the order in which they are looked at.
-enum class PostureRule { none, follower, singularity, low, hanging, load_line, body, distance, sight };
-inline constexpr std::size_t kPostureRules = 9;
+enum class PostureRule { none, figures, follower, singularity, low, hanging, load_line, body, distance, sight };
+inline constexpr std::size_t kPostureRules = 10;
 
 /// In words, as in `n of m postures: WORDS`.
 const char* wordsFor(PostureRule rule);
@@ -101,9 +98,6 @@ const char* wordsFor(PostureRule rule);
 /// rigid here. Its forearm begins at the last axis before the wrist (axis 3 of six).
 PostureRule brokenRule(const PlanningArm& arm, const PostureRules& rules, const robot::ArmPosture& posture,
                        const Eigen::Vector3d& direction);
-
-/// The box of `rules` within the arm's limits. Throws InputError, naming the joint, where it is empty.
-PerJoint<robot::JointLimits> postureBox(const robot::Robot& arm, const PostureRules& rules);
 
 /// A posture that keeps the rules, a load on it, and what measuring it would tell.
 struct Candidate {
@@ -126,7 +120,7 @@ struct CandidateDraw {
   int drawn = 0;
 };
 
-/// Uniform in the box, one load each: hanging along gravity, or a pull in one of nine directions
+/// Uniform within the limits (PostureLimits), one load each: hanging along gravity, or a pull in one of nine directions
 /// (horizontally along and against base_link's x and y, down, and half way between), drawn too. Stops at
 /// `count` kept, or when 400 times as many were drawn. Throws InputError with the count of each rule broken
 /// where not one keeps them all.

@@ -238,7 +238,7 @@ bool alike(const PlanningArm& arm, const Candidate& a, const Candidate& b, doubl
 void refineDesign(const PlanningArm& arm, const PostureRules& rules, const JointMatrix& known,
                   const robot::JointMask& unknown, const std::vector<Candidate>& measured, const RefineOptions& options,
                   std::vector<Candidate>& chosen) {
-  const PerJoint<robot::JointLimits> box = postureBox(arm.geometry.arm, rules);
+  const PostureLimits allowed(arm.geometry.arm, arm.joint_readings, rules);
   JointMatrix sum = known;
   for (const Candidate& one : chosen) sum += one.information;
   double value = designValue(sum, unknown, options.reference);
@@ -252,9 +252,9 @@ void refineDesign(const PlanningArm& arm, const PostureRules& rules, const Joint
   };
   const auto tryMove = [&](std::size_t place, int joint, double step) {
     JointVector q = chosen[place].q;
-    const robot::JointLimits& limits = box[static_cast<std::size_t>(joint)];
+    const robot::JointLimits& limits = allowed.box()[static_cast<std::size_t>(joint)];
     q[joint] = std::clamp(q[joint] + step, limits.lower, limits.upper);
-    if (q[joint] == chosen[place].q[joint]) return false;
+    if (q[joint] == chosen[place].q[joint] || !allowed.hold(q)) return false;
     const Candidate moved = candidateAt(arm, q, chosen[place].direction);
     const JointMatrix with = sum - chosen[place].information + moved.information;
     const double found = designValue(with, unknown, options.reference);

@@ -14,6 +14,8 @@ enum class RemarkId {
   noise_not_declared,  ///< standard deviation per coordinate m
   usual_effects,       ///< how far an effect usually moves the reflectors, rms m
   calibrated_before,   ///< postures that calibrated the arm, what the model left per coordinate m
+  // What the standard deviations are of.
+  sd_of_weighted_fit,
   // Why there is no plan.
   no_joint_seen,
 };

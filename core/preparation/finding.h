@@ -50,8 +50,8 @@ struct AuditCheckId {
 
 /// Every check of the audit in the order of the report. They stand here and not in core/audit because the screening of
 /// readings tests at the level that their number leaves to each. Screening gives the first four, core/audit/audit.cpp
-/// says which function gives the others, reports/words/audit_figures.cpp in which unit its value is printed. A new
-/// check is one line in each; the compiler compares the three.
+/// says which function gives the others, reports/words/audit_figures.cpp in which unit its value is printed and
+/// audit_plain.cpp what is amiss where it fails. A new check is one line in each; the compiler compares the four.
 inline constexpr std::size_t kScreeningChecks = 4;
 inline constexpr std::array<AuditCheckId, 37> kAuditCheckIds{{
     {"lost_beam"},

@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "core/frames/joint_axes.h"
 #include "core/numerics/distributions.h"
 #include "core/numerics/resampling.h"
 #include "core/preparation/drift_nests.h"
@@ -282,11 +283,12 @@ NestOutliers nestOutliers(const campaign::Campaign& campaign) {
     found.reason = Remark(RemarkId::no_floor_nests);
     return found;
   }
-  const std::optional<metrology::TrackerNoise> noise = declaredNoise(campaign);
-  if (!noise) {
+  if (!declaredNoise(campaign)) {
     found.reason = Remark(RemarkId::tracker_noise_not_declared);
     return found;
   }
+  const metrology::TrackerNoise noise =
+      frames::trackerNoise(asNoisyAs(*campaign.tracker, roundingOf(campaign).nests.factors));
   const std::vector<NestRound> rounds = nestRounds(*campaign.nests);
   constexpr std::size_t kLeast = 3;
   std::size_t of_enough = 0, readings = 0;
@@ -302,14 +304,14 @@ NestOutliers nestOutliers(const campaign::Campaign& campaign) {
   }
   found.tested = true;
   const Eigen::Vector3d centre = whereTheArmWasRead(campaign);
-  const NestDistances distances(rounds, *noise);
+  const NestDistances distances(rounds, noise);
   Readings stray = strayByDistance(rounds, distances);
   std::set<int> moved = takeBackMoved(rounds, distances, stray);
   Readings undecided;
-  findStrayInNetwork(rounds, *noise, centre, moved, readings, stray, undecided);
+  findStrayInNetwork(rounds, noise, centre, moved, readings, stray, undecided);
   moved.merge(takeBackMoved(rounds, distances, stray));
   if (stray.empty()) return found;
-  const NestNetwork network = fitNestNetwork(without(stray, moved, rounds), *noise, centre, -1);
+  const NestNetwork network = fitNestNetwork(without(stray, moved, rounds), noise, centre, -1);
   for (std::size_t e = 0; e < rounds.size(); ++e) {
     for (const auto& [nest, reading] : rounds[e].readings) {
       if (!stray.contains(reading)) continue;

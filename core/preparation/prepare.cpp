@@ -73,7 +73,7 @@ struct Screening {
 /// its beam; points that repeat another's coordinates to the last digit, which is the other reading copied or
 /// the beam still on the other reflector; repeats of one state that stand apart from the others by more
 /// than noise; and single readings of floor nests that the other nests contradict (core/preparation/nest_network.h).
-Screening screenReadings(campaign::Campaign campaign) {
+Screening screenReadings(campaign::Campaign campaign, const Rounded& rounded) {
   Screening result{std::move(campaign), {}, {}, {}};
   const auto screen = [&](const std::string& id, AuditVerdict verdict, const std::vector<RejectedReading>& found,
                           RemarkId what, const Remark& source) {
@@ -96,13 +96,13 @@ Screening screenReadings(campaign::Campaign campaign) {
   RepeatScatter scatter;
   NestOutliers nests;
   numerics::onAllCores(3, [&](std::size_t part) {
-    if (part == 0) scatter = repeatScatter(result.campaign);
+    if (part == 0) scatter = repeatScatter(result.campaign, rounded);
     if (part == 1) same = duplicateReadings(result.campaign);
     if (part == 2) nests = nestOutliers(result.campaign);
   });
   screen("duplicate_readings", AuditVerdict::warn, same, RemarkId::readings_repeated,
          Remark(RemarkId::no_chance_of_same_digits));
-  if (!same.empty()) scatter = repeatScatter(result.campaign);
+  if (!same.empty()) scatter = repeatScatter(result.campaign, rounded);
   if (scatter.tested) {
     screen("repeat_outliers", AuditVerdict::warn, scatter.outliers, RemarkId::repeats_stand_apart,
            byChance(Remark(RemarkId::chi_square_of_repeat)));
@@ -237,8 +237,8 @@ metrology::TrackerNoise noiseForStations(const campaign::Campaign& campaign, con
 }
 
 /// The stations joined and each one's motion taken off.
-void prepareStations(PreparedCampaign& prepared) {
-  const metrology::TrackerNoise noise = noiseForStations(prepared.campaign, noiseFactors(prepared.scatter));
+void prepareStations(const NoiseFactors& of_nests, PreparedCampaign& prepared) {
+  const metrology::TrackerNoise noise = noiseForStations(prepared.campaign, of_nests);
   constexpr bool kAsDrifted = false;
   prepared.preparation.stations = joinStations(noise, kAsDrifted, prepared.campaign);
   prepared.preparation.drift = driftOf(*prepared.preparation.stations, prepared.campaign);
@@ -255,26 +255,27 @@ std::vector<StationMotion> takenOff(const JoinedStations& stations) {
 }  // namespace
 
 PreparedCampaign prepareCampaign(campaign::Campaign read) {
-  Screening screening = screenReadings(std::move(read));
+  const Rounding rounding = roundingOf(read);
+  Screening screening = screenReadings(std::move(read), rounding.arm);
   PreparedCampaign prepared;
   prepared.campaign = std::move(screening.campaign);
   prepared.screening = std::move(screening.checks);
   prepared.preparation.rejected = std::move(screening.rejected);
   const std::optional<campaign::Tracker> declared = prepared.preparation.declared = prepared.campaign.tracker;
   const bool known = declaredNoise(prepared.campaign).has_value();
-  prepared.scatter = screening.scatter ? *std::move(screening.scatter) : repeatScatter(prepared.campaign);
-  const auto shown = [&] { return asNoisyAs(*declared, noiseFactors(prepared.scatter)); };
+  prepared.scatter = screening.scatter ? *std::move(screening.scatter) : repeatScatter(prepared.campaign, rounding.arm);
+  const NoiseFactors of_nests = rounding.nests.factors * noiseFactors(prepared.scatter);
   if (hasStations(prepared.campaign)) {
-    prepareStations(prepared);
+    prepareStations(of_nests, prepared);
   } else {
-    prepared.drift =
-        stationCourse(prepared.campaign, known ? std::optional(frames::trackerNoise(shown())) : std::nullopt);
+    prepared.drift = stationCourse(
+        prepared.campaign, known ? std::optional(frames::trackerNoise(asNoisyAs(*declared, of_nests))) : std::nullopt);
     prepared.preparation.drift = correctDrift(prepared.drift, prepared.campaign);
   }
   // A drift that goes on between repeats is no scatter of the instrument.
-  if (prepared.preparation.drift.taken_off) prepared.scatter = repeatScatter(prepared.campaign);
-  prepared.noise = noiseModel(prepared.campaign, prepared.scatter);
-  if (known) prepared.campaign.tracker = shown();
+  if (prepared.preparation.drift.taken_off) prepared.scatter = repeatScatter(prepared.campaign, rounding.arm);
+  prepared.noise = noiseModel(prepared.campaign, prepared.scatter, rounding.arm);
+  if (known) prepared.campaign.tracker = asNoisyAs(*declared, rounding.arm.factors * noiseFactors(prepared.scatter));
   // Last, because the noise of a reading is by where the reflector was seen, and the nests are not on the rail.
   standOnCarriage(prepared);
   return prepared;
@@ -301,12 +302,13 @@ PreparedCampaign leaveRaw(campaign::Campaign read) {
   prepared.campaign = std::move(read);
   prepared.preparation.raw = true;
   prepared.preparation.declared = prepared.campaign.tracker;
+  const Rounding rounding = roundingOf(prepared.campaign);
   if (hasStations(prepared.campaign)) {
     constexpr bool kAsDrifted = true;
     prepared.preparation.stations =
-        joinStations(noiseForStations(prepared.campaign, {}), kAsDrifted, prepared.campaign);
+        joinStations(noiseForStations(prepared.campaign, rounding.nests.factors), kAsDrifted, prepared.campaign);
   }
-  prepared.noise = noiseModel(prepared.campaign, repeatScatter(prepared.campaign));
+  prepared.noise = noiseModel(prepared.campaign, repeatScatter(prepared.campaign, rounding.arm), rounding.arm);
   prepared.preparation.drift.reason = Remark(RemarkId::raw_asked_for);
   standOnCarriage(prepared);
   return prepared;

@@ -37,11 +37,11 @@ struct Preparation {
 /// A day as audit, identification and diagnosis all see it.
 struct PreparedCampaign {
   /// Readings that are used; its tracker is as noisy as the repeats show where that is beyond what is declared by more
-  /// than chance, so that one cause gives one finding.
+  /// than chance, so that one cause gives one finding, and has the rounding of its readings in its noise.
   campaign::Campaign campaign;
   Preparation preparation;
   std::vector<AuditCheck> screening;  ///< the checks that found the rejected readings
-  RepeatScatter scatter;              ///< of the repeats that are left, against the declared noise
+  RepeatScatter scatter;              ///< of the repeats that are left, against the declared noise and rounding
   NoiseModel noise;
   DriftModel drift;                ///< by the nests; of several stations what is left once each one's own is taken off
   std::optional<RailCourse> rail;  ///< by the rail sweep, of an arm on a rail

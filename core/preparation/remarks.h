@@ -49,7 +49,8 @@ enum class RemarkId {
   noise_not_declared,
   noise_as_declared,
   noise_as_declared_few_repeats,
-  noise_by_repeats,  ///< degrees of freedom, found against declared: along the beam, across it
+  noise_by_distances,  ///< degrees of freedom, found against declared, whether that is by chance
+  noise_by_repeats,    ///< degrees of freedom, found against declared: along the beam, across it
 };
 
 }  // namespace stiffscope::preparation

@@ -10,6 +10,7 @@
 #include "core/frames/joint_axes.h"
 #include "core/numerics/distributions.h"
 #include "core/numerics/parallel.h"
+#include "core/preparation/distance_scatter.h"
 #include "core/preparation/finding.h"
 #include "core/preparation/remarks.h"
 #include "metrology/linear_algebra.h"
@@ -117,13 +118,14 @@ std::vector<double> distances(const metrology::TrackerNoise& noise, const std::v
 }
 
 std::vector<RejectedReading> outliers(const std::string& file, const metrology::TrackerNoise& noise,
-                                      const std::vector<StateRepeats>& states) {
+                                      const std::vector<StateRepeats>& states, double& typical) {
   std::vector<RejectedReading> found;
   const std::vector<double> all = distances(noise, states);
   std::vector<double> sorted = all;
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
   std::nth_element(sorted.begin(), middle, sorted.end());
-  const double scale = std::max(1.0, *middle / numerics::chiSquareLimit(0.5, 3.0));
+  const double median = *middle / numerics::chiSquareLimit(0.5, 3.0), scale = std::max(1.0, median);
+  typical = std::sqrt(median);
   const double limit = scale * numerics::chiSquareLimit(kLevel / static_cast<double>(all.size()), 3.0);
   // The worst first, and its state judged again without it: one bad repeat pulls the mean of the others.
   auto own = all.begin();
@@ -153,27 +155,28 @@ std::vector<RejectedReading> outliers(const std::string& file, const metrology::
 
 }  // namespace
 
-RepeatScatter repeatScatter(const campaign::Campaign& campaign) {
+RepeatScatter repeatScatter(const campaign::Campaign& campaign, const Rounded& rounded) {
   RepeatScatter scatter;
+  scatter.digit = rounded.digit;
   if (!campaign.loading) {
     scatter.reason = Remark(RemarkId::no_loading);
     return scatter;
   }
-  const std::optional<metrology::TrackerNoise> noise = declaredNoise(campaign);
-  if (!noise) {
+  if (!declaredNoise(campaign)) {
     scatter.reason = Remark(RemarkId::tracker_noise_not_declared);
     return scatter;
   }
+  const metrology::TrackerNoise noise = frames::trackerNoise(asNoisyAs(*campaign.tracker, rounded.factors));
   const RepeatedStates repeated = statesWithRepeats(*campaign.loading);
   const std::vector<StateRepeats>& states = repeated.states;
   if (states.empty()) {
     scatter.reason = Remark(RemarkId::no_repeats);
     return scatter;
   }
-  for (const StateRepeats& repeats : states) addScatter(*noise, repeats, scatter);
+  for (const StateRepeats& repeats : states) addScatter(noise, repeats, scatter);
   scatter.along_rms = std::sqrt(scatter.along_rms / scatter.along_dof);
   scatter.across_rms = std::sqrt(scatter.across_rms / scatter.across_dof);
-  scatter.outliers = outliers(campaign.loading->file, *noise, states);
+  scatter.outliers = outliers(campaign.loading->file, noise, states, scatter.typical);
   scatter.tested = true;
   return scatter;
 }
@@ -190,52 +193,42 @@ double factorOf(double chi2, int dof) {
 
 }  // namespace
 
-std::optional<metrology::TrackerNoise> declaredNoise(const campaign::Campaign& campaign) {
-  if (!campaign.tracker) return std::nullopt;
-  const campaign::Tracker& tracker = *campaign.tracker;
-  if (tracker.range_fixed + tracker.range_per_m <= 0.0 || tracker.angle_fixed + tracker.angle_per_m <= 0.0)
-    return std::nullopt;
-  return frames::trackerNoise(tracker);
-}
-
 NoiseFactors noiseFactors(const RepeatScatter& scatter) {
   return {factorOf(scatter.along_chi2, scatter.along_dof), factorOf(scatter.across_chi2, scatter.across_dof)};
 }
 
-NoiseModel noiseModel(const campaign::Campaign& campaign, const RepeatScatter& scatter) {
+NoiseModel noiseModel(const campaign::Campaign& campaign, const RepeatScatter& scatter, const Rounded& rounded) {
   NoiseModel model;
   if (!campaign.tracker) {
     model.source = Remark(RemarkId::noise_not_declared);
     return model;
   }
-  model.noise = frames::trackerNoise(*campaign.tracker);
+  const campaign::Tracker tracker = asNoisyAs(*campaign.tracker, rounded.factors);
+  model.noise = frames::trackerNoise(tracker);
   model.known = model.noise.range_fixed + model.noise.range_per_m > 0.0 &&
                 model.noise.angle_fixed + model.noise.angle_per_m > 0.0;
   model.source = Remark(RemarkId::noise_as_declared);
   if (!model.known || !campaign.loading) return model;
   constexpr int kEnough = 30;
-  if (scatter.along_dof < kEnough) {
+  NoiseFactors found;  // beside the rounding
+  if (scatter.along_dof >= kEnough) {
+    found = {std::sqrt(scatter.along_chi2 / scatter.along_dof), std::sqrt(scatter.across_chi2 / scatter.across_dof)};
+    model.degrees = scatter.along_dof + scatter.across_dof;
+    const NoiseFactors against_declared = rounded.factors * found;
+    model.source = Remark(RemarkId::noise_by_repeats, scatter.along_dof + scatter.across_dof, against_declared.along,
+                          against_declared.across);
+  } else if (const DistanceScatter distances = distanceScatter(campaign, model.noise); distances.degrees >= kEnough) {
+    if (!distances.asDeclared()) found.along = found.across = std::sqrt(distances.ratio);
+    model.degrees = distances.degrees;
+    model.source = Remark(RemarkId::noise_by_distances, static_cast<int>(distances.degrees), std::sqrt(distances.ratio),
+                          distances.asDeclared());
+  } else {
     model.source = Remark(RemarkId::noise_as_declared_few_repeats);
-    return model;
   }
-  model.along_factor = std::sqrt(scatter.along_chi2 / scatter.along_dof);
-  model.across_factor = std::sqrt(scatter.across_chi2 / scatter.across_dof);
-  model.noise.range_fixed *= model.along_factor;
-  model.noise.range_per_m *= model.along_factor;
-  model.noise.angle_fixed *= model.across_factor;
-  model.noise.angle_per_m *= model.across_factor;
-  model.degrees = scatter.along_dof + scatter.across_dof;
-  model.source = Remark(RemarkId::noise_by_repeats, scatter.along_dof + scatter.across_dof, model.along_factor,
-                        model.across_factor);
+  model.noise = frames::trackerNoise(asNoisyAs(tracker, found));
+  model.along_factor = rounded.factors.along * found.along;
+  model.across_factor = rounded.factors.across * found.across;
   return model;
-}
-
-campaign::Tracker asNoisyAs(campaign::Tracker tracker, const NoiseFactors& factors) {
-  tracker.range_fixed *= factors.along;
-  tracker.range_per_m *= factors.along;
-  tracker.angle_fixed *= factors.across;
-  tracker.angle_per_m *= factors.across;
-  return tracker;
 }
 
 }  // namespace stiffscope::preparation

@@ -73,13 +73,9 @@ Eigen::MatrixXd byParameters(const DeflectingArm& arm, const JointVector& q, con
   return by;
 }
 
-/// Variance of a direction's compliance, (m/N)^2, by the fit alone, springs and named effects together. Zero where the
-/// draws are those of the fit: then they have it.
-double varianceOfFit(const DeflectingArm& arm, const JointVector& q, const PointJacobian& jacobian,
-                     const Eigen::Vector3d& direction, double compliance) {
-  if (!arm.certainty->draws.by) return 0.0;
-  identification::StiffnessEstimate springs = arm.estimate;
-  if (arm.with != nullptr) springs.covariance -= springs.parts.effects;
+/// Variance of a direction's compliance, (m/N)^2, by the fit of the joints' springs.
+double varianceOfSprings(const identification::StiffnessEstimate& springs, const PointJacobian& jacobian,
+                         const Eigen::Vector3d& direction) {
   const JointMatrix covariance = identification::coveringCovariance(springs);
   const JointVector moves = (jacobian.transpose() * direction).cwiseAbs2();
   double variance = 0.0;
@@ -87,11 +83,20 @@ double varianceOfFit(const DeflectingArm& arm, const JointVector& q, const Point
   for (int i = 0; i < joints; ++i) {
     for (int j = 0; j < joints; ++j) {
       // The direction is at right angles to what joints of unknown stiffness move.
-      if (hasUsableStiffness(arm.estimate, i) && hasUsableStiffness(arm.estimate, j))
+      if (hasUsableStiffness(springs, i) && hasUsableStiffness(springs, j))
         variance += moves[i] * moves[j] * covariance(i, j);
     }
   }
-  if (arm.with == nullptr) return std::max(0.0, variance);
+  return std::max(0.0, variance);
+}
+
+/// The same of springs and named effects together.
+double varianceOfFit(const DeflectingArm& arm, const JointVector& q, const PointJacobian& jacobian,
+                     const Eigen::Vector3d& direction, double compliance) {
+  if (arm.with == nullptr) return varianceOfSprings(arm.estimate, jacobian, direction);
+  identification::StiffnessEstimate springs = arm.estimate;
+  springs.covariance -= springs.parts.effects;
+  double variance = varianceOfSprings(springs, jacobian, direction);
   for (const effects::RestingFlange& flange : arm.with->varied) {
     const auto varied = probed(flange, arm, q, direction);
     if (varied) variance += std::pow(direction.dot(*varied) - compliance, 2);
@@ -108,19 +113,20 @@ double middleError(const Eigen::VectorXd& errors) {
   return numerics::quantileOf(std::move(sizes), kOneSigma);
 }
 
-/// `by`: of the effects' parameters along the direction; no columns: joint springs alone. `more`: variance that the
-/// draws do not have.
+/// `by`: of the effects' parameters along the direction; no columns: joint springs alone. `of_fit`: variance by the
+/// fit, zero where the draws have it.
 DirectionalCompliance withInterval(const DeflectingArm& arm, const PointJacobian& jacobian,
                                    const Eigen::Vector3d& direction, double compliance, const Eigen::RowVectorXd& by,
-                                   double more = 0.0) {
+                                   double of_fit) {
   const compensation::DeflectionDraws& draws = arm.certainty->draws;
   const JointVector moves = jacobian.transpose() * direction;
   Eigen::VectorXd errors = draws.compliance.transpose() * moves.cwiseAbs2();
   if (by.cols() > 0) draws.addByParameters(by, errors);
   errors.tail(draws.springs_alone).array() -= compliance;
   identification::CoverageInterval off = compensation::intervalOf(errors);
-  if (by.cols() > 0 && std::isfinite(off.low)) {
-    const double half = identification::kNormalFactor * std::sqrt(std::pow(middleError(errors), 2) + more);
+  if (std::isfinite(off.low)) {
+    const double of_draws = by.cols() > 0 ? std::pow(middleError(errors), 2) : 0.0;
+    const double half = identification::kNormalFactor * std::sqrt(of_draws + of_fit);
     off = {std::min(off.low, -half), std::max(off.high, half)};
   }
   return {direction, compliance, {compliance + off.low, compliance + off.high}};
@@ -175,9 +181,12 @@ std::optional<PointStiffness> pointStiffness(const DeflectingArm& arm, const Joi
   }
   const Eigen::Matrix3Xd known = unmovedBy(moves, place.unknown);
   const compensation::DeflectionDraws& draws = arm.certainty->draws;
-  for (const robot::PrincipalStiffness& one : robot::principalStiffnessWithin(place.springs, known))
+  const bool drawn_of_fit = !draws.by;
+  for (const robot::PrincipalStiffness& one : robot::principalStiffnessWithin(place.springs, known)) {
     place.of_springs.push_back(
-        withInterval(arm, moves, one.direction, one.direction.dot(place.springs * one.direction), {}));
+        withInterval(arm, moves, one.direction, one.direction.dot(place.springs * one.direction), {},
+                     drawn_of_fit ? 0.0 : varianceOfSprings(arm.estimate, moves, one.direction)));
+  }
   if (arm.with == nullptr && draws.parameters.rows() == 0) {
     place.of_model = place.of_springs;
     return place;
@@ -186,8 +195,9 @@ std::optional<PointStiffness> pointStiffness(const DeflectingArm& arm, const Joi
     const Eigen::Vector3d move = place.model * one.direction;
     const Eigen::RowVectorXd by = one.direction.transpose() * byParameters(arm, q, at.tcp, one.direction, move);
     const double compliance = one.direction.dot(move);
-    place.of_model.push_back(withInterval(arm, moves, one.direction, compliance, by,
-                                          varianceOfFit(arm, q, moves, one.direction, compliance)));
+    place.of_model.push_back(
+        withInterval(arm, moves, one.direction, compliance, by,
+                     drawn_of_fit ? 0.0 : varianceOfFit(arm, q, moves, one.direction, compliance)));
   }
   return place;
 }

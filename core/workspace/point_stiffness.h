@@ -39,9 +39,9 @@ struct DirectionalCompliance {
 /// Intervals: each draw of the certainty moves a direction's compliance by sum_j (z_j x r . d)^2 (c_draw - c)_j and
 /// what its effects' parameters do, to first order; the direction stays. Effects only give: what a day does not show of
 /// them lies above the model in nearly all draws, and the arm that hides nothing stands at their end, as uncertain as
-/// the fit. Intervals of `of_model` therefore hold, beside the quantiles of the draws, k u to either side, u^2 the
-/// square of what 68 % of the draws do not exceed and the variance of the fit (springs and named effects). They hold
-/// the truth more often than the stated coverage (docs/validation.md).
+/// the fit. Intervals of `of_springs` therefore hold, beside the quantiles of the draws, k u to either side by the
+/// variance of the fit; those of `of_model` by that of springs and named effects and the square of what 68 % of the
+/// draws do not exceed. The latter hold the truth more often than the stated coverage (docs/validation.md).
 struct PointStiffness {
   std::string pose;  ///< of the campaign; empty: of none
   JointVector q;

@@ -40,14 +40,28 @@ def _path(path):
 
 
 def _refuse(argument, value, expected):
-    raise InputError(f"{argument}: '{value}': {expected}", value=str(value), expected=expected, file=f"--{argument}")
+    value = " ".join(str(value).split())  # arrays have lines
+    value = value if len(value) <= 60 else value[:57] + "..."
+    raise InputError(f"{argument}: '{value}': {expected}", value=value, expected=expected, file=f"--{argument}")
+
+
+def _floats(argument, values):
+    """An array of float; a masked element is NaN."""
+    try:
+        if numpy.ma.isMaskedArray(values):
+            return values.astype(float).filled(numpy.nan)
+        if numpy.iscomplexobj(values):
+            raise TypeError
+        return numpy.asarray(values, dtype=float)
+    except (TypeError, ValueError):
+        _refuse(argument, values, "expected real numbers, rows of one length")
 
 
 def _vector(argument, values, size):
     """A vector of finite numbers as a list; [] for None."""
     if values is None:
         return []
-    vector = numpy.asarray(values, dtype=float)
+    vector = _floats(argument, values)
     if vector.shape != (size,) or not numpy.isfinite(vector).all():
         _refuse(argument, values, f"expected {size} finite numbers")
     return vector.tolist()
@@ -61,7 +75,7 @@ def _number(argument, value):
 
 def _rows(argument, values, width):
     """An array of rows; one row alone is taken for an array of one."""
-    rows = numpy.atleast_2d(numpy.asarray(values, dtype=float))
+    rows = numpy.atleast_2d(_floats(argument, values))
     if rows.ndim != 2 or rows.shape[1] != width:
         _refuse(argument, f"shape {numpy.shape(values)}", f"expected an array of rows of {width} numbers")
     return rows
@@ -72,6 +86,7 @@ class Campaign:
 
     def __init__(self, folder_or_xml, *, _kept=True):
         self._core = _core.Campaign(os.fspath(folder_or_xml), _kept)
+        self._xml = _xml_of(folder_or_xml).absolute()
         for line in self._core.warnings:
             warnings.warn(line, InputWarning, stacklevel=3)
         self.name = self._core.name
@@ -121,6 +136,11 @@ class Campaign:
         return plan(self, **options)
 
 
+def _xml_of(folder_or_xml):
+    path = pathlib.Path(folder_or_xml)
+    return path / "campaign.xml" if path.is_dir() else path
+
+
 def open(folder_or_xml):
     """Reads a campaign folder or its campaign.xml. Each warning about the files is an InputWarning."""
     return Campaign(folder_or_xml)
@@ -158,6 +178,8 @@ def calibrate(campaign, *, folds=None, fold_size=None, angles="reported", urdf=N
     """Geometry, own weight and effects from unloaded postures, held out; `urdf`, `csv`: files to write."""
     folds = _core.default_folds if folds is None else folds
     fold_size = _core.default_fold_size if fold_size is None else fold_size
+    if urdf is not None and csv is not None and os.path.realpath(urdf) == os.path.realpath(csv):
+        _refuse("urdf", urdf, "expected another file than csv")
     return _result("calibrate",
                    _core.calibrate(_opened(campaign), raw, folds, fold_size, angles, _path(urdf), _path(csv)))
 
@@ -168,9 +190,15 @@ def compensate(campaign, postures=None, wrenches=None, *, names=None, method="",
 
     postures: an array of rows of joint angles (deg) with `wrenches`, rows of the load cell's expected reading
     (fx, fy, fz in N, mx, my, mz in Nm; one row for all postures will do); or a CSV file of both; or a table of both with
-    the file's columns (a dict of arrays or a DataFrame); None: the campaign's own. names: of the postures, else 1, 2 ...
+    the file's columns (a dict of arrays or a DataFrame); None: the campaign's own. names: of the postures of an array,
+    else 1, 2 ... Angles are those of the campaign's tables: of joints with a joint_reading the controller's figures.
     """
     file, ids, angles, readings = "", None, numpy.zeros((0, 0)), numpy.zeros((0, 6))
+    if postures is None or isinstance(postures, (str, os.PathLike)) or hasattr(postures, "keys"):
+        # A file and a table have both themselves, and so has the campaign: given beside them they are not ignored.
+        for argument, value in (("wrenches", wrenches), ("names", names)):
+            if value is not None:
+                _refuse(argument, value, "expected together with an array of postures")
     opened = _opened(campaign)
     if postures is not None and (isinstance(postures, (str, os.PathLike))):
         file = os.fspath(postures)
@@ -185,7 +213,9 @@ def compensate(campaign, postures=None, wrenches=None, *, names=None, method="",
             readings = numpy.repeat(readings, len(angles), axis=0)
         if len(readings) != len(angles):
             _refuse("wrenches", f"{len(readings)} rows", f"expected one row, or one for each of {len(angles)} postures")
-        ids = [str(i + 1) for i in range(len(angles))] if names is None else [str(name) for name in names]
+        ids = [str(i + 1) for i in range(len(angles))] if names is None else _cells(names)
+        if "" in ids:
+            _refuse("names", "", "expected a name of each posture")
         if len(ids) != len(angles) or len(set(ids)) != len(ids):
             _refuse("names", f"{len(ids)} names", f"expected {len(angles)} different names")
     return _result(
@@ -201,8 +231,11 @@ def _posture_table(table, joints):
     if missing:
         raise InputError(f"postures: {missing[0]}: expected a column of this name", "postures", None, missing[0], None,
                          "expected a column of this name")
-    return (list(table["pose"]), numpy.column_stack([numpy.asarray(table[name]) for name in angles]),
-            numpy.column_stack([numpy.asarray(table[name]) for name in wrench]))
+    columns = {name: _floats("postures", table[name]) for name in [*angles, *wrench]}
+    if {column.shape for column in columns.values()} != {(len(table["pose"]),)}:
+        _refuse("postures", table["pose"], "expected columns of one length")
+    return (table["pose"], numpy.column_stack([columns[name] for name in angles]),
+            numpy.column_stack([columns[name] for name in wrench]))
 
 
 def compare(before, after, *, step=None, neglect_kc=False, seed=1, with_=None, springs_only=False, raw=False):
@@ -220,7 +253,8 @@ def diagnose(campaign, *, angles="reported"):
 def plan(campaign, *, postures=None, add=None, load=None, pull=None, hook=None, tracker=None, min_deg=None, max_deg=None,
          repeats=None, unloaded=False, criterion="balanced", candidates=None, seed=1, out=None, with_=None,
          springs_only=False):
-    """Postures and loads to measure, a row each under `rows`. hook, tracker: x, y, z in mm."""
+    """Postures and loads to measure, a row each under `rows`. hook, tracker: x, y, z in mm; min_deg, max_deg: a limit
+    of each joint, as the campaign's tables have angles."""
     if postures is not None and add is not None:
         _refuse("add", add, "expected without postures")
     if load is not None and pull is not None:
@@ -254,9 +288,9 @@ def fit(shape, points, *, strategy="", robust=False):
 def write_campaign(folder, like, tables):
     """Writes a campaign of tables in memory into `folder`, which must not exist, and opens it.
 
-    like    the campaign, or its folder, whose campaign.xml and URDF are taken
+    like    the campaign, its folder or its campaign.xml, whose description and URDF are taken
     tables  by their name in campaign.xml dicts of columns (or DataFrames) as the campaign format has them, in its units;
-            NaN leaves a cell blank. Tables of `like` that are not named come along; None leaves one out
+            NaN and None leave a cell blank. Tables of `like` that are not named come along; None leaves one out
 
     The tables are read back by the reader of every campaign: what the format does not allow raises InputError with file,
     line and column, and nothing is left behind.
@@ -267,9 +301,7 @@ def write_campaign(folder, like, tables):
     unknown = [name for name in tables if name not in _TABLES]
     if unknown:
         _refuse("tables", unknown[0], f"expected tables of {', '.join(_TABLES)}")
-    source = like.folder if isinstance(like, Campaign) else pathlib.Path(like)
-    if source.is_file():
-        source = source.parent
+    source = like._xml if isinstance(like, Campaign) else _xml_of(like)
     with tempfile.TemporaryDirectory(prefix=f".{folder.name}-", dir=folder.absolute().parent) as made:
         inside = pathlib.Path(made) / folder.name
         inside.mkdir()
@@ -290,15 +322,16 @@ def _elsewhere(error, made, meant):
 
 
 def _write_folder(folder, source, tables):
-    document = xml.etree.ElementTree.parse(source / "campaign.xml")
+    """A campaign in `folder` of the campaign.xml `source`."""
+    document = xml.etree.ElementTree.parse(source)
     root = document.getroot()
-    shutil.copyfile(source / root.find("robot").get("urdf"), folder / "robot.urdf")
+    shutil.copyfile(source.parent / root.find("robot").get("urdf"), folder / "robot.urdf")
     root.find("robot").set("urdf", "robot.urdf")
     for name in _TABLES:
         element = root.find(name)
         if name not in tables:
             if element is not None:
-                shutil.copyfile(source / element.get("file"), folder / f"{name}.csv")
+                shutil.copyfile(source.parent / element.get("file"), folder / f"{name}.csv")
                 element.set("file", f"{name}.csv")
             continue
         if tables[name] is None:
@@ -324,8 +357,17 @@ def _write_table(file, table):
 
 
 def _cells(values):
-    """Numbers with all their digits, NaN as a blank."""
-    column = numpy.asarray(values)
-    if column.dtype.kind == "f":
-        return ["" if value != value else repr(value) for value in column.tolist()]
-    return [str(value) for value in column.tolist()]
+    """Numbers with all their digits; NaN, None, a masked element and pandas' NA as a blank."""
+    # A list stays one: as an array of texts its NaN would be the text 'nan'.
+    listed = values if isinstance(values, (list, tuple)) else numpy.asanyarray(values).tolist()
+    return [_cell(value) for value in listed]
+
+
+def _cell(value):
+    if value is None or value is numpy.ma.masked:
+        return ""
+    if isinstance(value, (float, numpy.floating)):
+        return "" if value != value else repr(float(value))
+    if type(value).__name__ in ("NAType", "NaTType"):  # pandas is not imported for them
+        return ""
+    return str(value)

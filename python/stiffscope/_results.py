@@ -91,23 +91,35 @@ class Result(Record):
         if path is not None:
             found = self
             for name in path.split("."):
+                if found is None:  # what is part of something that was not determined was not, either
+                    return []
                 found = found[name]
             return found if isinstance(found, list) else [found]
         return _PRINCIPAL[self._command](self)
+
+    def _why_not(self):
+        """Lines for what has no rows."""
+        whole = self.why_not or self.get("unavailable") or self.get("reason")
+        if whole:
+            return [whole]
+        methods = self.get("methods", {}).items()
+        return [f"{name}: {values['unavailable']}" for name, values in methods if values.get("unavailable")]
 
     def table(self, path=None):
         return _frame([_flat(row) for row in self._rows(path) if row is not None])
 
     def _repr_html_(self):
         heading = html.escape(f"{self._command}: {self['campaign']['name']}" if "campaign" in self else self._command)
-        note = f"<p>{html.escape(self.why_not)}</p>" if self.why_not else ""
-        return f"<h4>{heading}</h4>{note}{_html_table([_flat(row) for row in self._rows() if row is not None])}"
+        notes = "".join(f"<p>{html.escape(line)}</p>" for line in self._why_not())
+        return f"<h4>{heading}</h4>{notes}{_html_table([_flat(row) for row in self._rows() if row is not None])}"
 
 
 def _stiffnesses(result):
-    """A row a method and joint."""
+    """A row a method and joint; none of a method that is not available."""
     rows = []
     for method, values in result.get("methods", {}).items():
+        if "stiffness_nm_per_rad" not in values:
+            continue
         for joint in range(len(values["stiffness_nm_per_rad"])):
             low, high = values["interval_nm_per_rad"][joint] if values.get("interval_nm_per_rad") is not None else (
                 None, None)

@@ -53,11 +53,13 @@ std::string fleetCsv(const fleet::Fleet& fleet) {
   addColumns(table, "compensated", "");
   addColumns(table, "nominal_rms", "m");
   addColumns(table, "calibrated_rms", "m");
-  for (const char* name : {"gap_before_m", "gap_noise_m", "gap_after_m", "effects"}) table.columns.emplace_back(name);
+  for (const char* name : {"gap_before_m", "gap_noise_m", "gap_after_m", "effects", "report_failure"})
+    table.columns.emplace_back(name);
   for (const fleet::FleetCampaign& one : fleet.campaigns) {
     DataRow row{one.machine, one.date, one.folder, one.failure};
     if (one.result) addCampaign(row, *one.result, joints);
-    addEmpty(row, table.columns.size() - row.size());
+    addEmpty(row, table.columns.size() - 1 - row.size());
+    row.emplace_back(one.report_failure);
     table.rows.push_back(std::move(row));
   }
   return csvTable(table);

@@ -50,6 +50,7 @@ Json rowJson(const campaign::Campaign& campaign, const compensation::Compensated
   }
   if (posture.solved) {
     row["command_deg"] = array(posture.commands, 1.0 / io::kDegree);
+    addReading(campaign, posture.commands, row);
     row["change_deg"] = array(JointVector(posture.commands - posture.posture.q), 1.0 / io::kDegree);
     row["remaining_mm"] = posture.remaining / io::kMillimetre;
     row["remaining_mirrored_once_mm"] = posture.mirrored_remaining / io::kMillimetre;

@@ -221,6 +221,7 @@ std::string fleetJsonLines(const fleet::Fleet& fleet) {
     Json json{{"machine", one.machine}, {"date", one.date}, {"folder", one.folder}};
     json["failure"] = one.result ? Json(nullptr) : Json(one.failure);
     if (!one.report.empty()) json["report"] = one.report;
+    if (!one.report_failure.empty()) json["report_failure"] = one.report_failure;
     if (one.result) json.update(toldJson(*one.result));
     constexpr int kOneLine = -1;
     lines += json.dump(kOneLine, ' ', false, Json::error_handler_t::replace) + '\n';

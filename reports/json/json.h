@@ -161,7 +161,8 @@ Json framesJson(const campaign::Campaign& campaign, const frames::Frames& frames
 /// The result of `plan`: a row a posture, and what random postures would give.
 Json planJson(const campaign::Campaign& campaign, const planning::Plan& plan);
 
-/// Adds `reading_deg` to a planned posture: its angles as the controller states them, where the campaign says how.
+/// Adds `reading_deg` to a planned posture or a command: the angles as the controller states them, where the campaign
+/// says how.
 void addReading(const campaign::Campaign& campaign, const JointVector& q, Json& row);
 
 /// The result of `plan --unloaded`: rows (a posture each, in the order of the day: predicted_mm with it and all before,

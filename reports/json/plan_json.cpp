@@ -76,6 +76,7 @@ Json planJson(const campaign::Campaign& campaign, const planning::Plan& plan) {
     addUncertainties(plan, plan.sd_measured, measured);
     json["measured"] = measured;
   }
+  json["sd_meaning"] = words(Remark(planning::RemarkId::sd_of_weighted_fit));
   json["log_det"] = number(plan.log_determinant);
   Json rows = Json::array();
   for (const planning::PlannedPosture& posture : plan.postures) rows.push_back(rowJson(campaign, plan, posture));

@@ -68,11 +68,7 @@ void writeGain(const planning::Plan& plan, Out out) {
     writeUncertainties(plan, fmt::format("{}{} random (median)", plan.measured > 0 ? "and " : "", random->postures),
                        random->sd, out);
   }
-  fmt::format_to(out, "  {}\n",
-                 wrapped("of a fit of all joints together that weighs each reading by its noise: Partial Pose comes to "
-                         "1.2 to 1.5 times it, Complete Pose and Decoupled Partial Pose to some times it; the load "
-                         "cell's noise and what effects could hide are not in it",
-                         2));
+  fmt::format_to(out, "  {}\n", wrapped(words(Remark(planning::RemarkId::sd_of_weighted_fit)), 2));
   if (plan.measured == 0) {
     fmt::format_to(out, "  by the determinant, one planned posture tells as much as {:.1f} random ones\n",
                    plan.random_same.efficiency);

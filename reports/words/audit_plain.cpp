@@ -52,7 +52,7 @@ constexpr std::array kPlain{
     PlainCheck{"load_size", "force and deflection do not go together in size"},
     PlainCheck{"posture_set", "the postures hardly tell the joints apart"},
     PlainCheck{"arm_model", "the arm that was measured is not that of the URDF"},
-    PlainCheck{"load_model", "joint springs explain little of the displacements"},
+    PlainCheck{"load_model", "joint springs do not explain the displacements, of all postures or of some"},
     PlainCheck{"controller_poses", "the poses that the controller states are not those of the URDF's arm"},
 };
 

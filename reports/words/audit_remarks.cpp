@@ -5,6 +5,7 @@
 
 #include "core/audit/remarks.h"
 #include "core/io/units.h"
+#include "reports/words/names.h"
 #include "reports/words/numbers.h"
 #include "reports/words/remark_words.h"
 #include "reports/words/remarks.h"
@@ -190,6 +191,10 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
       return "repeats scatter by less than half of what is declared: one sigma of a reading is asked for, not "
              "the maximum permissible error of a data sheet (ISO 10360-10); checks and uncertainties are as lax "
              "as the declaration";
+    case audit::RemarkId::repeats_rounded:
+      return fmt::format(
+          "coordinates are written to {}, and that rounding counts as noise beside what is declared: write more digits",
+          lengthWords(values.number(0), 0));
     case audit::RemarkId::noise_borne_out:
       return fmt::format("readings bear the declared noise out within a factor of {:.2f}: of it show {}",
                          values.number(0), joined(values, 1, ", "));
@@ -337,7 +342,8 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
     case audit::RemarkId::runs_along_sweep:
       return fmt::format(
           "; that of ax{} {} runs along the sweep, no one reading makes it: the axis moves as it turns, most "
-          "often because the own weight bends bearings or links, which joint springs do not describe; "
+          "often because the own weight bends bearings or links, which joint springs do not describe, or because the "
+          "springs by which its sag is taken off are wrong, as by a load cell that is off by a factor; "
           "identification goes on",
           values.counts(0).size() == 1 ? "is" : "es", fmt::join(values.counts(0), ", "));
     case audit::RemarkId::reflectors_agree:
@@ -440,6 +446,11 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
     case audit::RemarkId::geometry_does_not_carry:
       return "; the swept geometry does not carry over to the postures: joint zeros, gear errors, or the own "
              "weight bends more than the joints (bearings, links)";
+    case audit::RemarkId::zero_since_sweeps:
+      return fmt::format(
+          "; {:.0f} % of this goes where joint {} stands {:+.4f} deg from its reported angle in all of loading, as it "
+          "did not in the sweeps: was its zero set again between them, or does one of the tables have another?",
+          100.0 * values.number(2), values.count(0), values.number(1) / io::kDegree);
     case audit::RemarkId::angles_agree:
       return "reported joint angles agree with what the reflectors say, posture by posture";
     case audit::RemarkId::angles_stale:

@@ -152,8 +152,8 @@ std::string identificationWords(identification::RemarkId id, const RemarkValues&
           "measure `loading` with three",
           values.count(0));
     case RemarkId::wrist_point_not_everywhere:
-      return "P_wrist needs absolute readings of three reflectors of known radius in every posture: measure `loading` "
-             "and the wrist sweep with three";
+      return "P_wrist needs absolute readings of three reflectors of known radius, not on one line, in every posture: "
+             "measure `loading` and the wrist sweep with three";
     case RemarkId::wrist_centre_not_measured:
       return "the wrist centre is not measured: " + words(values.remark(0));
     case RemarkId::wrist_sweep_wanted:
@@ -191,6 +191,9 @@ std::string identificationWords(identification::RemarkId id, const RemarkValues&
       return "no state of this load step";
     case RemarkId::no_reflector_in_both_states:
       return "no reflector was read both unloaded and in this load step";
+    case RemarkId::back_at_zero:
+      return fmt::format("back at zero in this load step: {:.3g} N of its largest {:.4g} N", values.number(0),
+                         values.number(1));
     case RemarkId::under_three_reflectors:
       return "fewer than three reflectors read in both states";
     case RemarkId::no_wrist_point:

@@ -150,14 +150,13 @@ std::string wrenchIn(const RemarkValues& values) {
 std::string wrenchOfRow(mistakes::WrenchRow row) {
   switch (row) {
     case mistakes::WrenchRow::previous_posture:
-      return "each wrench stands in the row of the next posture: that of a posture is in the row of the posture before";
+      return "each wrench stands a posture early: that of a posture is in the row of the posture before";
     case mistakes::WrenchRow::next_posture:
-      return "each wrench stands in the row of the posture it follows: that of a posture is in the row of the next "
-             "posture";
+      return "each wrench stands a posture late: that of a posture is in the row of the next posture";
     case mistakes::WrenchRow::previous_step:
-      return "each wrench stands a step late: that of a step is in the row of the step before";
+      return "each wrench stands a step early: that of a step is in the row of the step before";
     case mistakes::WrenchRow::next_step:
-      return "each wrench stands a step early: that of a step is in the row of the next step";
+      return "each wrench stands a step late: that of a step is in the row of the next step";
     case mistakes::WrenchRow::own:
       break;
   }
@@ -336,6 +335,11 @@ std::string mistakesWords(mistakes::RemarkId id, const RemarkValues& values) {
     case RemarkId::wrenches_repeated:
       return fmt::format("pose {0} has the wrenches of pose {1}, digit by digit: write those of pose {0}",
                          values.name(0), values.name(1));
+    case RemarkId::steps_repeated: {
+      const std::vector<std::string>& poses = values.names(0);
+      return fmt::format("pose{} {}: step {} has the wrench of step {}, digit by digit: write its own",
+                         poses.size() == 1 ? "" : "s", fmt::join(poses, ", "), values.count(1), values.count(2));
+    }
     case RemarkId::steps_exchanged:
       return fmt::format("exchange the {} of steps {} and {}", values.count(2) != 0 ? "readings" : "wrenches",
                          values.count(0), values.count(1));

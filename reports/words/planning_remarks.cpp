@@ -47,6 +47,10 @@ std::string planningWords(planning::RemarkId id, const RemarkValues& values) {
           "arm, reflectors and tracker as the {} measured postures calibrate them; the model leaves {:.3f} mm in a "
           "coordinate, and will again",
           values.count(0), values.number(1) / io::kMillimetre);
+    case sd_of_weighted_fit:
+      return "of a fit of all joints together that weighs each reading by its noise: Partial Pose comes to 1.2 to 1.5 "
+             "times it, Complete Pose and Decoupled Partial Pose to some times it; the load cell's noise and what "
+             "effects could hide are not in it";
     case no_joint_seen:
       return "this load turns no joint enough to see its stiffness";
   }

@@ -59,7 +59,7 @@ std::string preparationWords(preparation::RemarkId id, const RemarkValues& value
     case preparation::RemarkId::nothing_inside_station:
       return "no reflector stands inside the station";
     case preparation::RemarkId::no_chance_of_same_digits:
-      return "two readings do not agree to the last digit by chance";
+      return "no more readings agree to the last digit than chance makes agree";
     case preparation::RemarkId::chi_square_of_repeat:
       return "chi-square of a reading against its state's others, three coordinates";
     case preparation::RemarkId::chi_square_of_nest_reading:
@@ -86,6 +86,17 @@ std::string preparationWords(preparation::RemarkId id, const RemarkValues& value
       return "the tracker's declared noise";
     case preparation::RemarkId::noise_as_declared_few_repeats:
       return "the tracker's declared noise, because there are too few repeats to check it";
+    case preparation::RemarkId::noise_by_distances:
+      if (values.count(2) != 0) {
+        return fmt::format(
+            "the tracker's declared noise; there are too few repeats to check it, and distances between "
+            "reflectors agree with it ({:.2f} of it, {} degrees of freedom)",
+            values.number(1), values.count(0));
+      }
+      return fmt::format(
+          "distances between reflectors ({} degrees of freedom), since there are too few repeats: {:.2f} "
+          "of the declared noise",
+          values.count(0), values.number(1));
     case preparation::RemarkId::noise_by_repeats:
       return fmt::format("repeats ({} degrees of freedom), {:.2f} of the declared noise along the beam, {:.2f} across",
                          values.count(0), values.number(1), values.number(2));

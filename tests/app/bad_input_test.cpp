@@ -90,12 +90,17 @@ TEST(BadInput, StatusTwoOneLineAndNothingLeftBehind) {
 TEST(BadInput, AFullStandardOutputIsNoSuccess) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
   const ScratchFolder scratch;
-  const std::string line = "'" STIFFSCOPE_BINARY "' frames '" STIFFSCOPE_SOURCE_DIR "/samples/active' >/dev/full 2>'" +
-                           (scratch.path() / "stderr").string() + "'";
-  const int raw = std::system(line.c_str());
-  EXPECT_EQ(WEXITSTATUS(raw), 2);
-  EXPECT_EQ(contentsOf(scratch.path() / "stderr"),
-            "stiffscope: standard output: cannot be written: No space left on device\n");
+  const std::string samples = STIFFSCOPE_SOURCE_DIR "/samples", folder = scratch.path().string();
+  for (const std::string& words :
+       {"frames '" + samples + "/active'", "init '" + samples + "/m900ib700.urdf' --out '" + folder + "/new'",
+        "import template --maker kuka '" + folder + "/day'"}) {
+    const std::string line = "'" STIFFSCOPE_BINARY "' " + words + " >/dev/full 2>'" + folder + "/stderr'";
+    const int raw = std::system(line.c_str());
+    EXPECT_EQ(WEXITSTATUS(raw), 2) << words;
+    EXPECT_EQ(contentsOf(scratch.path() / "stderr"),
+              "stiffscope: standard output: cannot be written: No space left on device\n")
+        << words;
+  }
 }
 
 // A limit on the size of files stands for a full disk. The pictures of a report are larger.

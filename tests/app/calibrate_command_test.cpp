@@ -51,6 +51,12 @@ TEST(CalibrateCommand, RefusesFoldsThatAreNone) {
   const Ran ran = runProgram("calibrate '" STIFFSCOPE_SOURCE_DIR "/samples/active' --folds 1", scratch.path());
   EXPECT_EQ(ran.status, 2);
   EXPECT_NE(ran.err.find("--folds: '1': expected 2 to 100"), std::string::npos) << ran.err;
+  // A part as large as the day would leave none to hold out.
+  const Ran whole =
+      runProgram("calibrate '" STIFFSCOPE_SOURCE_DIR "/samples/unloaded' --fold-size 100", scratch.path());
+  EXPECT_EQ(whole.status, 2);
+  EXPECT_NE(whole.err.find("--fold-size: '100': expected fewer than the day's 100 postures"), std::string::npos)
+      << whole.err;
 }
 
 TEST(CalibrateCommand, IdentifyNamesIt) {

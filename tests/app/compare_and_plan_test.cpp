@@ -154,6 +154,7 @@ TEST(PlanCommand, TheEffectsOfTheDayAreInWhatAPlanPromises) {
   EXPECT_TRUE(model.contains("next"));
   EXPECT_FALSE(alone.contains("with"));
   EXPECT_EQ(model["rows"].size(), 3u);
+  EXPECT_EQ(model["sd_meaning"].get<std::string>().rfind("of a fit of all joints together that weighs", 0), 0u);
   EXPECT_EQ(runProgram(words, scratch.path()).out, supported.out);
 }
 

@@ -125,6 +125,7 @@ TEST(CompensateProgram, ReplacesTargetsByTheControllersFigures) {
   for (std::size_t i = 0; i < 2; ++i) {
     for (std::size_t j = 0; j < 6; ++j) {
       const double figure = json["rows"][i]["command_deg"][j].get<double>() + (j == 1 ? -90.0 : (j == 2 ? 90.0 : 0.0));
+      EXPECT_NEAR(json["rows"][i]["reading_deg"][j].get<double>(), figure, 1e-9);
       const std::string text = fmt::format("{:.4f}", figure);
       // What is the same to four decimals stays as it is written.
       if (std::abs(std::stod(text) - std::stod(written[i][j])) < 5e-5) continue;
@@ -200,6 +201,33 @@ TEST(CompensatePath, WritesCommandsAndPicture) {
   EXPECT_NEAR(std::stod(cells[1][column(cells[0], "c1_deg")]), first["command_deg"][0].get<double>(), 6e-7);
   EXPECT_NEAR(std::stod(cells[2][column(cells[0], "along_mm")]), 30.0, 1e-9);
   EXPECT_EQ(contentsOf(picture).substr(1, 3), "PNG");
+}
+
+// The branch to stay on is named by the controller's figures, as all angles that are given.
+TEST(CompensatePath, StartsAtTheControllersFigures) {
+  const ScratchFolder plain, restated;
+  const fs::path own = dayWithK1(plain);
+  const fs::path day = dayWithK1(
+      restated, "<joint_reading joint=\"2\" offset_deg=\"90\"/><joint_reading joint=\"3\" offset_deg=\"-90\"/>");
+  restate(day);
+  const auto jointsOf = [](const ScratchFolder& scratch, const fs::path& campaign, const std::string& start) {
+    const fs::path path = scratch.path() / "path.csv";
+    std::ofstream(path) << kPath;
+    const Ran ran = runProgram("compensate" + quoted(campaign) + kQuick + "--path" + quoted(path) + kCell +
+                                   "--wrench 0,0,-500,0,0,0 --json - --start " + start,
+                               scratch.path());
+    EXPECT_NE(ran.status, 2) << ran.err;
+    return nlohmann::json::parse(ran.out)["rows"][0]["q_deg"];
+  };
+  // The best branch, and the same with the wrist turned round, which differ by half a turn of joint 4.
+  const auto q = jointsOf(plain, own, "0,20,-20,0,30,0"), turned = jointsOf(plain, own, "0,20,-20,180,-30,180");
+  ASSERT_TRUE(q.is_array() && turned.is_array()) << q << turned;
+  const auto figures = jointsOf(restated, day, "0,-70,70,0,30,0"),
+             turned_figures = jointsOf(restated, day, "0,-70,70,180,-30,180");
+  for (std::size_t j = 0; j < 6; ++j) {
+    EXPECT_NEAR(figures[j].get<double>(), q[j].get<double>(), 0.05) << j;
+    EXPECT_NEAR(turned_figures[j].get<double>(), turned[j].get<double>(), 0.05) << j;
+  }
 }
 
 TEST(CompensateCommand, RefusesWhatDoesNotGoTogether) {

@@ -112,6 +112,37 @@ TEST_F(FleetCommand, ACrashCostsItsRow) {
   ASSERT_EQ(runProgram(merge.substr(0, merge.find(" --merge")), scratch.path()).status, 0);
   EXPECT_FALSE(fs::exists(message));
   EXPECT_EQ(contentsOf(scratch.path() / "out" / "fleet.csv").find("signal"), std::string::npos);
+  // So is a report's, whose campaign has a result; one of which nothing is known is missing all the same.
+  const fs::path report = scratch.path() / "out" / "reports" / result.stem();
+  fs::create_directories(report);
+  std::ofstream(report / "report.failed") << "ended by signal 9, Killed";
+  const Ran reports = runProgram(merge + " --reports", scratch.path());
+  ASSERT_EQ(reports.status, 0) << reports.err;
+  EXPECT_NE(reports.out.find("2 reports not written (report_failure in fleet.csv): "), std::string::npos)
+      << reports.out;
+  const std::string rows = contentsOf(scratch.path() / "out" / "fleet.csv");
+  EXPECT_NE(rows.find(",\"ended by signal 9, Killed\""), std::string::npos) << rows;
+  EXPECT_NE(rows.find(",not written yet"), std::string::npos) << rows;
+  EXPECT_NE(contentsOf(scratch.path() / "out" / "fleet.jsonl").find("\"report_failure\":\"ended by signal 9, Killed\""),
+            std::string::npos);
+}
+
+// What cannot be read as text has no head to be told apart by.
+TEST(FleetFolders, WithoutAReadableCampaignHaveEachItsOwnMessage) {
+  const ScratchFolder scratch;
+  for (const char* folder : {"A/d1", "B/d1"}) fs::create_directories(scratch.path() / "fleet" / folder);
+  std::ofstream(scratch.path() / "fleet/A/d1/campaign.xml", std::ios::binary) << std::string("\xff\xfe<\0c\0", 6);
+  std::ofstream(scratch.path() / "fleet/B/d1/campaign.xml", std::ios::binary).flush();
+  const Ran ran = runProgram(
+      fmt::format("fleet '{}' --out '{}'", (scratch.path() / "fleet").string(), (scratch.path() / "out").string()),
+      scratch.path());
+  EXPECT_EQ(ran.status, 1) << ran.err;
+  EXPECT_EQ(std::distance(fs::directory_iterator(scratch.path() / "out" / "campaigns"), {}), 2);
+  const std::string rows = contentsOf(scratch.path() / "out" / "fleet.csv");
+  const std::size_t second = rows.find("\nB,");
+  ASSERT_NE(second, std::string::npos) << rows;
+  EXPECT_LT(rows.find("UTF-16"), second) << rows;
+  EXPECT_EQ(rows.find("UTF-16", second), std::string::npos) << rows;
 }
 
 /// The working directory of a test, and the old one after it.

@@ -46,6 +46,14 @@ TEST_F(KeptInputs, PointsAndPostures) {
           campaign_ / "states.csv", "it is an input of this run");
 }
 
+TEST_F(KeptInputs, FilesOfACalibrationAreLookedAtBeforeItIsComputed) {
+  for (const char* const option : {"--csv", "--urdf"}) {
+    const fs::path file = campaign_ / "robot.urdf";
+    refused("calibrate" + quoted(campaign_) + option + quoted(file), file, "it is an input of this run");
+    EXPECT_EQ(contentsOf(scratch_.path() / "stdout"), "") << option;
+  }
+}
+
 TEST_F(KeptInputs, TwoResultsInOneFile) {
   const fs::path file = scratch_.path() / "plan.csv";
   const Ran ran = runProgram(

@@ -3,6 +3,7 @@
 import json
 import os
 import pathlib
+import shutil
 import tempfile
 import unittest
 
@@ -74,6 +75,57 @@ class Tables(unittest.TestCase):
         (self.folder / "mine").mkdir()
         with self.assertRaises(FileExistsError):
             stiffscope.write_campaign(self.folder / "mine", self.day, {})
+
+    def test_none_and_nan_are_blanks_in_every_column(self):
+        states = dict(self.day.tables.states)
+        count = len(states["pose"])
+        for blank in (None, float("nan")):
+            states["temperature_c"] = [blank, 21.5] + [20] * (count - 2)
+            again = stiffscope.write_campaign(self.folder / f"again-{blank}", self.day, {"states": states})
+            numpy.testing.assert_array_equal(again.tables.states["temperature_c"][:3], [numpy.nan, 21.5, 20.0])
+        masked = numpy.ma.masked_array(numpy.full(count, 20.0), mask=[True] + [False] * (count - 1))
+        states["temperature_c"] = masked
+        again = stiffscope.write_campaign(self.folder / "again-masked", self.day, {"states": states})
+        self.assertTrue(numpy.isnan(again.tables.states["temperature_c"][0]))
+        # A name that is missing is no name.
+        nests = dict(self.day.tables.nests)
+        for blank in (None, float("nan")):
+            nests["nest"] = [blank if i == 3 else name for i, name in enumerate(self.day.tables.nests["nest"])]
+            with self.assertRaises(stiffscope.InputError) as raised:
+                stiffscope.write_campaign(self.folder / "nameless", self.day, {"nests": nests})
+            self.assertEqual((raised.exception.line, raised.exception.column), (5, "nest"))
+
+    def test_the_description_is_that_which_was_opened(self):
+        folder = self.folder / "two"
+        shutil.copytree(SAMPLES / "active", folder)
+        xml = (folder / "campaign.xml").read_text()
+        at = xml.index('date="') + len('date="')
+        (folder / "later.xml").write_text(xml[:at] + "2030-01-02" + xml[at + len("2030-01-02"):])
+        later = stiffscope.open(folder / "later.xml")
+        self.assertEqual(later.date, "2030-01-02")
+        self.assertEqual(stiffscope.write_campaign(self.folder / "by_day", later, {}).date, "2030-01-02")
+        self.assertEqual(stiffscope.write_campaign(self.folder / "by_path", folder / "later.xml", {}).date, "2030-01-02")
+        self.assertNotEqual(stiffscope.write_campaign(self.folder / "by_folder", folder, {}).date, "2030-01-02")
+
+    def test_what_an_earlier_call_read_is_written_anew(self):
+        for _ in range(2):
+            stiffscope.simulate(SAMPLES / "unloaded.xml", self.folder / "day", replace=True)
+            stiffscope.open(self.folder / "day")
+        planned = self.folder / "plan.csv"
+        for _ in range(2):
+            self.day.plan(postures=3, candidates=60, springs_only=True, out=planned)
+            self.day.compensate(planned, springs_only=True)
+
+    def test_no_call_writes_over_the_campaign_that_it_is_given(self):
+        shutil.copytree(SAMPLES / "active", self.folder / "mine")
+        measured = self.folder / "mine" / "states.csv"
+        before = measured.read_bytes()
+        day = stiffscope.open(self.folder / "mine")
+        self.day.audit()
+        for campaign in (day, self.folder / "mine"):
+            with self.assertRaisesRegex(RuntimeError, "it is an input of this run"):
+                stiffscope.plan(campaign, postures=3, candidates=60, springs_only=True, out=measured)
+        self.assertEqual(measured.read_bytes(), before)
 
     def test_simulate_writes_a_day(self):
         truth = stiffscope.simulate(SAMPLES / "active.xml", self.folder / "day")
@@ -178,6 +230,41 @@ class Postures(unittest.TestCase):
                 numpy.testing.assert_array_equal(other.rows[i].tcp_deflection_mm, by_arrays.rows[i].tcp_deflection_mm)
             # The same posture among the campaign's own: what is rounded in the tables' units moves by 1e-16.
             numpy.testing.assert_allclose(own.rows[i].tcp_deflection_mm, by_arrays.rows[i].tcp_deflection_mm, rtol=1e-9)
+
+    def test_angles_are_the_controllers_figures(self):
+        """Joint 3 against the horizontal, as the tables of such a day have it: the same arm, the same postures."""
+        forces = ("fx_n", "fy_n", "fz_n", "mx_nm", "my_nm", "mz_nm")
+        figures = self.angles.copy()
+        figures[:, 2] -= figures[:, 1]
+        columns = {"pose": self.names, **{f"q{j + 1}_deg": figures[:, j] for j in range(6)},
+                   **dict(zip(forces, self.wrenches.T))}
+        with tempfile.TemporaryDirectory() as made:
+            folder = pathlib.Path(made)
+            shutil.copytree(SAMPLES / "active", folder / "like")
+            description = folder / "like" / "campaign.xml"
+            reading = '<joint_reading joint="3" plus="2"/>'
+            description.write_text(description.read_text().replace("<tool ", reading + "<tool ", 1))
+            tables = {}
+            for name in ("circle_sweeps", "wrist_sweep", "states"):
+                tables[name] = dict(self.day.tables[name])
+                tables[name]["q3_deg"] = tables[name]["q3_deg"] - tables[name]["q2_deg"]
+            day = stiffscope.write_campaign(folder / "day", folder / "like", tables)
+            file = folder / "postures.csv"
+            lines = [",".join(columns)] + [",".join(map(str, row)) for row in zip(
+                self.names, *(map(repr, columns[name].tolist()) for name in list(columns)[1:]))]
+            file.write_text("\n".join(lines) + "\n")
+            by_file = day.compensate(file, springs_only=True)
+        by_arrays = day.compensate(figures, self.wrenches, names=self.names, springs_only=True)
+        by_table = day.compensate(columns, springs_only=True)
+        plain = self.day.compensate(self.angles, self.wrenches, names=self.names, springs_only=True)
+        for i in range(3):
+            for other in (by_arrays, by_table):
+                for key in ("q_deg", "tcp_deflection_mm", "command_deg"):
+                    numpy.testing.assert_array_equal(other.rows[i][key], by_file.rows[i][key])
+            numpy.testing.assert_allclose(by_arrays.rows[i].q_deg, self.angles[i], rtol=0, atol=1e-8)
+            numpy.testing.assert_allclose(by_arrays.rows[i].tcp_deflection_mm, plain.rows[i].tcp_deflection_mm, rtol=0,
+                                          atol=1e-3)
+        self.assertEqual(str(by_arrays), str(by_file))
 
     def test_one_wrench_serves_all_postures(self):
         rows = self.day.compensate(self.angles, [0, 0, -1000, 0, 0, 0], springs_only=True).rows

@@ -60,6 +60,30 @@ class Refused(unittest.TestCase):
         error = self.error(stiffscope.fit, "plane", [[0, 0, 0], [1, 0, float("inf")], [0, 1, 0]])
         self.assertEqual((error.file, error.line, error.column), ("points", 2, "z"))
 
+    def test_what_postures_have_themselves_is_refused_beside_them(self):
+        day = stiffscope.open(SAMPLES / "active")
+        wrench = [0, 0, -1000, 0, 0, 0]
+        columns = {"pose": ["a"], **{f"q{j}_deg": [10.0 * j] for j in range(1, 7)},
+                   **{name: [1.0] for name in ("fx_n", "fy_n", "fz_n", "mx_nm", "my_nm", "mz_nm")}}
+        for postures in (None, "postures.csv", columns):
+            self.assertEqual(self.error(day.compensate, postures, wrench).argument, "wrenches")
+            self.assertEqual(self.error(day.compensate, postures, names=["b"]).argument, "names")
+        error = self.error(stiffscope.calibrate, SAMPLES / "unloaded", urdf="a.out", csv="./a.out")
+        self.assertEqual(error.argument, "urdf")
+
+    def test_postures_that_are_no_numbers_or_have_no_name(self):
+        day = stiffscope.open(SAMPLES / "active")
+        angles, wrench = [[0, 0, 0, 0, 0, 0]], [0, 0, -1000, 0, 0, 0]
+        self.assertEqual(self.error(day.compensate, [["a"] * 6], wrench).argument, "postures")
+        self.assertEqual(self.error(day.compensate, [[0] * 6, [0]], wrench).argument, "postures")
+        self.assertEqual(self.error(day.compensate, numpy.array(angles) + 1j, wrench).argument, "postures")
+        hidden = numpy.ma.masked_array(numpy.zeros((1, 6)), mask=[[False, True] + [False] * 4])
+        error = self.error(day.compensate, hidden, wrench)
+        self.assertEqual((error.file, error.line, error.column), ("postures", 1, "q2_deg"))
+        for nameless in (None, float("nan"), ""):
+            self.assertEqual(self.error(day.compensate, angles, wrench, names=[nameless]).argument, "names")
+        self.assertNotIn("\n", str(self.error(day.compensate, wrenches=numpy.zeros((3, 6)))))
+
     def test_a_day_without_a_load_has_no_stiffness(self):
         result = stiffscope.identify(SAMPLES / "unloaded")
         self.assertFalse(result.serves)

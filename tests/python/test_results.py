@@ -136,6 +136,26 @@ class Shapes(unittest.TestCase):
         self.assertIn("Stiffness, 1e6 Nm/rad", str(self.found))
         self.assertIn("active", self.day._repr_html_())
 
+    def test_a_method_that_is_not_available_has_no_rows(self):
+        with tempfile.TemporaryDirectory() as folder:
+            day = stiffscope.write_campaign(pathlib.Path(folder) / "day", SAMPLES / "active", {"wrist_sweep": None})
+            found = day.identify(springs_only=True)
+            page = found._repr_html_()
+            alone = day.identify(springs_only=True, method="dpp")
+            nothing = stiffscope.write_campaign(pathlib.Path(folder) / "sweeps", SAMPLES / "active",
+                                                {"loading": None, "states": None, "nests": None})
+            shown = [result._repr_html_() for result in (nothing.identify(), nothing.diagnose(), nothing.calibrate())]
+        self.assertIn("unavailable", found.methods.dpp)
+        self.assertEqual([row["method"] for row in found._rows()], ["cp"] * 6 + ["pp"] * 6)
+        self.assertIn("<table>", page)
+        self.assertIn("<p>dpp: ", page)
+        self.assertEqual(alone._rows(), [])
+        self.assertIn("<p>dpp: ", alone._repr_html_())
+        for one in shown:
+            self.assertIn("states", one)  # what is missing
+            self.assertIn("no rows", one)
+        self.assertEqual(stiffscope.Result({"summary": None})._rows("summary.refused"), [])
+
     def test_results_survive_pickling(self):
         again = pickle.loads(pickle.dumps(self.found))
         self.assertEqual(as_json(again), as_json(self.found))

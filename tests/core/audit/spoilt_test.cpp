@@ -247,6 +247,20 @@ TEST(SpoiltCampaign, ShortArc) {
   EXPECT_TRUE(contains(check.message, "does not suffice")) << reports::words(check.message);
 }
 
+TEST(SpoiltCampaign, AReflectorThatIsHiddenOverPartOfASweepLeavesTheArcOfTheOthers) {
+  const preparation::AuditCheck& whole = checkNamed(goodReport(), "circle_arc", "axis 2");
+  for (const int hidden : {0, 1, 2}) {
+    const audit::AuditReport report = auditSpoilt([hidden](campaign::Campaign& campaign) {
+      std::erase_if(campaign.circle_sweeps->rows, [hidden](const campaign::CircleReading& row) {
+        return row.axis == 1 && row.target == hidden && std::abs(row.q[1]) > 16.0 * io::kDegree;
+      });
+    });
+    const preparation::AuditCheck& check = checkNamed(report, "circle_arc", "axis 2");
+    EXPECT_NEAR(*check.value, *whole.value, 1e-3) << hidden;
+    EXPECT_EQ(check.verdict, whole.verdict) << hidden << ": " << reports::words(check.message);
+  }
+}
+
 TEST(SpoiltCampaign, WideArcsOfFewReadingsOfOneReflector) {
   const audit::AuditReport report = auditSpoilt([](campaign::Campaign& campaign) {
     int count = 0;
@@ -262,8 +276,8 @@ TEST(SpoiltCampaign, WideArcsOfFewReadingsOfOneReflector) {
 
 TEST(SpoiltCampaign, OneReadingOffItsCircleIsNamed) {
   // The bearings' misfit runs along the sweep; a reading 2 mm off is another matter.
-  EXPECT_TRUE(
-      contains(checkNamed(goodReport(), "circle_residual").message, "that of axes 3, 4, 5 runs along the sweep"));
+  EXPECT_TRUE(contains(checkNamed(goodReport(), "circle_residual").message, "that of axes 3, 4"));
+  EXPECT_TRUE(contains(checkNamed(goodReport(), "circle_residual").message, "runs along the sweep"));
   std::size_t line = 0;
   const audit::AuditReport report = auditSpoilt([&](campaign::Campaign& campaign) {
     for (campaign::CircleReading& row : campaign.circle_sweeps->rows) {

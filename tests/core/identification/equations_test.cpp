@@ -282,6 +282,17 @@ TEST(WristMove, TakesTheLargestTriangleAndTheRootByTheArm) {
     std::vector<double> radii = machine.radii;
     radii[1] = std::numeric_limits<double>::quiet_NaN();
     EXPECT_FALSE(identification::wristMove(two, radii, modelled));
+    // The third nearly on the line of the other two, by a five hundredth of their distance: the noise of a reading
+    // would move the centre on a circle about that line.
+    two.targets[1] = one.targets[1];
+    const auto between = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) -> Eigen::Vector3d {
+      return 0.4 * a + 0.6 * b + 0.002 * (b - a).norm() * (b - a).unitOrthogonal();
+    };
+    two.targets[2].unloaded = between(two.targets[0].unloaded, two.targets[1].unloaded);
+    two.targets[2].loaded = between(two.targets[0].loaded, two.targets[1].loaded);
+    radii = machine.radii;
+    radii[2] = (two.targets[2].unloaded - centre).norm();
+    EXPECT_FALSE(identification::wristMove(two, radii, modelled));
   }
 }
 

@@ -5,6 +5,7 @@
 #include "core/campaign/read_campaign.h"
 #include "core/identification/identify.h"
 #include "core/identification/noise_share.h"
+#include "core/identification/remarks.h"
 
 namespace stiffscope {
 namespace load_case_test {
@@ -78,6 +79,52 @@ TEST(LoadCaseMaker, AMoveKnowsFromWhereItWasRead) {
     }
   }
   EXPECT_EQ(of_second, 3u * (19 - kFirstOfSecond));
+}
+
+/// Of a posture that was loaded a step fewer the return to zero has the number of the others' last load.
+campaign::Campaign returnedEarly(campaign::Campaign day, int pose) {
+  const auto renumber = [pose](auto& rows) {
+    std::erase_if(rows, [pose](const auto& row) { return row.pose == pose && row.step == 3; });
+    for (auto& row : rows) {
+      if (row.pose == pose && row.step == 4) row.step = 3;
+    }
+  };
+  renumber(day.states->rows);
+  renumber(day.loading->rows);
+  return day;
+}
+
+TEST(LoadCases, APostureThatIsBackAtZeroIsLeftOutByName) {
+  constexpr int kPose = 6;
+  const campaign::Campaign day = returnedEarly(sample(), kPose);
+  const identification::Identification result = identification::identify(day, identification::estimatesOnly());
+  EXPECT_EQ(result.step, 3);
+  EXPECT_EQ(result.cases.size(), 18u);
+  ASSERT_EQ(result.left_out.size(), 1u);
+  EXPECT_EQ(result.left_out[0].pose, day.pose_ids[kPose]);
+  EXPECT_TRUE(result.left_out[0].reason.is(identification::RemarkId::back_at_zero));
+  // Its noise has no direction: the load hangs as the others say.
+  EXPECT_TRUE(result.identifiability.load_hangs);
+
+  identification::IdentifyOptions options = identification::estimatesOnly();
+  options.all_steps = true;
+  const identification::Identification of_all = identification::identify(day, options);
+  EXPECT_EQ(of_all.cases.size(), 56u);  // 19 postures, three steps, but for that one
+  ASSERT_EQ(of_all.left_out.size(), 1u);
+  EXPECT_TRUE(of_all.left_out[0].reason.is(identification::RemarkId::in_step));
+}
+
+/// What asks for the way back has it: hysteresis by posture, and a step in which all postures are back at zero.
+TEST(LoadCases, ReturnsToZeroAreThereWhereTheyAreAskedFor) {
+  constexpr int kPose = 6;
+  const campaign::Campaign all = sample(), early = returnedEarly(all, kPose);
+  const frames::LoadingGeometry geometry = identification::identify(all, identification::estimatesOnly()).geometry;
+  EXPECT_EQ(identification::loadCases(all, geometry, 4).size(), 19u);
+  const identification::LoadReadings readings(early, {1, 2, 3});
+  EXPECT_TRUE(readings.backAtZero(kPose, 3));
+  EXPECT_FALSE(readings.backAtZero(kPose, 2));
+  EXPECT_FALSE(readings.backAtZero(kPose + 1, 3));
+  EXPECT_EQ(identification::LoadCaseMaker(early, readings, geometry).ofPose(kPose).size(), 3u);
 }
 
 /// Leaving out what judges the estimates does not change them.

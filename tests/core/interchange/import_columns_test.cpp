@@ -75,6 +75,24 @@ TEST_F(ImportColumns, WrenchAndTemperatureAreMeansWhileTheStateIsRead) {
   expectSays(refusal(kPoints + kLog + "<join by=\"clock\" offset_s=\"0\"/>"), {"log.csv:22", "fz", "pose 1"});
 }
 
+TEST_F(ImportColumns, ATemperatureMayBeBlank) {
+  write("log.csv", "pose," + kJoints + ",temperature_c\nA,10,0,0,0,20,0,\nB,20,0,0,0,20,0,21.5\n");
+  const ImportedDay made = imported(kPoints + kLog + "<join by=\"name\"/>");
+  ASSERT_EQ(made.campaign.states->rows.size(), 2u);
+  EXPECT_FALSE(made.campaign.states->rows[0].hasExtras());
+  EXPECT_DOUBLE_EQ(made.campaign.states->rows[1].extras().temperature_c, 21.5);
+  // A standstill has the mean of those that there are.
+  std::string log = "time_s," + kJoints + ",temperature_c\n";
+  for (int i = 0; i <= 20; ++i) log += fmt::format("{:.1f},0,0,0,0,20,0,{}\n", 0.1 * i, i % 2 == 0 ? "" : "20.5");
+  write("log.csv", log);
+  EXPECT_DOUBLE_EQ(imported(kLog).campaign.states->rows.at(0).extras().temperature_c, 20.5);
+  // Rows of one pose say the same, or are refused.
+  write("log.csv", "pose," + kJoints + ",temperature_c\nA,10,0,0,0,20,0,\nA,10,0,0,0,20,0,\nB,20,0,0,0,20,0,21.5\n");
+  EXPECT_EQ(imported(kPoints + kLog + "<join by=\"name\"/>").skipped.size(), 1u);
+  write("log.csv", "pose," + kJoints + ",temperature_c\nA,10,0,0,0,20,0,\nA,10,0,0,0,20,0,21\nB,20,0,0,0,20,0,21.5\n");
+  expectSays(refusal(kPoints + kLog + "<join by=\"name\"/>"), {"log.csv:3", "same temperature"});
+}
+
 TEST_F(ImportColumns, AStepThatTheLogLacksIsRefused) {
   write("log.csv", "pose,step," + kJoints + ",fx_n,fy_n,fz_n,mx_nm,my_nm,mz_nm\nA,0,10,0,0,0,20,0,0,0,0,0,0,0\n" +
                        "A,1,10.01,0,0,0,20,0,0,0,-500,0,0,0\n");

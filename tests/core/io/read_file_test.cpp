@@ -70,6 +70,44 @@ TEST(ReadFile, NoticesAFileThatChangesWhileItIsRead) {
   EXPECT_EQ(why, "expected a file that stays as it is; it changed while it was read");
 }
 
+bool isInput(const fs::path& file) {
+  try {
+    io::requireNotRead(file);
+  } catch (const std::runtime_error&) {
+    return true;
+  }
+  return false;
+}
+
+// Whoever computes again and again in one process may write anew what an earlier run has read.
+TEST(OneRun, HasTheInputsThatAreReadWhileItStands) {
+  const TemporaryFolder folder;
+  const fs::path before = folder.path() / "before.csv", within = folder.path() / "within.csv",
+                 inner = folder.path() / "inner.csv", elsewhere = folder.path() / "elsewhere.csv";
+  for (const fs::path& file : {before, within, inner, elsewhere}) std::ofstream(file) << "x";
+  io::readTextFile(before);
+  EXPECT_TRUE(isInput(before));
+  {
+    const io::OneRun run;
+    EXPECT_FALSE(isInput(before));
+    io::readTextFile(within);
+    EXPECT_TRUE(isInput(within));
+    std::thread([&] { io::readTextFile(elsewhere); }).join();
+    EXPECT_TRUE(isInput(elsewhere));  // cores share the work of a run
+    {
+      const io::OneRun another;
+      EXPECT_FALSE(isInput(within));
+      io::readTextFile(inner);
+    }
+    EXPECT_TRUE(isInput(within));
+    EXPECT_TRUE(isInput(inner));
+    io::readTextFile(before);
+    EXPECT_TRUE(isInput(before));
+  }
+  // The program, which runs once, has them all.
+  for (const fs::path& file : {before, within, inner, elsewhere}) EXPECT_TRUE(isInput(file)) << file;
+}
+
 TEST(CampaignFiles, NoticesAFileThatChangesBeforeTheLastIsRead) {
   const SmallCampaign files;
   campaign::CampaignFiles reading(files.folder());

@@ -14,6 +14,7 @@
 #include "reports/words/remark_words.h"
 #include "tests/fixtures/clean_day.h"
 #include "tests/fixtures/simulated_lab.h"
+#include "tests/fixtures/spoil.h"
 #include "tests/fixtures/spoilt_forms.h"
 
 // The usual mistakes, each in a good day of which nothing else is wrong: named with the change that takes them back.
@@ -112,6 +113,46 @@ TEST(FindMistakes, NamesTheRowOfOnePosture) {
   ASSERT_EQ(agreement.arm.size(), 1u) << said(agreement);
   EXPECT_EQ(reports::words(agreement.arm.front().where),
             fmt::format("pose 8, q1_deg to q6_deg from states.csv:{} on", line));
+}
+
+// A shift by a step has the wrench of one of the two where it belongs, and would pass for the mistake.
+TEST(FindMistakes, NamesALoadExchangedWithTheReturnToZero) {
+  for (const bool of_points : {false, true}) {
+    campaign::Campaign day = simulation::simulate(cleanDay(31, 1.0));
+    ASSERT_TRUE(spoil::exchangeSteps(3, 4, of_points)(day));
+    const mistakes::ModelAgreement agreement = mistakes::findMistakes(day);
+    ASSERT_EQ(agreement.loads.size(), 1u) << said(agreement);
+    EXPECT_EQ(reports::words(agreement.loads.front().remedy), "exchange the wrenches of steps 3 and 4");
+    EXPECT_LT(agreement.loads.front().after, 0.05);
+  }
+}
+
+TEST(FindMistakes, NamesWrenchesShiftedByAStep) {
+  campaign::Campaign day = simulation::simulate(cleanDay(31, 1.0));
+  ASSERT_TRUE(spoil::wrenchOf(0, -1)(day));
+  const mistakes::ModelAgreement agreement = mistakes::findMistakes(day);
+  ASSERT_EQ(agreement.loads.size(), 1u) << said(agreement);
+  EXPECT_EQ(reports::words(agreement.loads.front().remedy),
+            "each wrench stands a step late: that of a step is in the row of the next step");
+}
+
+// Springs leave little of a day of which three wrenches are two thirds of what they should be; their digits tell.
+TEST(FindMistakes, NamesStepsThatHaveTheWrenchOfTheStepBefore) {
+  campaign::Campaign day = simulation::simulate(cleanDay(31, 1.0));
+  const std::set<int> stale{2, 7, 11};
+  std::map<int, Vector6d> second;
+  for (const campaign::State& row : day.states->rows) {
+    if (row.step == 2) second[row.pose] = row.wrench_in_cell;
+  }
+  for (campaign::State& row : day.states->rows) {
+    if (row.step == 3 && stale.contains(row.pose)) row.wrench_in_cell = second.at(row.pose);
+  }
+  const mistakes::ModelAgreement agreement = mistakes::findMistakes(day);
+  ASSERT_EQ(agreement.loads.size(), 1u) << said(agreement);
+  EXPECT_EQ(agreement.loads.front().mistake, "row_order");
+  EXPECT_EQ(reports::words(agreement.loads.front().remedy),
+            fmt::format("poses {}, {}, {}: step 3 has the wrench of step 2, digit by digit: write its own",
+                        day.pose_ids[2], day.pose_ids[7], day.pose_ids[11]));
 }
 
 // The other steps agree within a hundredth: a fifth stands out of that.

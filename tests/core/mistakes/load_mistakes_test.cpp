@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/mistakes/remarks.h"
+#include "reports/words/remark_words.h"
 
 // What a remedy says in words of the file against what it does to the readings.
 
@@ -120,6 +121,19 @@ TEST(LoadMistakes, ATurnAboutTheFlangesAxisIsToldByIt) {
   const auto& axis = std::get<std::vector<double>>(turned.remedy.values[0]);
   EXPECT_NEAR(axis[0], 1.0, 1e-12);
   EXPECT_EQ(std::get<std::int64_t>(turned.remedy.values[3]), 1);
+}
+
+// Where a wrench stands and where it is read are one thing, said twice.
+TEST(LoadMistakes, RowsAreNamedTheSameWayTwice) {
+  for (const LoadMistake& one : ofKind("row_order")) {
+    const std::string said = reports::words(one.remedy);
+    const bool before =
+        one.meant.row == mistakes::WrenchRow::previous_posture || one.meant.row == mistakes::WrenchRow::previous_step;
+    EXPECT_EQ(said.find("early") != std::string::npos, before) << said;
+    EXPECT_EQ(said.find("before") != std::string::npos, before) << said;
+    EXPECT_EQ(said.find("late") != std::string::npos, !before) << said;
+    EXPECT_EQ(said.find("next") != std::string::npos, !before) << said;
+  }
 }
 
 TEST(LoadMistakes, ThePointMayBeOnTheOtherSide) {

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 #include <cstdio>
+#include "core/campaign/joint_reading.h"
 #include "core/identification/posture_stiffness.h"
 #include "core/io/input_error.h"
 #include "core/io/units.h"
@@ -144,6 +145,52 @@ TEST(Plan, KeepsLimitsRulesAndDistance) {
   }
   EXPECT_EQ(planning::planCampaign(campaign, nullptr, options).postures.back().candidate.q,
             plan.postures.back().candidate.q);
+}
+
+// Joint 1 counted the other way round and from elsewhere, joint 3 against the horizontal.
+TEST(Plan, LimitsAreOfWhatTheControllerStates) {
+  const simulation::SimulationSpec spec = sample();
+  campaign::Campaign campaign = dayBefore(spec);
+  campaign.joint_readings = {{0, -1.0, 30.0 * io::kDegree, -1}, {2, 1.0, 0.0, 1}};
+  planning::PlanOptions options = optionsFor(spec, 6);
+  options.candidates = 300;
+  options.random_sets = 5;
+  options.rules.low.head(6) = io::kDegree * (Eigen::VectorXd(6) << -60, -40, -60, -100, -90, -90).finished();
+  options.rules.high.head(6) = io::kDegree * (Eigen::VectorXd(6) << 60, 40, 30, 100, 90, 90).finished();
+  const campaign::JointConvention convention(campaign.joint_readings, 6);
+  const auto outside = [&](const JointVector& q) {
+    const JointVector figures = convention.figures(q);
+    return (options.rules.low.head(6) - figures).cwiseMax(figures - options.rules.high.head(6)).maxCoeff();
+  };
+  const planning::Plan plan = planning::planCampaign(campaign, nullptr, options);
+  ASSERT_EQ(plan.postures.size(), 6u);
+  for (const planning::PlannedPosture& one : plan.postures) EXPECT_LT(outside(one.candidate.q), 1e-8) << one.id;
+  // Of a day without a load, too, whose postures are drawn in the same way; all of what is allowed is drawn from.
+  const planning::PlanningArm arm = planning::unloadedPlanningArm(campaign, options.inputs);
+  const planning::CandidateDraw draw = planning::drawCandidates(arm, options.rules, 300, 1);
+  double most_1 = -1e9, least_3 = 1e9, most_3 = -1e9;
+  for (const planning::Candidate& one : draw.kept) {
+    EXPECT_LT(outside(one.q), 1e-8);
+    most_1 = std::max(most_1, one.q[0]), least_3 = std::min(least_3, one.q[2]), most_3 = std::max(most_3, one.q[2]);
+  }
+  EXPECT_GT(draw.broken[static_cast<std::size_t>(planning::PostureRule::figures)], 0);
+  EXPECT_GT(most_1, 80.0 * io::kDegree);
+  EXPECT_LT(least_3, -60.0 * io::kDegree);
+  EXPECT_GT(most_3, 30.0 * io::kDegree);
+  const planning::PostureLimits limits(campaign.robot, campaign.joint_readings, options.rules);
+  EXPECT_NEAR(limits.box()[0].lower, -30.0 * io::kDegree, 1e-12);
+  EXPECT_NEAR(limits.box()[0].upper, 90.0 * io::kDegree, 1e-12);
+  // Limits that leave nothing are named as they were given, and the joint's own as the controller states them.
+  campaign.robot.limits[0] = {-1.0, 1.0};
+  options.rules.low[0] = 100.0 * io::kDegree, options.rules.high[0] = 120.0 * io::kDegree;
+  try {
+    planning::planCampaign(campaign, nullptr, options);
+    ADD_FAILURE();
+  } catch (const io::InputError& error) {
+    EXPECT_STREQ(error.what(),
+                 "--min-deg: '100': expected a range of joint 1 within its limits -27.3 to 87.3 deg less "
+                 "5 deg at each end, as the controller states them");
+  }
 }
 
 TEST(Plan, APullShowsJointOneToo) {

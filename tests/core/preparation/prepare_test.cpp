@@ -7,9 +7,11 @@
 #include <set>
 #include "core/audit/audit.h"
 #include "core/campaign/read_campaign.h"
+#include "core/campaign/row_names.h"
 #include "core/identification/identify.h"
 #include "core/preparation/remarks.h"
 #include "reports/words/remark_words.h"
+#include "tests/fixtures/clean_day.h"
 
 // What is done to a campaign before anything is identified from it.
 
@@ -91,6 +93,89 @@ TEST(Prepare, ReadingsAlikeByChanceOfTheDigitsAreKept) {
       ? static_cast<void>(wrong.loading->rows[9].point = wrong.loading->rows[6].point)
       : static_cast<void>(wrong.loading->rows[7].point = wrong.loading->rows[6].point);
   EXPECT_EQ(rejected(wrong), 1u);
+}
+
+campaign::Campaign writtenTo(double digit, campaign::Campaign day) {
+  campaign::forEachPointTable(day, [digit](auto& table) {
+    for (auto& row : table.rows) row.point = (row.point.array() / digit).round() * digit;
+  });
+  return day;
+}
+
+campaign::Campaign dayOfRepeats(int repeats) {
+  simulation::SimulationSpec spec = cleanDay(41, 1.0);
+  spec.loading->repeats = repeats;
+  return simulation::simulate(spec);
+}
+
+/// Of n repeats n (n - 1) / 2 pairs can come out alike, and the more of them the more repeats a state has.
+TEST(Prepare, ManyRepeatsOfFewDigitsAreNoCopies) {
+  for (const int repeats : {10, 100}) {
+    const campaign::Campaign day = dayOfRepeats(repeats);
+    for (const double digit : {1e-5, 1e-6}) {
+      const preparation::PreparedCampaign prepared = preparation::prepareCampaign(writtenTo(digit, day));
+      EXPECT_TRUE(prepared.preparation.rejected.empty())
+          << repeats << " repeats to " << digit << ": " << prepared.preparation.rejected.size();
+    }
+  }
+  // A tracker that is quieter than declared makes more pairs, and no copies either.
+  simulation::SimulationSpec quiet = cleanDay(41, 0.5);
+  quiet.loading->repeats = 10;
+  EXPECT_TRUE(preparation::prepareCampaign(writtenTo(1e-6, simulation::simulate(quiet))).preparation.rejected.empty());
+}
+
+TEST(Prepare, CopiesAmongManyRepeatsAreFoundWhereDigitsTell) {
+  campaign::Campaign day = writtenTo(1e-6, dayOfRepeats(10));
+  std::set<std::size_t> copies;
+  for (std::size_t i = 1; i < day.loading->rows.size(); ++i) {
+    campaign::LoadingReading& row = day.loading->rows[i];
+    if (row.pose != 3 || row.step > 2) continue;
+    const auto first = std::find_if(day.loading->rows.begin(), day.loading->rows.end(), [&](const auto& one) {
+      return one.pose == row.pose && one.step == row.step && one.target == row.target;
+    });
+    if (row.repeat != first->repeat + 1) continue;
+    row.point = first->point;
+    copies.insert(row.line);
+  }
+  ASSERT_EQ(copies.size(), 9u);  // three reflectors under three loads
+  std::set<std::size_t> rejected;
+  for (const preparation::RejectedReading& one : preparation::prepareCampaign(day).preparation.rejected)
+    rejected.insert(one.line);
+  EXPECT_TRUE(std::includes(rejected.begin(), rejected.end(), copies.begin(), copies.end()));
+  EXPECT_LT(rejected.size(), copies.size() + 5);
+}
+
+/// Rounding to r adds r^2 / 12 to the variance of each coordinate: for 10 um 2.9 um beside some 6 um along the beam.
+TEST(Prepare, RoundingIsNoiseToo) {
+  const campaign::Campaign day = dayOfRepeats(10);
+  const preparation::PreparedCampaign fine = preparation::prepareCampaign(day),
+                                      coarse = preparation::prepareCampaign(writtenTo(1e-5, day));
+  EXPECT_EQ(fine.scatter.digit, 0.0);
+  EXPECT_EQ(fine.campaign.tracker->range_fixed, day.tracker->range_fixed);
+  EXPECT_EQ(coarse.scatter.digit, 1e-5);
+  // Some 2500 degrees of freedom along the beam: 0.014 a standard deviation.
+  for (const preparation::PreparedCampaign* one : {&fine, &coarse}) {
+    EXPECT_NEAR(std::sqrt(one->scatter.along_chi2 / one->scatter.along_dof), 1.0, 0.05);
+    EXPECT_NEAR(std::sqrt(one->scatter.across_chi2 / one->scatter.across_dof), 1.0, 0.05);
+  }
+  EXPECT_GT(coarse.campaign.tracker->range_fixed, 1.05 * day.tracker->range_fixed);
+  EXPECT_LT(coarse.campaign.tracker->range_fixed, 1.2 * day.tracker->range_fixed);
+  EXPECT_NEAR(coarse.noise.along_factor / fine.noise.along_factor,
+              coarse.campaign.tracker->range_fixed / day.tracker->range_fixed, 0.03);
+  EXPECT_EQ(coarse.preparation.declared->range_fixed, day.tracker->range_fixed);
+}
+
+TEST(Prepare, ManyRoundsOfNestsWithFewDigitsStandStill) {
+  simulation::SimulationSpec spec = cleanDay(42, 1.0);
+  spec.timing.nest_interval_s = 20.0;
+  const campaign::Campaign day = writtenTo(1e-5, simulation::simulate(spec));
+  ASSERT_GT(day.nests->rows.size(), 300u);
+  const preparation::PreparedCampaign prepared = preparation::prepareCampaign(day);
+  EXPECT_EQ(prepared.campaign.nests->rows.size(), day.nests->rows.size());
+  const preparation::StationMotion& rounds = prepared.drift.rounds;
+  ASSERT_GT(rounds.deformation_dof, 0);
+  EXPECT_LE(rounds.deformation_chi2, rounds.deformation_limit);
+  EXPECT_FALSE(prepared.preparation.drift.taken_off);
 }
 
 TEST(Prepare, RejectedReadingsAreThoseThatIdentificationDoesNotSee) {

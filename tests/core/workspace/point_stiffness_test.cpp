@@ -109,6 +109,10 @@ TEST(PointStiffness, WhatHidesDoesNotTakeTheFitsOwnErrorAway) {
     const double half = 1.96 * std::hypot(0.6827 * kMore, fit);
     EXPECT_NEAR(one.compliance - one.interval.low, half, 0.05 * half);
     EXPECT_NEAR(one.interval.high - one.compliance, std::max(half, 0.975 * kMore), 0.05 * half);
+    // The joints' springs, of which the draws say nothing here, keep the fit's own interval.
+    const workspace::DirectionalCompliance& springs = place->of_springs[k];
+    EXPECT_NEAR(springs.compliance - springs.interval.low, 1.96 * fit, 0.05 * 1.96 * fit);
+    EXPECT_NEAR(springs.interval.high - springs.compliance, 1.96 * fit, 0.05 * 1.96 * fit);
   }
 }
 
