@@ -8,7 +8,6 @@
 #include <tuple>
 
 #include "core/interchange/day_files.h"
-#include "core/interchange/state_order.h"
 #include "core/interchange/state_samples.h"
 #include "core/io/input_error.h"
 

@@ -100,4 +100,14 @@ std::vector<PlacedReading> placedReadings(const std::vector<JoinedState>& states
 /// offset or unit would make them agree; that is named.
 void requireMeaning(const JoinTask& task, const std::vector<PlacedReading>& placed, double misfit);
 
+/// The states of readings and lost beams in the order in which the robot came to them; those of lost beams alone have
+/// no readings.
+///
+/// A file written posture by posture shows the order by itself. Of one that has all readings of a reflector together,
+/// and of several files, each reflector has its own part of the order, by where it first stands; a state that one
+/// reflector lacks has its place by the others. Files that have no state in common follow one another as they are
+/// listed. Throws InputError where two parts contradict each other, and where none tells which of two states came
+/// first: a row that is missing would give every later state the joints of its neighbour.
+std::vector<JoinedState> statesInKnownOrder(const JoinTask& task, const std::vector<DayReading>& readings);
+
 }  // namespace stiffscope::interchange

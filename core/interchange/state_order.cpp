@@ -1,4 +1,4 @@
-#include "core/interchange/state_order.h"
+#include "core/interchange/state_join.h"
 
 #include <fmt/format.h>
 #include <algorithm>

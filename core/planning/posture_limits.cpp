@@ -1,9 +1,10 @@
-#include "core/planning/posture_limits.h"
+#include "core/planning/candidates.h"
 
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "core/io/input_error.h"
 #include "core/io/units.h"
@@ -37,7 +38,7 @@ robot::JointLimits angleLimits(const JointRules& rules, const campaign::JointRea
     limits.upper += figures(reading.plus).upper;
   }
   // One turn at most of a joint that turns on and on.
-  constexpr double kHalfTurn = 3.14159265358979;
+  constexpr double kHalfTurn = std::numbers::pi;
   if (limits.lower == -kOpen && limits.upper > -kHalfTurn) limits.lower = -kHalfTurn;
   if (limits.upper == kOpen && limits.lower < kHalfTurn) limits.upper = kHalfTurn;
   return limits;

@@ -1,5 +1,3 @@
-#include "core/preparation/distance_scatter.h"
-
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -11,6 +9,7 @@
 #include "core/campaign/state_points.h"
 #include "core/numerics/distributions.h"
 #include "core/numerics/resampling.h"
+#include "core/preparation/repeatability.h"
 
 namespace stiffscope::preparation {
 

@@ -10,7 +10,6 @@
 #include "core/frames/joint_axes.h"
 #include "core/numerics/distributions.h"
 #include "core/numerics/parallel.h"
-#include "core/preparation/distance_scatter.h"
 #include "core/preparation/finding.h"
 #include "core/preparation/remarks.h"
 #include "metrology/linear_algebra.h"

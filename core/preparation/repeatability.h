@@ -44,9 +44,28 @@ RepeatScatter repeatScatter(const campaign::Campaign& campaign, const Rounded& r
 /// (chi-square at the audit's level), at the upper end of what they leave open; else 1.
 NoiseFactors noiseFactors(const RepeatScatter& scatter);
 
+/// The noise of a reading by the distances between reflectors, which the arm carries about unchanged: for a day whose
+/// states were read once, so that no repeats tell it. Along the beam and across it together.
+struct DistanceScatter {
+  double ratio = 1.0;    ///< variance of a reading, found over declared
+  double degrees = 0.0;  ///< of freedom of that; 0: there are no distances to compare
+  /// Whether chance alone takes the ratio so far from 1 (two of its standard deviations).
+  bool asDeclared() const;
+};
+
+/// Of each two reflectors that were read in one state from one station, the change of their distance from one posture
+/// to the next under the same load step, over its variance by the declared noise. The median of the squares stands for
+/// all: a reflector that slips once, or is knocked, makes one change. What the load does to a plate under the
+/// reflectors stays out, since the steps are the same; a plate that gives differently from posture to posture counts as
+/// noise.
+///
+/// Degrees of freedom: a median is worth 0.37 of its sample, changes that share a posture 2/3 (von Neumann), and of the
+/// distances among n reflectors 3 n - 6 are independent.
+DistanceScatter distanceScatter(const campaign::Campaign& campaign, const metrology::TrackerNoise& noise);
+
 /// Noise of one reading: by the scatter of repeats where there are enough of them (30 degrees of freedom along and
 /// across the beam), in the shape of the declared noise; else by the distances between reflectors
-/// (distance_scatter.h), where these tell it by as many and contradict what is declared; else as declared. Not known
+/// (DistanceScatter), where these tell it by as many and contradict what is declared; else as declared. Not known
 /// without a declared tracker.
 struct NoiseModel {
   bool known = false;

@@ -1,5 +1,3 @@
-#include "core/preparation/distance_scatter.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
