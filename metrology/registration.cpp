@@ -1,6 +1,7 @@
 #include "metrology/registration.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -54,12 +55,20 @@ std::optional<Eigen::Matrix3d> rotationOf(const Eigen::Matrix3d& cross) {
 }  // namespace
 
 bool nearlyOnOneLine(const std::vector<Eigen::Vector3d>& points) {
+  constexpr double kSlender = 1e-4;  // of squares
   if (points.size() < 3) return true;
   const Eigen::Vector3d middle = mean(points);
+  if (points.size() == 3) {
+    // In their plane, by the sum and the product of both sums of squares: many thousand times a day.
+    double sum = 0.0;
+    for (const Eigen::Vector3d& point : points) sum += (point - middle).squaredNorm();
+    const double product = (points[1] - points[0]).cross(points[2] - points[0]).squaredNorm() / 3.0;
+    const double larger = 0.5 * (sum + std::sqrt(std::max(0.0, sum * sum - 4.0 * product)));
+    return !(product > kSlender * larger * larger);
+  }
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (const Eigen::Vector3d& point : points) spread += (point - middle) * (point - middle).transpose();
   const Eigen::Vector3d sizes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvalues();
-  constexpr double kSlender = 1e-4;  // of squares
   return !(sizes[1] > kSlender * sizes[2]);
 }
 

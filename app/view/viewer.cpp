@@ -116,7 +116,7 @@ double residualFactorForStep(const std::vector<ViewFrame>& frames, int step) {
 
 namespace {
 
-constexpr double kTurn = M_PI / 18;
+constexpr double kTurnByKey = M_PI / 18;
 constexpr double kZoom = 1.2;
 
 }  // namespace
@@ -147,10 +147,10 @@ const std::vector<ViewKey>& viewKeys() {
       {{"2", "KP_2"}, "", "", [](Viewer& v) { v.window_.look(render::View::side); }},
       {{"3", "KP_3"}, "", "", [](Viewer& v) { v.window_.look(render::View::top); }},
       {{"4", "KP_4"}, "", "", [](Viewer& v) { v.window_.look(render::View::oblique); }},
-      {{"Shift+Right"}, "Shift+arrow", "turn", [](Viewer& v) { v.window_.turn(kTurn, 0); }},
-      {{"Shift+Left"}, "", "", [](Viewer& v) { v.window_.turn(-kTurn, 0); }},
-      {{"Shift+Down"}, "", "", [](Viewer& v) { v.window_.turn(0, kTurn); }},
-      {{"Shift+Up"}, "", "", [](Viewer& v) { v.window_.turn(0, -kTurn); }},
+      {{"Shift+Right"}, "Shift+arrow", "turn", [](Viewer& v) { v.window_.turn(kTurnByKey, 0); }},
+      {{"Shift+Left"}, "", "", [](Viewer& v) { v.window_.turn(-kTurnByKey, 0); }},
+      {{"Shift+Down"}, "", "", [](Viewer& v) { v.window_.turn(0, kTurnByKey); }},
+      {{"Shift+Up"}, "", "", [](Viewer& v) { v.window_.turn(0, -kTurnByKey); }},
       {{"i"}, "i o", "nearer, farther", [](Viewer& v) { v.window_.zoom(kZoom); }},
       {{"o"}, "", "", [](Viewer& v) { v.window_.zoom(1 / kZoom); }},
       {{"b"}, "b", "light, dark background", [](Viewer& v) { v.settings_.dark = !v.settings_.dark; }},

@@ -24,8 +24,8 @@ constexpr double kNominalLimit =
 /// An effect that moves the reflectors by less than this share of the readings' noise does not matter.
 constexpr double kLeastSize = 0.4;
 
-/// Evidence of which half is still enough: the effect has to be in what each fold leaves of the day.
-constexpr double kEnoughForHalf = 60.0;
+/// Evidence that is enough: an effect of which as much is expected in what each fold leaves of the day has to be there.
+constexpr double kEnough = 30.0;
 
 /// Beside `unknown` an effect is named where no more than this share of the gap's squares beyond noise stays.
 constexpr double kMostLeft = 0.25;
@@ -130,6 +130,16 @@ class Decider {
                        [&](const calibration::Rival& rival) { return rival.effect == effect; });
   }
 
+  /// The score that what a fold leaves of the day is to show: evidence grows with the equations that the geometry
+  /// leaves free, of which half of a small day has less than half.
+  double expectedInOthers(const SelectedEffect& one) const {
+    const double rows = 3.0 * static_cast<double>(calibration_.best().fitted.readings);
+    const double geometry = calibration_.geometry().fit.parameters;
+    const double folds = static_cast<double>(calibration_.selected_by_others.size());
+    const double of_others = rows * (1.0 - 1.0 / folds) - geometry;
+    return one.score * std::max(0.0, of_others) / std::max(1.0, rows - geometry);
+  }
+
   bool inEveryFold(const SelectedEffect& one) const {
     return std::all_of(calibration_.selected_by_others.begin(), calibration_.selected_by_others.end(),
                        [&](const std::vector<SelectedEffect>& others) {
@@ -170,7 +180,7 @@ class Decider {
     if (found.size < result_.size_limit) {
       found.in_verdict = false;
       result_.reasons.emplace_back(RemarkId::too_small, id, found.size, result_.size_limit);
-    } else if (one.score > kEnoughForHalf && !startsAside(one.effect) && !inEveryFold(one)) {
+    } else if (expectedInOthers(one) > kEnough && !startsAside(one.effect) && !inEveryFold(one)) {
       found.in_verdict = false;
       withdrawn_ = std::hypot(withdrawn_, found.size);
       result_.reasons.emplace_back(RemarkId::not_in_every_fold, id);

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "core/calibration/fitted_day.h"
+#include "core/effects/effect.h"
 #include "core/numerics/parallel.h"
 
 namespace stiffscope::calibration {
@@ -172,27 +173,77 @@ const ModelResult& Calibration::of(CalibratedModel model) const {
 
 namespace {
 
+/// As a fit has them.
+OwnCompliances compliancesOf(const UnloadedDay& day, const ArmFit& fit) {
+  OwnCompliances own{JointVector::Zero(day.arm.joints()),
+                     Eigen::VectorXd::Zero(static_cast<Eigen::Index>(day.bending.size()))};
+  Eigen::Index next = 0;
+  for (const EffectPart& part : fit.parts) {
+    for (const EffectTerm& term : part.terms) {
+      const double size = fit.sizes[next++];
+      if (term.compliance_of >= 0) own.joints[term.compliance_of] += size;
+      for (std::size_t k = 0; k < day.bending.size(); ++k) {
+        const BendingTerm& of = day.bending[k];
+        if (effects::kEffectIds[of.effect] == idOf(part.effect) && of.name == term.name)
+          own.bending[static_cast<Eigen::Index>(k)] += size;
+      }
+    }
+  }
+  return own;
+}
+
 /// Joint compliances by the own weight beside the geometry, without other effects: good to what those take from them,
 /// and the sag changes the torques by a thousandth.
-std::optional<JointVector> compliancesAlone(const UnloadedDay& day) {
+std::optional<OwnCompliances> compliancesAlone(const UnloadedDay& day) {
   const std::vector<double> all = weightsWhere(day, [](int) { return true; });
   const auto place = placeArm(day, all);
   if (!place) return std::nullopt;
   const ArmFit geometry = fitArm(day, *place, {}, {.weights = all});
   const ArmFit gravity = fitArm(day, *place, jointCompliances(day), {.weights = all}, &geometry);
   if (!gravity.done) return std::nullopt;
-  JointVector compliance = JointVector::Zero(day.arm.joints());
-  Eigen::Index size = 0;
-  for (const EffectPart& part : gravity.parts) {
-    for (const EffectTerm& term : part.terms) compliance[term.compliance_of] = gravity.sizes[size++];
-  }
-  return compliance;
+  return compliancesOf(day, gravity);
+}
+
+/// Whether anything that both fits found is another by more than a tenth of its standard uncertainty.
+bool differ(const ArmFit& one, const ArmFit& other) {
+  constexpr double kShare = 0.1;
+  if (one.free != other.free) return true;
+  const auto all = [](const ArmFit& fit) {
+    Eigen::VectorXd values(fit.steps.size() + fit.sizes.size());
+    values << fit.steps, fit.sizes;
+    return values;
+  };
+  const Eigen::VectorXd change = all(one) - all(other);
+  return std::any_of(other.free.begin(), other.free.end(),
+                     [&](int place) { return std::abs(change[place]) > kShare * other.sd(place); });
+}
+
+/// All models of the whole day. Where what bearings, links and base give under the weight changes how it pulls on them,
+/// the arm is let sag by them, too, and effects are sought once more. Once is enough: what a first fit errs by is a
+/// twentieth of them, and a twentieth of that changes nothing.
+ModelFits fitWholeDay(UnloadedDay& day, const CalibrationOptions& options) {
+  const std::vector<double> all = weightsWhere(day, [](int) { return true; });
+  ModelFits models = fitModels(day, all, options, options.divisions);
+  if (!models.placed) return models;
+  const ArmFit& rigid = models.fits.back().second;
+  const OwnCompliances own = compliancesOf(day, rigid);
+  if (!rigid.done || own.bending.isZero(0.0)) return models;
+  UnloadedDay sagged = day;
+  letSag(own, sagged);
+  const ArmFit fit = fitArm(sagged, rigid.place, rigid.parts, {.robust = false, .weights = rigid.weights}, &rigid);
+  if (!fit.done || !differ(rigid, fit)) return models;
+  letSag(compliancesOf(day, fit), sagged);
+  ModelFits again = fitModels(sagged, all, options, options.divisions);
+  // What does not last was no compliance.
+  if (!again.placed || compliancesOf(day, again.fits.back().second).bending.isZero(0.0)) return models;
+  day = std::move(sagged);
+  return again;
 }
 
 Calibration calibrateBy(const campaign::Campaign& campaign, const CalibrationOptions& options) {
   Calibration result;
   result.day = unloadedDay(campaign, options.angles);
-  const UnloadedDay& day = result.day;
+  UnloadedDay& day = result.day;
   const std::size_t readings = day.readings();
   if (readings == 0) {
     result.reason = Remark(RemarkId::no_unloaded_readings);
@@ -206,12 +257,12 @@ Calibration calibrateBy(const campaign::Campaign& campaign, const CalibrationOpt
   }
 
   if (day.masses_known) {
-    if (const auto compliance = compliancesAlone(day)) letSag(*compliance, result.day);
+    if (const auto compliance = compliancesAlone(day)) letSag(*compliance, day);
   }
 
   // The whole day first, then each fold's others, without the readings that the whole day rejects.
   std::vector<ModelFits> fits(static_cast<std::size_t>(options.folds) + 1);
-  fits.front() = fitModels(day, weightsWhere(day, [](int) { return true; }), options, options.divisions);
+  fits.front() = fitWholeDay(day, options);
   if (!fits.front().placed) {
     result.reason = Remark(RemarkId::not_placed);
     return result;

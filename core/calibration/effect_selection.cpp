@@ -212,7 +212,7 @@ class Search {
   }
 
   double cost(const EffectSet& set) const {
-    return set.model.penalty + kLeastFall * static_cast<double>(set.families.size()) -
+    return FamilyFit::paid(set.model, equations_) + kLeastFall * static_cast<double>(set.families.size()) -
            FamilyFit::fall(1.0, set.model.squares(), equations_);
   }
 
@@ -290,16 +290,17 @@ class Search {
       setEquations(set.model);
       const double now = cost(set);
       std::optional<EffectSet> best;
-      const auto consider = [&](std::optional<EffectSet> candidate, bool adds) {
+      // `added_to`: the set beside which the candidate's last effect has to predict.
+      const auto consider = [&](std::optional<EffectSet> candidate, const EffectSet* added_to) {
         if (!candidate || !(cost(*candidate) < (best ? cost(*best) : now) - kSame)) return;
-        if (adds && !predicts(set, *candidate)) return;
+        if (added_to != nullptr && !predicts(*added_to, *candidate)) return;
         best = std::move(candidate);
       };
-      for (auto& more : withEach(set, others(set))) consider(std::move(more), true);
+      for (auto& more : withEach(set, others(set))) consider(std::move(more), &set);
       for (const std::size_t family : set.families) {
         EffectSet fewer = without(set, {family});
-        for (auto& instead : withEach(fewer, others(fewer))) consider(std::move(instead), false);
-        consider(std::move(fewer), false);
+        for (auto& instead : withEach(fewer, others(fewer))) consider(std::move(instead), &fewer);
+        consider(std::move(fewer), nullptr);
       }
       if (!best) break;
       set = std::move(*best);

@@ -391,11 +391,14 @@ EffectPart scaleError(double from) {
 
 EffectPart targetMotion(const UnloadedDay& day, int target, double from) {
   EffectPart part{UnloadedEffect::target_motion, day.targets[static_cast<std::size_t>(target)], {}};
+  // Along the flange's own axes, in which the places of reflectors are stated.
+  const Eigen::Matrix3d base_from_flange_at_zero = day.arm.base_from_flange_at_zero.linear();
   for (int k = 0; k < 3; ++k) {
-    part.terms.push_back(moving(fmt::format("{} {}", part.detail, "xyz"[k]), "m", kMostShift,
+    const Eigen::Vector3d axis = base_from_flange_at_zero.col(k);
+    part.terms.push_back(moving(fmt::format("{} {}, in flange axes", part.detail, "xyz"[k]), "m", kMostShift,
                                 [=](const Posture& posture, const ReflectorAt& at) -> Eigen::Vector3d {
                                   if (at.target != target || posture.time < from) return Eigen::Vector3d::Zero();
-                                  return at.arm.byTarget().col(k);
+                                  return at.arm.byTarget() * axis;
                                 }));
   }
   part.from = from;

@@ -7,16 +7,11 @@
 
 #include "core/numerics/parallel.h"
 #include "metrology/linear_algebra.h"
+#include "metrology/tail_probability.h"
 
 namespace stiffscope::calibration {
 
 namespace {
-
-/// Log of the probability that a chi-square variable of `dof` degrees of freedom exceeds x, from its leading term.
-double logTail(double x, int dof) {
-  const double half = dof / 2.0;
-  return std::min(0.0, -x / 2.0 + (half - 1.0) * std::log(std::max(1e-300, x / 2.0)) - std::lgamma(half));
-}
 
 /// Once or twice a turn of one of the joints is what gears and encoder rings do first; any other order is one of many.
 int usualOf(int joints) { return 2 * joints; }
@@ -27,7 +22,7 @@ constexpr std::size_t kFewestAside = 5;  // postures on either side of a start: 
 
 FamilyFit::FamilyFit(const LinearisedDay& day, double chance, int most_parts)
     : day_(day), most_parts_(most_parts), families_(effectFamilies(day.day())) {
-  log_chance_ = std::log(chance / static_cast<double>(families_.size()));
+  chance_ = chance / static_cast<double>(families_.size());
   prepareColumns();
   prepareStarts();
   periodogram_.emplace(day.equations(), day.postures(), day.day(), day.geometry(), day.geometryAlone().residual);
@@ -301,13 +296,24 @@ std::optional<EffectPart> FamilyFit::bestStart(UnloadedEffect effect, const Line
   return targetMotion(day_.day(), moved, best.second);
 }
 
+double FamilyFit::paid(const LinearModel& model, double equations) {
+  const double spent = static_cast<double>(model.directions.cols());
+  return model.penalty * equations / std::max(1.0, equations - spent - 1.0);
+}
+
 bool FamilyFit::holds(const LinearModel& before, LinearModel& after, std::size_t terms, int tried,
                       double equations) const {
-  const double chi2 = fall(before.squares(), after.squares(), equations);
-  const double log_chance = logTail(chi2, static_cast<int>(terms)) + std::log(static_cast<double>(tried));
-  after.parts.back().chance = std::exp(log_chance);
+  // As many unknowns as equations explain anything. What they leave is then no noise to judge by.
+  constexpr double kMostSpent = 0.5;
+  const double spent = static_cast<double>(after.directions.cols());
+  if (spent > kMostSpent * equations) return false;
+  const double left = equations - spent, ratio = before.squares() / std::max(1e-300, after.squares());
+  const double chance = static_cast<double>(tried) * metrology::fTail((ratio - 1.0) * left / static_cast<double>(terms),
+                                                                      static_cast<int>(terms), left);
+  after.parts.back().chance = chance;
   after.parts.back().penalty = after.penalty - before.penalty;
-  return log_chance < log_chance_ && chi2 > after.penalty - before.penalty;
+  return chance < chance_ &&
+         fall(before.squares(), after.squares(), equations) > paid(after, equations) - paid(before, equations);
 }
 
 std::optional<LinearModel> FamilyFit::fit(std::size_t family, const LinearModel& others, const Products& beside,
@@ -343,7 +349,8 @@ std::optional<LinearModel> FamilyFit::fitAlone(std::size_t family, const LinearM
   std::optional<LinearModel> best;
   double cost = 0.0;
   const auto consider = [&](LinearModel model) {
-    const double own = model.penalty - others.penalty - fall(others.squares(), model.squares(), equations);
+    const double own =
+        paid(model, equations) - paid(others, equations) - fall(others.squares(), model.squares(), equations);
     if (!best || own < cost) best = std::move(model), cost = own;
   };
   for (const Prepared& whole : wholes_[family]) {

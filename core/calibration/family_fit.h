@@ -183,6 +183,9 @@ class FamilyFit {
 
   /// Fall of -2 log likelihood of `equations` normal residuals when their squares fall from one to the other.
   static double fall(double before, double after, double equations);
+  /// A model's penalty as few equations ask it of many unknowns: more than the penalty by n / (n - p - 1) for p
+  /// unknowns beside the geometry on n equations (C. M. Hurvich, C.-L. Tsai 1989, whose correction of AIC this is).
+  static double paid(const LinearModel& model, double equations);
 
  private:
   /// A part that is known beforehand: its columns among `columns_`.
@@ -232,7 +235,7 @@ class FamilyFit {
   bool holds(const LinearModel& before, LinearModel& after, std::size_t terms, int tried, double equations) const;
 
   const LinearisedDay& day_;
-  double log_chance_;
+  double chance_;
   int most_parts_;
   std::vector<EffectFamily> families_;
   std::vector<std::vector<Prepared>> parts_, wholes_;  ///< of each family

@@ -7,13 +7,30 @@
 
 #include "core/campaign/state_points.h"
 #include "core/effects/all.h"
-#include "core/effects/arm_state.h"
+#include "core/effects/gravity_equilibrium.h"
 #include "core/frames/frames.h"
 #include "core/numerics/parallel.h"
 
 namespace stiffscope::calibration {
 
 namespace {
+
+/// A floor whose soft direction is not an axis of base_link: C of the turn C M is symmetric and full. By what it has
+/// besides the two diagonal numbers of base_compliance.
+std::vector<effects::BodyTwist> couplingTwists(const effects::LinearizationPoint&,
+                                               const effects::PostureStates& posture, std::size_t i) {
+  const robot::Wrench carried = effects::carried(posture[i], 0, Eigen::Vector3d::Zero());
+  return {{.first_body = 1, .with_axis = true, .rotation = {carried.moment.y(), carried.moment.x(), 0.0}}};
+}
+
+effects::EffectModel baseCoupling() {
+  effects::EffectModel model{.effect = effects::Effect::base_compliance, .twists = &couplingTwists};
+  model.parts.push_back({.detail = "rocking",
+                         .most = {1e-5},
+                         .unit = "rad/Nm",
+                         .names = {"rocking about x by the moment about y and about y by that about x"}});
+  return model;
+}
 
 /// The structure's own compliances that the records of the loaded days have: their twists by the own weight alone.
 class Bending {
@@ -26,6 +43,22 @@ class Bending {
       for (effects::EffectModel& model : effects::modelsOf(effects::recordOf(effect), {day.arm.joints(), {}}))
         models_.push_back(model);
     }
+    models_.push_back(baseCoupling());
+  }
+  Bending(const Bending&) = delete;
+  Bending& operator=(const Bending&) = delete;
+
+  /// Lets the arm sag by these from now on.
+  void setSizes(const OwnCompliances& own) {
+    geometry_.compliance = own.joints;
+    if (own.bending.isZero(0.0)) return;
+    Eigen::Index first = 0;
+    for (const effects::EffectModel& model : models_) {
+      const auto count = static_cast<Eigen::Index>(model.parameters());
+      const Eigen::VectorXd sizes = own.bending.segment(first, count);
+      if (!sizes.isZero(0.0)) point_.present.push_back({&model, sizes});
+      first += count;
+    }
   }
 
   std::vector<BendingTerm> terms() const {
@@ -36,34 +69,31 @@ class Bending {
       for (const effects::EffectPart& part : model.parts) {
         for (std::size_t k = 0; k < part.most.size(); ++k) {
           terms.push_back({static_cast<std::size_t>(model.effect), part.detail, effects::parameterName(part, k),
-                           effects::parameterUnit(part, k), kFurther * part.most[k]});
+                           effects::parameterUnit(part, k), kFurther * part.most[k], !part.positive});
         }
       }
     }
-    // A floor whose soft direction is not an axis of base_link: C of the turn C M is symmetric and full.
-    terms.push_back({static_cast<std::size_t>(effects::Effect::base_compliance), "rocking",
-                     "rocking about x by the moment about y and about y by that about x", "rad/Nm", kFurther * 1e-5,
-                     true});
     return terms;
   }
 
-  std::vector<frames::SmallMotion> at(const JointVector& q) const {
-    const effects::PostureStates states{effects::stateAt(geometry_, q, JointVector::Zero(q.size()))};
-    const effects::LinearizationPoint point;
+  /// Where the arm comes to rest.
+  effects::ArmState restAt(const JointVector& q) const { return effects::gravityEquilibrium(geometry_, point_, q); }
+
+  std::vector<frames::SmallMotion> at(const effects::ArmState& rest) const {
+    const effects::PostureStates states{rest};
     std::vector<frames::SmallMotion> motions;
     for (const effects::EffectModel& model : models_) {
-      for (const effects::BodyTwist& twist : model.twists(point, states, 0)) {
+      for (const effects::BodyTwist& twist : model.twists(point_, states, 0)) {
         motions.push_back({twist.rotation, twist.shift - twist.rotation.cross(twist.pivot)});
       }
     }
-    const robot::Wrench carried = effects::carried(states[0], 0, Eigen::Vector3d::Zero());
-    motions.push_back({{carried.moment.y(), carried.moment.x(), 0.0}, Eigen::Vector3d::Zero()});
     return motions;
   }
 
  private:
   frames::LoadingGeometry geometry_;
   std::vector<effects::EffectModel> models_;
+  effects::LinearizationPoint point_;
 };
 
 /// Of the body beyond each joint but the first on that joint; on the arm's joints those of the arm's bodies further
@@ -249,18 +279,19 @@ UnloadedDay unloadedDay(const campaign::Campaign& campaign, JointAngles angles) 
   setTimes(times, day);
   setWarmth(std::move(temperatures), day);
   setMoves(log, day);
-  letSag(JointVector::Zero(day.arm.joints()), day);
+  letSag({JointVector::Zero(day.arm.joints()), {}}, day);
   return day;
 }
 
-void letSag(const JointVector& compliance, UnloadedDay& day) {
+void letSag(const OwnCompliances& own, UnloadedDay& day) {
   if (!day.masses_known) return;
-  const Bending bending(day);
+  Bending bending(day);
+  bending.setSizes(own);
   numerics::smallWorkOnAllCores(day.postures.size(), [&](std::size_t i) {
     Posture& posture = day.postures[i];
-    const JointVector sagged = robot::saggedAngles(day.arm, posture.q, day.weight, compliance);
-    posture.torque = robot::weightTorque(day.arm, robot::postureAt(day.arm, sagged), day.weight);
-    posture.bends = bending.at(sagged);
+    const effects::ArmState rest = bending.restAt(posture.q);
+    posture.torque = robot::weightTorque(day.arm, rest.posture, day.weight);
+    posture.bends = bending.at(rest);
   });
 }
 

@@ -89,11 +89,17 @@ struct UnloadedDay {
 /// Postures of `loading` at step 0 that `states` has joint angles for. Empty `postures` without either table.
 UnloadedDay unloadedDay(const campaign::Campaign& campaign, JointAngles angles = JointAngles::reported);
 
-/// Takes the own weight's torques, and what links, bearings and base do by it, where joints of these compliances
-/// (rad/Nm) let the arm sag to, in place of where its angles say: theta = c tau(q + theta). Else a weight that pulls
-/// the harder the farther it has sunk (K_c) would pass for a softer joint: joint 2 of a heavy arm by a fifth of a per
-/// cent. Where masses are not known nothing changes.
-void letSag(const JointVector& compliance, UnloadedDay& day);
+/// What gives under the own weight.
+struct OwnCompliances {
+  JointVector joints;       ///< rad/Nm
+  Eigen::VectorXd bending;  ///< of each of UnloadedDay::bending; empty: rigid
+};
+
+/// Takes the own weight's torques, and what links, bearings and base do by it, where these compliances let the arm sag
+/// to (effects::gravityEquilibrium), in place of where its angles say. Else a weight that pulls the harder the farther
+/// it has sunk would pass for a softer joint or bearing: joint 2 of a heavy arm by a fifth of a per cent, the bearing
+/// below a tall arm by three. Where masses are not known nothing changes.
+void letSag(const OwnCompliances& own, UnloadedDay& day);
 
 /// Joints with a commanded angle in every unloaded row of `states`.
 PerJoint<bool> commandedJoints(const campaign::Campaign& campaign);

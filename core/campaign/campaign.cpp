@@ -3,6 +3,13 @@
 
 namespace stiffscope::campaign {
 
+CampaignTexts::CampaignTexts() = default;
+CampaignTexts::CampaignTexts(const CampaignTexts&) = default;
+CampaignTexts::CampaignTexts(CampaignTexts&&) noexcept = default;
+CampaignTexts& CampaignTexts::operator=(const CampaignTexts&) = default;
+CampaignTexts& CampaignTexts::operator=(CampaignTexts&&) noexcept = default;
+CampaignTexts::~CampaignTexts() = default;
+
 const StateExtras& State::extras() const {
   static const std::vector<StateExtras> none = [] {
     std::vector<StateExtras> by_joints;

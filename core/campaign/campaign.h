@@ -256,6 +256,14 @@ struct CampaignTexts {
   std::string laboratory, customer, operator_name, item, conditions;
   std::string robot_serial, controller, tracker_serial, tracker_certificate, load_cell_certificate;
   std::string environment, place, date_of_issue, approved_by, note;
+
+  // In campaign.cpp, for the build's sake as of robot::Robot.
+  CampaignTexts();
+  CampaignTexts(const CampaignTexts&);
+  CampaignTexts(CampaignTexts&&) noexcept;
+  CampaignTexts& operator=(const CampaignTexts&);
+  CampaignTexts& operator=(CampaignTexts&&) noexcept;
+  ~CampaignTexts();
 };
 
 /// A text with the name of its element in campaign.xml.

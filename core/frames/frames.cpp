@@ -12,6 +12,13 @@
 
 namespace stiffscope::frames {
 
+Frames::Frames() = default;
+Frames::Frames(const Frames&) = default;
+Frames::Frames(Frames&&) noexcept = default;
+Frames& Frames::operator=(const Frames&) = default;
+Frames& Frames::operator=(Frames&&) noexcept = default;
+Frames::~Frames() = default;
+
 namespace {
 
 /// The axes at zero, in R0 as it is measured; those that are not measured stand there without uncertainty.

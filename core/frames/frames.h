@@ -167,6 +167,14 @@ struct Frames {
   Remark sag_note;                  ///< why not, or with which stiffnesses
   bool sag_in_uncertainty = false;  ///< what is not taken off, or how well, is in `covariance`
   FramesCovariance covariance;      ///< of R0, links and wrist; the arm's own sag is in it as far as stiffnesses tell
+
+  // In frames.cpp, for the build's sake as of robot::Robot.
+  Frames();
+  Frames(const Frames&);
+  Frames(Frames&&) noexcept;
+  Frames& operator=(const Frames&);
+  Frames& operator=(Frames&&) noexcept;
+  ~Frames();
 };
 
 /// With the arm taken as rigid under its own weight.

@@ -82,9 +82,20 @@ PointJacobian pointJacobianAt(const ArmAxes& axes, const Eigen::Vector3d& point_
   return jacobian;
 }
 
+JointVector Couplings::angles(const JointVector& q) const { return turns * q; }
+
+JointVector Couplings::torques(const JointVector& by_axis) const { return turns.transpose() * by_axis; }
+
 bool ArmAxes::turnsAlone(int joint) const {
   return !couplings || (couplings->turns.col(joint).array() != 0.0).count() == 1;
 }
+
+Robot::Robot() = default;
+Robot::Robot(const Robot&) = default;
+Robot::Robot(Robot&&) noexcept = default;
+Robot& Robot::operator=(const Robot&) = default;
+Robot& Robot::operator=(Robot&&) noexcept = default;
+Robot::~Robot() = default;
 
 bool Robot::wristStandsApart() const {
   if (!coupled()) return true;

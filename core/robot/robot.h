@@ -108,8 +108,8 @@ struct Couplings {
   PerJoint<int> own_axis;   ///< of each joint, from 0
   PerJoint<int> own_joint;  ///< of each axis, from 0; -1: the axis follows joints and has none of its own
 
-  JointVector angles(const JointVector& q) const { return turns * q; }
-  JointVector torques(const JointVector& by_axis) const { return turns.transpose() * by_axis; }
+  JointVector angles(const JointVector& q) const;
+  JointVector torques(const JointVector& by_axis) const;
 };
 
 /// Axes of an arm in its base frame, all at zero or all at one posture, from the base outwards, and the joints that
@@ -154,6 +154,14 @@ struct Robot {
   std::vector<LinkFrame> links;  ///< every link on the chain, and every link rigidly fixed to one of those
   std::optional<Rail> rail;      ///< of an arm on a linear axis
   std::vector<Balancer> balancers;
+
+  // Copied and moved by functions of kinematics.cpp, which is compiled once and not wherever somebody holds a robot.
+  Robot();
+  Robot(const Robot&);
+  Robot(Robot&&) noexcept;
+  Robot& operator=(const Robot&);
+  Robot& operator=(Robot&&) noexcept;
+  ~Robot();
 
   int joints() const { return axes_in_base_at_zero.joints(); }                ///< that have angles and springs
   int axes() const { return static_cast<int>(axes_in_base_at_zero.size()); }  ///< as many as moving bodies

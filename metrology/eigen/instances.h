@@ -1,11 +1,14 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <string>
+#include <vector>
 
-// What most libraries ask of Eigen with matrices of double: the blocks that products and triangular solutions are made
-// of, and decompositions. A library that names them compiles them again, some 90 KB in each of twenty; declared here,
-// in the precompiled header, they are compiled in instances.cpp alone. Without the precompiled header each compiles its
-// own, and the programs are the same. The numbers are Eigen 3.4's: another Eigen that has other templates says so here.
+// What most libraries ask of Eigen with matrices of double: products, triangular solutions and the blocks they are made
+// of, decompositions; and of the standard library strings and vectors of numbers, which it has compiled for C++17
+// alone. A library that names them compiles them again, some 120 KB in each of twenty; declared here, in the
+// precompiled header, they are compiled in instances.cpp alone. Without the precompiled header each compiles its own,
+// and the programs are the same. The numbers are Eigen 3.4's: another Eigen that has other templates says so here.
 
 #ifndef STIFFSCOPE_INSTANCE
 #define STIFFSCOPE_INSTANCE extern template
@@ -41,6 +44,33 @@ STIFFSCOPE_INSTANCE struct general_matrix_vector_product<Index, double, ByColumn
 STIFFSCOPE_INSTANCE struct triangular_solve_matrix<double, Index, OnTheLeft, Lower, false, ColMajor, ColMajor, 1>;
 STIFFSCOPE_INSTANCE struct triangular_solve_matrix<double, Index, OnTheLeft, Upper, false, RowMajor, ColMajor, 1>;
 STIFFSCOPE_INSTANCE struct triangular_solve_matrix<double, Index, OnTheLeft, UnitLower, false, ColMajor, ColMajor, 1>;
+STIFFSCOPE_INSTANCE struct triangular_solve_matrix<double, Index, OnTheLeft, Upper, false, ColMajor, ColMajor, 1>;
+STIFFSCOPE_INSTANCE struct triangular_solve_matrix<double, Index, OnTheRight, Upper, false, RowMajor, ColMajor, 1>;
+
+// Whole products: each factor read by columns or by rows.
+STIFFSCOPE_INSTANCE struct general_matrix_matrix_product<Index, double, ColMajor, false, double, ColMajor, false,
+                                                         ColMajor, 1>;
+STIFFSCOPE_INSTANCE struct general_matrix_matrix_product<Index, double, ColMajor, false, double, RowMajor, false,
+                                                         ColMajor, 1>;
+STIFFSCOPE_INSTANCE struct general_matrix_matrix_product<Index, double, RowMajor, false, double, ColMajor, false,
+                                                         ColMajor, 1>;
+STIFFSCOPE_INSTANCE struct general_matrix_matrix_product<Index, double, RowMajor, false, double, RowMajor, false,
+                                                         ColMajor, 1>;
+STIFFSCOPE_INSTANCE void evaluateProductBlockingSizesHeuristic<double, double, 1, Index>(Index&, Index&, Index&, Index);
+STIFFSCOPE_INSTANCE void evaluateProductBlockingSizesHeuristic<double, double, 4, Index>(Index&, Index&, Index&, Index);
+
+// A triangle times a matrix, and the lower triangle of a product.
+STIFFSCOPE_INSTANCE struct product_triangular_matrix_matrix<double, Index, Lower, true, ColMajor, false, ColMajor,
+                                                            false, ColMajor, 1>;
+STIFFSCOPE_INSTANCE struct product_triangular_matrix_matrix<double, Index, Upper, true, RowMajor, false, ColMajor,
+                                                            false, ColMajor, 1>;
+STIFFSCOPE_INSTANCE struct product_triangular_matrix_matrix<double, Index, UnitLower, true, ColMajor, false, ColMajor,
+                                                            false, ColMajor, 1>;
+STIFFSCOPE_INSTANCE struct product_triangular_matrix_matrix<double, Index, UnitUpper, true, RowMajor, false, ColMajor,
+                                                            false, ColMajor, 1>;
+STIFFSCOPE_INSTANCE struct tribb_kernel<double, double, Index, block_rows, block_columns, false, false, 1, Lower>;
+STIFFSCOPE_INSTANCE struct general_matrix_matrix_triangular_product<Index, double, ColMajor, false, double, RowMajor,
+                                                                    false, ColMajor, 1, Lower>;
 
 }  // namespace internal
 
@@ -56,3 +86,12 @@ STIFFSCOPE_INSTANCE SelfAdjointEigenSolver<Matrix3d>& SelfAdjointEigenSolver<Mat
 STIFFSCOPE_INSTANCE AngleAxisd& AngleAxisd::operator=(const QuaternionBase<Quaterniond>&);
 
 }  // namespace Eigen
+
+STIFFSCOPE_INSTANCE class std::basic_string<char>;
+STIFFSCOPE_INSTANCE class std::vector<std::string>;
+STIFFSCOPE_INSTANCE class std::vector<double>;
+STIFFSCOPE_INSTANCE class std::vector<int>;
+STIFFSCOPE_INSTANCE class std::vector<std::size_t>;
+STIFFSCOPE_INSTANCE class std::vector<Eigen::Vector3d>;
+STIFFSCOPE_INSTANCE class std::vector<Eigen::VectorXd>;
+STIFFSCOPE_INSTANCE class std::vector<Eigen::MatrixXd>;

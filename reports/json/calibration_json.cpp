@@ -162,6 +162,9 @@ Json calibrationJson(const campaign::Campaign& campaign, const calibration::Cali
   Json with_effects = Json::array();
   for (std::size_t j = 0; j < best.start.size(); ++j) with_effects.push_back(axisJson(day, best, arm_with_effects, j));
   json["axes_with_effects"] = with_effects;
+  const GrowthFrom growth = growthFrom(campaign, calibration);
+  if (growth.temperature_c) json["axes_with_effects_at_temperature_c"] = number(*growth.temperature_c);
+  if (growth.first_posture) json["axes_with_effects_at_s"] = day.times_known ? number(day.first_time_s) : Json(nullptr);
   json["not_identifiable"] = words(calibration.not_identifiable);
   json["base_link_from_tracker"] = matrix(fit.basePointsMotion());
   json["base_link_from_flange_at_zero"] = matrix(arm.base_from_flange_at_zero);
@@ -178,6 +181,7 @@ Json calibrationJson(const campaign::Campaign& campaign, const calibration::Cali
   json["stiffness_by_own_weight"] = day.masses_known ? stiffnessJson(best) : Json(nullptr);
   json["joint_angles"] = anglesJson(calibration);
   std::vector<std::string> notes = words(calibration.notes);
+  if (std::string from = growthFromWords(growth); !from.empty()) notes.insert(notes.begin(), std::move(from));
   if (std::string caution = geometryCaution(calibration); !caution.empty())
     notes.insert(notes.begin(), std::move(caution));
   json["notes"] = std::move(notes);

@@ -221,6 +221,9 @@ void writeParameters(Html& html, const reports::ReportContent& content) {
     writeTable(html, axesTable(calibration));
     if (const std::string caution = reports::geometryCaution(calibration); !caution.empty())
       html.paragraph("Caution: " + caution + ".");
+    if (const std::string growth = reports::growthFromWords(reports::growthFrom(one.campaign, calibration));
+        !growth.empty())
+      html.paragraph(growth + ".");
     const std::vector<std::string> unknown = reports::notIdentifiableWords(calibration);
     if (!unknown.empty()) html.paragraph("Not identifiable, or hardly:");
     html.list(unknown);

@@ -115,6 +115,8 @@ std::string calibrationText(const campaign::Campaign& campaign, const calibratio
   writeAxes(calibration, out);
   if (const std::string caution = geometryCaution(calibration); !caution.empty())
     fmt::format_to(out, "\n{}\n", wrapped("Caution: " + caution + ".", 2));
+  if (const std::string growth = growthFromWords(growthFrom(campaign, calibration)); !growth.empty())
+    fmt::format_to(out, "\n{}\n", wrapped(growth + ".", 2));
   for (const Remark& note : calibration.notes) fmt::format_to(out, "\n{}\n", wrapped(words(note), 2));
   if (calibration.rejected.empty()) return text;
   fmt::format_to(out, "\nReadings left out by the fullest model: {}\n", calibration.rejected.size());

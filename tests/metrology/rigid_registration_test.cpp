@@ -173,6 +173,27 @@ TEST(NearlyOnOneLine, IsWhatLeavesItsLineByLessThanAHundredth) {
   EXPECT_TRUE(metrology::nearlyOnOneLine({{0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}}));
 }
 
+TEST(NearlyOnOneLine, JudgesThreePointsAsTheSamePointsTwice) {
+  // Three have a formula of their own; each taken twice, they spread in the same ratio and go by the decomposition.
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal;
+  int lines = 0;
+  for (int i = 0; i < 400; ++i) {
+    const Eigen::Vector3d along(normal(random), normal(random), normal(random));
+    Points points;
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d across(normal(random), normal(random), normal(random));
+      points.push_back(Eigen::Vector3d(4.0, -2.0, 1.0) + normal(random) * along + 0.01 * across);
+    }
+    Points twice = points;
+    twice.insert(twice.end(), points.begin(), points.end());
+    EXPECT_EQ(metrology::nearlyOnOneLine(points), metrology::nearlyOnOneLine(twice));
+    lines += metrology::nearlyOnOneLine(points);
+  }
+  EXPECT_GT(lines, 50);
+  EXPECT_LT(lines, 350);
+}
+
 TEST(RegisterRigid, RefusesTooFewAndCollinear) {
   EXPECT_FALSE(metrology::registerRigid({}, {}).determined);
   EXPECT_FALSE(metrology::registerRigid({{0, 0, 0}, {1, 0, 0}}, {{0, 0, 0}, {1, 0, 0}}).determined);

@@ -1,8 +1,11 @@
 // The page of days without a load, and of days of sweeps alone.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <tinyxml2.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <regex>
 #include "core/accuracy/diagnose_accuracy.h"
 #include "core/calibration/remarks.h"
@@ -83,6 +86,29 @@ TEST(UnloadedPage, HasATitleAndAnOrderOfItsOwn) {
   EXPECT_TRUE(has(opening, "rms position error, nominal (URDF), held out"));
   EXPECT_FALSE(has(page, ">nan"));
   EXPECT_FALSE(has(page, "not available"));
+}
+
+/// Links of steel that warm by eight degrees and cool again.
+TEST(UnloadedPage, SaysOfWhichTemperatureTheAxesWithGrowthAre) {
+  Day day;
+  EXPECT_FALSE(has(page::reportPage(day.content()), "Growth is counted from"));
+  Noise noise(52);
+  UnloadedSpec spec = builtOtherwise(noise);
+  spec.postures = 80;
+  const auto warmer = [](int posture) { return 4.0 - 4.0 * std::cos(posture / 79.0 * 3.0 * std::numbers::pi); };
+  spec.temperature_c = [warmer](int posture) { return 20.0 + warmer(posture); };
+  spec.arm_at = [warmer](ChainArm arm, int posture) {
+    for (std::size_t j = 1; j < arm.to_joint.size(); ++j)
+      arm.to_joint[j].translation() *= 1.0 + 12e-6 * warmer(posture);
+    return arm;
+  };
+  day.campaign = unloadedCampaign(spec, noise);
+  day.identification = identification::framesAlone(day.campaign);
+  day.accuracy = accuracy::diagnoseAccuracy(day.campaign);
+  double mean = 20.0;
+  for (int i = 0; i < spec.postures; ++i) mean += warmer(i) / spec.postures;
+  EXPECT_TRUE(has(page::reportPage(day.content()),
+                  fmt::format("Growth is counted from {:.1f} degrees C, the mean over the day", mean)));
 }
 
 TEST(UnloadedPage, TablesAreFilesOfTheirNames) {
