@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <random>
 #include <set>
@@ -9,6 +10,7 @@
 #include <utility>
 
 #include "core/accuracy/where_next.h"
+#include "core/calibration/family_fit.h"
 #include "core/numerics/resampling.h"
 
 namespace stiffscope::accuracy {
@@ -24,8 +26,8 @@ constexpr double kNominalLimit =
 /// An effect that moves the reflectors by less than this share of the readings' noise does not matter.
 constexpr double kLeastSize = 0.4;
 
-/// Evidence that is enough: an effect of which as much is expected in what each fold leaves of the day has to be there.
-constexpr double kEnough = 30.0;
+/// An effect of which this score is expected in what each fold leaves of the day has to be there: odds of four to one.
+constexpr double kEnough = 3.0;
 
 /// Beside `unknown` an effect is named where no more than this share of the gap's squares beyond noise stays.
 constexpr double kMostLeft = 0.25;
@@ -130,14 +132,26 @@ class Decider {
                        [&](const calibration::Rival& rival) { return rival.effect == effect; });
   }
 
-  /// The score that what a fold leaves of the day is to show: evidence grows with the equations that the geometry
-  /// leaves free, of which half of a small day has less than half.
+  /// The score that is to be expected where a fold's others choose, which let four fifths of themselves predict the
+  /// rest: the likelihood falls with the equations that the geometry leaves free, of which half of a small day has much
+  /// less than half, and the price of the terms does not. Below any where those equations are too few for the terms.
   double expectedInOthers(const SelectedEffect& one) const {
+    const calibration::ArmFit& fit = calibration_.best().fit;
     const double rows = 3.0 * static_cast<double>(calibration_.best().fitted.readings);
-    const double geometry = calibration_.geometry().fit.parameters;
+    const double geometry = calibration_.geometry().fit.parameters, terms = static_cast<double>(fit.sizes.size());
     const double folds = static_cast<double>(calibration_.selected_by_others.size());
-    const double of_others = rows * (1.0 - 1.0 / folds) - geometry;
-    return one.score * std::max(0.0, of_others) / std::max(1.0, rows - geometry);
+    const double predicting = 1.0 - 1.0 / calibration::SelectionOptions().inner_folds;
+    const double of_all = rows - geometry, of_others = predicting * (1.0 - 1.0 / folds) * rows - geometry;
+    if (of_others <= 2.0 * terms + 1.0) return -std::numeric_limits<double>::infinity();
+    double penalty = 0.0;
+    for (const calibration::EffectPart& part : fit.parts) {
+      if (part.effect == one.effect ||
+          std::find(one.together.begin(), one.together.end(), part.effect) != one.together.end())
+        penalty += part.penalty;
+    }
+    const double price = penalty + calibration::kPriceOfEffect;
+    const double dearer = of_others / (of_others - terms - 1.0);
+    return (one.score + price) * of_others / of_all - penalty * dearer - calibration::kPriceOfEffect;
   }
 
   bool inEveryFold(const SelectedEffect& one) const {

@@ -103,7 +103,7 @@ class Search {
     std::stable_sort(selected.effects.begin(), selected.effects.end(),
                      [](const SelectedEffect& a, const SelectedEffect& b) { return a.score > b.score; });
     for (std::size_t f = 0; f < fits_.families().size(); ++f) {
-      const double fall = kLeastFall + fits_.leastPenalty(f);
+      const double fall = kPriceOfEffect + fits_.leastPenalty(f);
       // Of what is then left: each equation's share of the fall.
       selected.detectable.emplace_back(fits_.families()[f].effect, std::sqrt(std::expm1(fall / equations_)));
     }
@@ -111,10 +111,6 @@ class Search {
   }
 
  private:
-  /// Besides its parameters each effect has to be worth this: twice what one of a dozen reaches by chance, since what
-  /// another effect leaves of itself looks like a third one.
-  static constexpr double kLeastFall = 16.0;
-
   UnloadedEffect effectOf(std::size_t family) const { return fits_.families()[family].effect; }
 
   bool isOf(const std::vector<std::size_t>& families, const EffectPart& part) const {
@@ -212,7 +208,7 @@ class Search {
   }
 
   double cost(const EffectSet& set) const {
-    return FamilyFit::paid(set.model, equations_) + kLeastFall * static_cast<double>(set.families.size()) -
+    return FamilyFit::paid(set.model, equations_) + kPriceOfEffect * static_cast<double>(set.families.size()) -
            FamilyFit::fall(1.0, set.model.squares(), equations_);
   }
 

@@ -158,6 +158,10 @@ class LinearisedDay {
   Eigen::Index rows_of_postures_ = 0;  ///< an equation for each part of a station's pose stands behind them
 };
 
+/// Besides its parameters each effect has to be worth this: twice what one of a dozen reaches by chance, since what
+/// another effect leaves of itself looks like a third one.
+inline constexpr double kPriceOfEffect = 16.0;
+
 /// Each effect of the vocabulary fitted on its own beside a given model: its best parts, or its best whole form.
 class FamilyFit {
  public:
