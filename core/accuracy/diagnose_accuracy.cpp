@@ -142,7 +142,7 @@ class Decider {
     const double folds = static_cast<double>(calibration_.selected_by_others.size());
     const double predicting = 1.0 - 1.0 / calibration::SelectionOptions().inner_folds;
     const double of_all = rows - geometry, of_others = predicting * (1.0 - 1.0 / folds) * rows - geometry;
-    if (of_others <= 2.0 * terms + 1.0) return -std::numeric_limits<double>::infinity();
+    if (terms > calibration::kMostSpent * of_others) return -std::numeric_limits<double>::infinity();
     double penalty = 0.0;
     for (const calibration::EffectPart& part : fit.parts) {
       if (part.effect == one.effect ||
@@ -150,8 +150,8 @@ class Decider {
         penalty += part.penalty;
     }
     const double price = penalty + calibration::kPriceOfEffect;
-    const double dearer = of_others / (of_others - terms - 1.0);
-    return (one.score + price) * of_others / of_all - penalty * dearer - calibration::kPriceOfEffect;
+    return (one.score + price) * of_others / of_all - penalty * calibration::dearerBy(terms, of_others) -
+           calibration::kPriceOfEffect;
   }
 
   bool inEveryFold(const SelectedEffect& one) const {

@@ -15,8 +15,8 @@ inline constexpr calibration::CalibrationOptions kDiagnosisFolds{.folds = 2, .fo
 /// The readings are taken as they were measured, the station's motion in them: it is one of the effects. Their noise is
 /// what repeats show. An effect that the selection found (calibration::selectEffects) is named, with the rivals that do
 /// as well, unless it is smaller than what matters, or was found by all of the day and not by what each fold leaves of
-/// it although half of its evidence would do. Where something significant stays, the verdict says `unknown`, and an
-/// effect stands beside it only where it removes nearly all of the gap.
+/// it although that has equations enough to show it. Where something significant stays, the verdict says `unknown`, and
+/// an effect stands beside it only where it removes nearly all of the gap.
 AccuracyDiagnosis diagnoseAccuracy(const preparation::PreparedCampaign& prepared,
                                    const calibration::CalibrationOptions& options = kDiagnosisFolds);
 

@@ -296,15 +296,14 @@ std::optional<EffectPart> FamilyFit::bestStart(UnloadedEffect effect, const Line
   return targetMotion(day_.day(), moved, best.second);
 }
 
+double dearerBy(double unknowns, double equations) { return equations / std::max(1.0, equations - unknowns - 1.0); }
+
 double FamilyFit::paid(const LinearModel& model, double equations) {
-  const double spent = static_cast<double>(model.directions.cols());
-  return model.penalty * equations / std::max(1.0, equations - spent - 1.0);
+  return model.penalty * dearerBy(static_cast<double>(model.directions.cols()), equations);
 }
 
 bool FamilyFit::holds(const LinearModel& before, LinearModel& after, std::size_t terms, int tried,
                       double equations) const {
-  // As many unknowns as equations explain anything. What they leave is then no noise to judge by.
-  constexpr double kMostSpent = 0.5;
   const double spent = static_cast<double>(after.directions.cols());
   if (spent > kMostSpent * equations) return false;
   const double left = equations - spent, ratio = before.squares() / std::max(1e-300, after.squares());

@@ -162,6 +162,14 @@ class LinearisedDay {
 /// another effect leaves of itself looks like a third one.
 inline constexpr double kPriceOfEffect = 16.0;
 
+/// The largest share of the equations that effects' unknowns may take: as many unknowns as equations explain anything,
+/// and what they leave is no noise to judge by.
+inline constexpr double kMostSpent = 0.5;
+
+/// By what the penalty of p unknowns beside the geometry is multiplied on n equations, n / (n - p - 1) (C. M. Hurvich,
+/// C.-L. Tsai 1989, whose correction of AIC this is).
+double dearerBy(double unknowns, double equations);
+
 /// Each effect of the vocabulary fitted on its own beside a given model: its best parts, or its best whole form.
 class FamilyFit {
  public:
@@ -187,8 +195,7 @@ class FamilyFit {
 
   /// Fall of -2 log likelihood of `equations` normal residuals when their squares fall from one to the other.
   static double fall(double before, double after, double equations);
-  /// A model's penalty as few equations ask it of many unknowns: more than the penalty by n / (n - p - 1) for p
-  /// unknowns beside the geometry on n equations (C. M. Hurvich, C.-L. Tsai 1989, whose correction of AIC this is).
+  /// A model's penalty as few equations ask it of many unknowns.
   static double paid(const LinearModel& model, double equations);
 
  private:

@@ -2,6 +2,7 @@
 
 #include "core/calibration/calibrate.h"
 #include "core/calibration/denavit_hartenberg.h"
+#include "core/calibration/growth_from.h"
 #include "core/io/units.h"
 #include "reports/json/campaign_json.h"
 #include "reports/json/json.h"
@@ -162,7 +163,7 @@ Json calibrationJson(const campaign::Campaign& campaign, const calibration::Cali
   Json with_effects = Json::array();
   for (std::size_t j = 0; j < best.start.size(); ++j) with_effects.push_back(axisJson(day, best, arm_with_effects, j));
   json["axes_with_effects"] = with_effects;
-  const GrowthFrom growth = growthFrom(campaign, calibration);
+  const calibration::GrowthFrom growth = calibration::growthFrom(campaign, calibration);
   if (growth.temperature_c) json["axes_with_effects_at_temperature_c"] = number(*growth.temperature_c);
   if (growth.first_posture) json["axes_with_effects_at_s"] = day.times_known ? number(day.first_time_s) : Json(nullptr);
   json["not_identifiable"] = words(calibration.not_identifiable);

@@ -5,6 +5,7 @@
 
 #include "core/calibration/calibrate.h"
 #include "core/calibration/denavit_hartenberg.h"
+#include "core/calibration/growth_from.h"
 #include "core/io/units.h"
 #include "reports/page/html.h"
 #include "reports/page/sections.h"
@@ -221,7 +222,7 @@ void writeParameters(Html& html, const reports::ReportContent& content) {
     writeTable(html, axesTable(calibration));
     if (const std::string caution = reports::geometryCaution(calibration); !caution.empty())
       html.paragraph("Caution: " + caution + ".");
-    if (const std::string growth = reports::growthFromWords(reports::growthFrom(one.campaign, calibration));
+    if (const std::string growth = reports::growthFromWords(calibration::growthFrom(one.campaign, calibration));
         !growth.empty())
       html.paragraph(growth + ".");
     const std::vector<std::string> unknown = reports::notIdentifiableWords(calibration);

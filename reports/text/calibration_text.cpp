@@ -4,6 +4,7 @@
 
 #include "core/calibration/calibrate.h"
 #include "core/calibration/denavit_hartenberg.h"
+#include "core/calibration/growth_from.h"
 #include "core/io/units.h"
 #include "reports/text/text.h"
 #include "reports/words/calibration_words.h"
@@ -115,7 +116,7 @@ std::string calibrationText(const campaign::Campaign& campaign, const calibratio
   writeAxes(calibration, out);
   if (const std::string caution = geometryCaution(calibration); !caution.empty())
     fmt::format_to(out, "\n{}\n", wrapped("Caution: " + caution + ".", 2));
-  if (const std::string growth = growthFromWords(growthFrom(campaign, calibration)); !growth.empty())
+  if (const std::string growth = growthFromWords(calibration::growthFrom(campaign, calibration)); !growth.empty())
     fmt::format_to(out, "\n{}\n", wrapped(growth + ".", 2));
   for (const Remark& note : calibration.notes) fmt::format_to(out, "\n{}\n", wrapped(words(note), 2));
   if (calibration.rejected.empty()) return text;

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/calibration/calibrate.h"
+#include "core/calibration/growth_from.h"
 
 // A calibration of an unloaded day in the words of its text, JSON and tables.
 
@@ -18,18 +18,8 @@ std::vector<std::string> effectIdsOf(const calibration::ArmFit& fit);
 /// What the axes of the geometry alone are not, where effects beside it were found; empty where none were.
 std::string geometryCaution(const calibration::Calibration& calibration);
 
-/// The state of the arm from which a fitted growth of its lengths is counted, as is that of the axes fitted with it.
-struct GrowthFrom {
-  std::optional<double> temperature_c;  ///< by temperature: the mean over the day's postures
-  bool first_posture = false;           ///< by time: the arm as it was in the first posture
-
-  bool any() const { return temperature_c.has_value() || first_posture; }
-};
-/// `campaign`: whose day was calibrated.
-GrowthFrom growthFrom(const campaign::Campaign& campaign, const calibration::Calibration& calibration);
-
 /// Of which state of the arm the axes are that were fitted with growth; empty where none was found.
-std::string growthFromWords(const GrowthFrom& from);
+std::string growthFromWords(const calibration::GrowthFrom& from);
 
 /// "held out: each of 2 folds predicted by what the others fit; posture i is in fold (i / 1) mod 2"
 std::string foldWords(const calibration::CalibrationOptions& options);
