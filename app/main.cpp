@@ -18,6 +18,7 @@
 #include <string_view>
 #include "app/command_line.h"
 #include "core/io/input_error.h"
+#include "core/numerics/parallel.h"
 
 namespace {
 
@@ -119,6 +120,7 @@ int main(int count, char** words) {
   std::signal(SIGXFSZ, SIG_IGN);
   // Ceres logs each step that fails; results say what could not be determined.
   FLAGS_minloglevel = google::GLOG_FATAL;
+  stiffscope::numerics::sumAlikeEverywhere();
   keepFreedMemory(count > 1 && std::string_view(words[1]) == "report");
   return onWideStack([&] { return statusOf(count, words); });
 }

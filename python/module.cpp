@@ -21,6 +21,7 @@
 #include "core/io/read_file.h"
 #include "core/io/read_points.h"
 #include "core/io/units.h"
+#include "core/numerics/parallel.h"
 #include "python/to_python.h"
 
 namespace py = pybind11;
@@ -170,6 +171,7 @@ app::ModelChoice modelOf(std::vector<std::string> with, bool springs_only) {
 }  // namespace
 
 PYBIND11_MODULE(_core, module) {
+  numerics::sumAlikeEverywhere();
   module.attr("__version__") = STIFFSCOPE_VERSION;
   module.attr("default_folds") = calibration::CalibrationOptions().folds;
   module.attr("default_fold_size") = calibration::CalibrationOptions().fold_size;

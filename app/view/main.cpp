@@ -13,6 +13,7 @@
 #include "core/io/input_error.h"
 #include "core/io/read_file.h"
 #include "core/io/write_file.h"
+#include "core/numerics/parallel.h"
 #include "core/preparation/prepare.h"
 #include "render/arm_window.h"
 #include "render/image.h"
@@ -156,6 +157,7 @@ int run(int count, char** arguments) {
 
 // The only place that catches and prints.
 int main(int count, char** words) {
+  stiffscope::numerics::sumAlikeEverywhere();
   try {
     return stiffscope::app::run(count, words);
   } catch (const std::exception& error) {

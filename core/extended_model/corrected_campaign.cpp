@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
-#include <map>
+#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -96,26 +96,29 @@ void correctWrenches(const EffectFit& effects, const effects::Corrections& by, c
 class Shifter {
  public:
   /// `frame`: motion of the loading's frame, as frame_error has it, that is undone first.
-  Shifter(const EffectFit& effects, const Vector6d& frame)
-      : effects_(effects), frame_(frame), state_(effects.fit.state) {}
+  Shifter(const EffectFit& effects, const Vector6d& frame, std::size_t poses)
+      : effects_(effects), frame_(frame), state_(effects.fit.state), poses_(poses) {}
 
   void loading(const campaign::States& states, campaign::Loading& table) const {
-    std::map<int, const campaign::State*> resting;  // those that were never loaded
+    std::vector<const campaign::State*> resting(poses_, nullptr);  // those that were never loaded
     for (const campaign::State& row : states.rows) {
-      if (row.step == 0 && !effects_.day.contains(row.pose)) resting.emplace(row.pose, &row);
+      const campaign::State*& rest = resting[indexOf(row.pose)];
+      if (row.step == 0 && rest == nullptr && !effects_.day.contains(row.pose)) rest = &row;
     }
     const auto statesOf = [&](int pose) -> effects::PostureStates {
-      const auto rest = resting.find(pose);
-      if (rest == resting.end()) return effects_.statesOf(pose);
-      return {atRest(pose, rest->second->q, rest->second->time_s, rest->second->carriage)};
+      const campaign::State* const rest = resting[indexOf(pose)];
+      if (rest == nullptr) return effects_.statesOf(pose);
+      return {atRest(pose, rest->q, rest->time_s, rest->carriage)};
     };
     const Eigen::Isometry3d r0_from_loading = state_.geometry.r0_from_loading.value_or(Eigen::Isometry3d::Identity());
     const Eigen::Isometry3d loading_from_r0 = r0_from_loading.inverse();
-    std::map<int, Eigen::Isometry3d> by_pose;
-    for (const campaign::State& row : states.rows)
-      by_pose.emplace(row.pose, state_.at.withoutMovedInstrument(frame_, row.carriage) * r0_from_loading);
+    std::vector<std::optional<Eigen::Isometry3d>> by_pose(poses_);
+    for (const campaign::State& row : states.rows) {
+      std::optional<Eigen::Isometry3d>& here = by_pose[indexOf(row.pose)];
+      if (!here) here = state_.at.withoutMovedInstrument(frame_, row.carriage) * r0_from_loading;
+    }
     const auto corrected = [&](const campaign::LoadingReading& row) -> Eigen::Vector3d {
-      return by_pose.at(row.pose) * row.point;
+      return by_pose[indexOf(row.pose)].value() * row.point;
     };
     const Offsets offsets(effects_, unloadedPlaces(table, corrected), statesOf);
     numerics::smallWorkOnAllCores(table.rows.size(), [&](std::size_t i) {
@@ -127,11 +130,11 @@ class Shifter {
   void displacements(campaign::Displacements& table) const {
     const Eigen::Matrix3d table_from_r0 =
         state_.geometry.displacements_in_r0.value_or(Eigen::Matrix3d::Identity()).transpose();
-    Places places;
+    Places places(poses_);
     for (const campaign::Displacement& row : table.rows) {
       const auto& at_zero = state_.geometry.targets_at_zero[static_cast<std::size_t>(row.target)];
       if (!effects_.day.contains(row.pose) || !at_zero) continue;
-      auto& [sum, count] = places[row.pose][row.target];
+      auto& [sum, count] = placeOf(places, row.pose, row.target);
       if (count == 0) sum = effects_.statesOf(row.pose).front().posture.motion.back() * *at_zero, count = 1;
     }
     const Offsets offsets(effects_, places, [&](int pose) { return effects_.statesOf(pose); });
@@ -158,27 +161,31 @@ class Shifter {
 
     Eigen::Vector3d mean() const { return sum / count; }
   };
-  using Places = std::map<int, std::map<int, Sum>>;  // by pose, then target
+  using Places = std::vector<std::vector<std::pair<int, Sum>>>;  // by pose, which holds its targets
+
+  static std::size_t indexOf(int pose) { return static_cast<std::size_t>(pose); }
+
+  /// Of few targets.
+  static Sum& placeOf(Places& places, int pose, int target) {
+    std::vector<std::pair<int, Sum>>& here = places[indexOf(pose)];
+    const auto found = std::find_if(here.begin(), here.end(), [&](const auto& one) { return one.first == target; });
+    return found == here.end() ? here.emplace_back(target, Sum()).second : found->second;
+  }
 
   /// Of all postures and reflectors that have a place, in all states.
   class Offsets {
    public:
     Offsets(const EffectFit& effects, const Places& places,
-            const std::function<effects::PostureStates(int pose)>& states_of) {
-      std::vector<const Places::value_type*> postures;
-      for (const auto& posture : places) {
-        by_pose_.emplace(posture.first, postures.size());
-        postures.push_back(&posture);
-      }
-      of_posture_.resize(postures.size());
-      numerics::onAllCores(postures.size(), [&](std::size_t i) {
-        const auto& [pose, by_target] = *postures[i];
-        const effects::PostureStates states = states_of(pose);
+            const std::function<effects::PostureStates(int pose)>& states_of)
+        : by_pose_(places.size()) {
+      numerics::onAllCores(places.size(), [&](std::size_t pose) {
+        if (places[pose].empty()) return;
+        const effects::PostureStates states = states_of(static_cast<int>(pose));
         if (states.empty()) return;
         const PostureOffsets own(effects, states, {});
-        OfPosture& here = of_posture_[i];
+        OfPosture& here = by_pose_[pose];
         for (const effects::ArmState& state : states) here.steps.push_back(state.step);
-        for (const auto& [target, place] : by_target) {
+        for (const auto& [target, place] : places[pose]) {
           here.targets.push_back(target);
           const std::vector<Eigen::Vector3d> by_state = own.of(target, place.mean());
           here.offsets.insert(here.offsets.end(), by_state.begin(), by_state.end());
@@ -187,9 +194,7 @@ class Shifter {
     }
 
     Eigen::Vector3d of(int pose, int step, int target) const {
-      const auto found = by_pose_.find(pose);
-      if (found == by_pose_.end()) return Eigen::Vector3d::Zero();
-      const OfPosture& here = of_posture_[found->second];
+      const OfPosture& here = by_pose_[indexOf(pose)];
       const auto s = std::find(here.steps.begin(), here.steps.end(), step) - here.steps.begin();
       const auto t = std::find(here.targets.begin(), here.targets.end(), target) - here.targets.begin();
       if (s == std::ssize(here.steps) || t == std::ssize(here.targets)) return Eigen::Vector3d::Zero();
@@ -202,8 +207,7 @@ class Shifter {
       std::vector<Eigen::Vector3d> offsets;  // by target, then state
     };
 
-    std::map<int, std::size_t> by_pose_;
-    std::vector<OfPosture> of_posture_;
+    std::vector<OfPosture> by_pose_;
   };
 
   /// The arm at rest, not loaded, with the effects' own turns in.
@@ -216,24 +220,30 @@ class Shifter {
 
   /// Where reflectors stand in step 0 (mean of its readings), else wherever they were read.
   template <class InR0>
-  static Places unloadedPlaces(const campaign::Loading& table, const InR0& in_r0) {
-    Places at_rest, else_where;
+  Places unloadedPlaces(const campaign::Loading& table, const InR0& in_r0) const {
+    Places at_rest(poses_), else_where(poses_);
     for (const campaign::LoadingReading& row : table.rows) {
-      Sum& sum = (row.step == 0 ? at_rest : else_where)[row.pose][row.target];
+      Sum& sum = placeOf(row.step == 0 ? at_rest : else_where, row.pose, row.target);
       sum.sum += in_r0(row), ++sum.count;
     }
-    for (auto& [pose, by_target] : else_where) at_rest[pose].merge(by_target);
+    for (std::size_t pose = 0; pose < poses_; ++pose) {
+      for (const auto& [target, sum] : else_where[pose]) {
+        Sum& here = placeOf(at_rest, static_cast<int>(pose), target);
+        if (here.count == 0) here = sum;
+      }
+    }
     return at_rest;
   }
 
   const EffectFit& effects_;
   Vector6d frame_;
   const diagnosis::SystemState& state_;
+  std::size_t poses_;  ///< of the campaign
 };
 
 /// Every reading of loading, displacements and, where they took part in the fit, sweeps.
 void shiftReadings(const EffectFit& effects, const Vector6d& frame, campaign::Campaign& campaign) {
-  const Shifter shifter(effects, frame);
+  const Shifter shifter(effects, frame, campaign.pose_ids.size());
   if (campaign.loading && campaign.states && effects.fit.state.geometry.r0_from_loading)
     shifter.loading(*campaign.states, *campaign.loading);
   if (campaign.displacements) shifter.displacements(*campaign.displacements);

@@ -2,11 +2,15 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <utility>
 #include <vector>
 
+#include "core/extended_model/horseshoe.h"
+#include "core/numerics/parallel.h"
 #include "core/numerics/random.h"
 
 namespace stiffscope::extended_model {
@@ -30,29 +34,9 @@ double gammaOfHalves(std::size_t halves, RandomStream& random) {
   return sum;
 }
 
-/// A standard normal number given that it lies between these, which may be infinite; `low` where nothing lies between.
-double normalBetween(double low, double high, RandomStream& random) {
-  if (!(low < high)) return low;
-  if (low + high < 0.0) return -normalBetween(-high, -low, random);
-  // From here on the upper tail is the smaller one, and its probabilities are exact.
-  constexpr double kTail = 5.0;
-  if (low < kTail) {
-    const auto above = [](double x) { return 0.5 * std::erfc(x / std::sqrt(2.0)); };
-    const double least = above(high);
-    const double p = std::clamp(least + random.uniform() * (above(low) - least), 1e-300, 1.0 - 1e-16);
-    return std::clamp(-numerics::inverseNormal(p), low, high);
-  }
-  // Beyond it by rejection from an exponential (Robert, Statistics and Computing 5, 1995, 121).
-  const double share = -std::expm1(-low * (high - low));
-  for (;;) {
-    const double beyond = -std::log1p(-random.uniform() * share) / low;
-    if (std::log(random.uniform()) <= -0.5 * beyond * beyond) return std::min(low + beyond, high);
-  }
-}
-
 /// N(mean, sd^2) given that it is positive.
 double positiveNormal(double mean, double sd, RandomStream& random) {
-  return std::max(0.0, mean + sd * normalBetween(-mean / sd, kInfinity, random));
+  return std::max(0.0, mean + sd * numerics::normalBetween(-mean / sd, kInfinity, random.uniform()));
 }
 
 /// What the data say of some parameters: chi2 = x^T normal x - 2 right^T x + const.
@@ -117,6 +101,9 @@ class Sampler {
     }
     local_ = scalesOf(local_of_, 1.0);
     effect_ = scalesOf(effect_of_, kUsual);
+    findRivals();
+    for (std::size_t i = 0; i < shares_.size(); ++i)
+      shares_[i] = 1.0 / (1.0 + std::exp(kEnds - kEndsStep * static_cast<double>(i)));
   }
 
   /// The parameters in the evidence's order.
@@ -154,6 +141,66 @@ class Sampler {
     return scales;
   }
 
+  /// Parameters that share one l, all of them positive.
+  struct Alike {
+    std::size_t local = 0, effect = 0;  ///< l and t
+    bool alone = false;                 ///< the effect has no others
+    std::vector<Eigen::Index> of;       ///< counted among those that are positive
+    const ScaleMixture* mixture = nullptr;
+  };
+
+  /// Two such groups that the data hardly tell apart: either may be what explains them.
+  struct Rivals {
+    std::array<Alike, 2> groups;
+    std::vector<Eigen::Index> both;  ///< parameters of the one, then of the other
+  };
+
+  std::vector<Alike> alikeGroups() {
+    std::vector<Alike> groups;
+    std::vector<int> of_effect(effect_.of.size(), 0);
+    for (std::size_t s = 0; s < local_.of.size(); ++s) {
+      const std::vector<Eigen::Index>& of = local_.of[s];
+      if (of.empty()) continue;
+      const auto effect = static_cast<std::size_t>(effect_of_[static_cast<std::size_t>(of.front())]);
+      ++of_effect[effect];
+      if (of.front() < either_sign_) continue;
+      groups.push_back({s, effect, false, of, nullptr});
+      for (Eigen::Index& i : groups.back().of) i -= either_sign_;
+    }
+    for (Alike& one : groups) {
+      one.alone = of_effect[one.effect] == 1;
+      one.mixture = &mixtures_.try_emplace({one.of.size(), one.alone}, one.of.size(), one.alone).first->second;
+    }
+    return groups;
+  }
+
+  void findRivals() {
+    const Eigen::Index count = x_.size() - either_sign_;
+    if (count == 0) return;
+    // Where the other parameters may have any size that is physical, as these may.
+    Eigen::MatrixXd block = all_.normal.topLeftCorner(either_sign_, either_sign_);
+    block.diagonal().array() += 1.0;
+    const Eigen::MatrixXd through =
+        ScaledFactor(std::move(block)).lower(all_.normal.topRightCorner(either_sign_, count));
+    Eigen::MatrixXd seen = all_.normal.bottomRightCorner(count, count) - through.transpose() * through;
+    seen.diagonal() = seen.diagonal().cwiseMax(0.0).array() + 1.0;
+    const std::vector<Alike> groups = alikeGroups();
+    for (std::size_t a = 0; a < groups.size(); ++a) {
+      const std::vector<Eigen::Index>& of_a = groups[a].of;
+      const Eigen::LLT<Eigen::MatrixXd> factor_a(seen(of_a, of_a));
+      for (std::size_t b = 0; b < a; ++b) {
+        const std::vector<Eigen::Index>& of_b = groups[b].of;
+        const Eigen::LLT<Eigen::MatrixXd> factor_b(seen(of_b, of_b));
+        const Eigen::MatrixXd half = factor_a.matrixL().solve(Eigen::MatrixXd(seen(of_a, of_b)));
+        const Eigen::MatrixXd common = factor_b.matrixL().solve(half.transpose());
+        constexpr double kRivals = 0.8;  // largest canonical correlation
+        if (Eigen::JacobiSVD<Eigen::MatrixXd>(common).singularValues()[0] < kRivals) continue;
+        rivals_.push_back({{groups[a], groups[b]}, of_a});
+        rivals_.back().both.insert(rivals_.back().both.end(), of_b.begin(), of_b.end());
+      }
+    }
+  }
+
   Eigen::MatrixXd normals(Eigen::Index rows, Eigen::Index columns) {
     Eigen::MatrixXd drawn(rows, columns);
     for (double& one : drawn.reshaped()) one = random_.normal();
@@ -172,6 +219,9 @@ class Sampler {
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
       drawOneByOne(seen);
       drawAcross(seen);
+      if (sweep + 1 == kSweeps) {
+        for (const Rivals& one : rivals_) exchange(one, seen);
+      }
       drawScales(either_sign_, seen);
     }
   }
@@ -207,11 +257,108 @@ class Sampler {
         if (line[i] > 0.0) low = std::max(low, -x[i] / line[i]);
         if (line[i] < 0.0) high = std::min(high, -x[i] / line[i]);
       }
-      const double step = mean + sd * normalBetween((low - mean) / sd, (high - mean) / sd, random_);
+      const double step = mean + sd * numerics::normalBetween((low - mean) / sd, (high - mean) / sd, random_.uniform());
       if (!std::isfinite(step)) continue;
       seen.slope -= step * along;
       x = (x + step * line).cwiseMax(0.0);
     }
+  }
+
+  /// Sum of squares of a group's parameters along a line, in units of its scale's usual square.
+  struct SquaresAlong {
+    double here = 0.0, cross = 0.0, of_line = 0.0, unit = 1.0;
+
+    double at(double step) const { return std::max(here + step * (2.0 * cross + step * of_line), kLeastSquare) / unit; }
+  };
+
+  /// One explanation for the other: both groups' parameters along a line, and their scales with them. Few lines lead
+  /// from where one group is as good as zero to where the other is, and with the scales held hardly a step of them is
+  /// ever made. So the step is drawn with both scales integrated out, and the scales are drawn for it; what both
+  /// densities lose between their places is made good by taking or leaving the whole (Metropolis and Hastings).
+  void exchange(const Rivals& rivals, Seen& seen) {
+    // As many random numbers whatever comes of them.
+    const Eigen::VectorXd normal = normals(static_cast<Eigen::Index>(rivals.both.size()), 1);
+    std::array<double, 6> uniform;
+    for (double& one : uniform) one = random_.uniform();
+
+    auto x = x_.tail(seen.slope.size());
+    Eigen::MatrixXd block = seen.normal(rivals.both, rivals.both);
+    block.diagonal().array() += 1.0;
+    const Eigen::VectorXd line = ScaledFactor(std::move(block)).upper(normal);
+    Eigen::VectorXd along = Eigen::VectorXd::Zero(seen.slope.size());
+    for (Eigen::Index k = 0; k < line.size(); ++k)
+      along += line[k] * seen.normal.col(rivals.both[static_cast<std::size_t>(k)]);
+    std::array<SquaresAlong, 2> squares;
+    double curvature = 0.0, slope = 0.0, low = -kInfinity, high = kInfinity;
+    for (Eigen::Index k = 0; k < line.size(); ++k) {
+      const Eigen::Index i = rivals.both[static_cast<std::size_t>(k)];
+      SquaresAlong& own = squares[k < std::ssize(rivals.groups[0].of) ? 0 : 1];
+      own.here += x[i] * x[i], own.cross += x[i] * line[k], own.of_line += line[k] * line[k];
+      curvature += line[k] * along[i], slope += line[k] * seen.slope[i];
+      if (line[k] > 0.0) low = std::max(low, -x[i] / line[k]);
+      if (line[k] < 0.0) high = std::min(high, -x[i] / line[k]);
+    }
+    if (!(curvature > kLeastSquare)) return;
+    const double mean = slope / curvature, sd = 1.0 / std::sqrt(curvature);
+    constexpr double kFar = 5.0;
+    low = std::max(low, mean - kFar * sd), high = std::min(high, mean + kFar * sd);
+    if (!(low < 0.0 && high > 0.0)) return;
+
+    // step = low + (high - low) / (1 + exp(-u)): as fine at both ends, where the prior has its poles, as need be.
+    const double length = high - low;
+    const auto logSeen = [&](double step) { return -0.5 * (step - mean) * (step - mean) * curvature; };
+    for (std::size_t g = 0; g < 2; ++g) squares[g].unit = unitOf(rivals.groups[g]);
+    std::array<double, PiecewiseDensity::kPlaces> density;
+    for (std::size_t i = 0; i < density.size(); ++i) {
+      const double step = low + length * shares_[i];
+      density[i] = logSeen(step);
+      for (std::size_t g = 0; g < 2; ++g) density[i] += rivals.groups[g].mixture->logMarginal(squares[g].at(step));
+    }
+    const double most = *std::max_element(density.begin(), density.end());
+    for (std::size_t i = 0; i < density.size(); ++i)
+      density[i] = std::exp(density[i] - most) * shares_[i] * (1.0 - shares_[i]);
+    const PiecewiseDensity steps(-kEnds, kEndsStep, density);
+    const double u = steps.draw(uniform[0]), share = 1.0 / (1.0 + std::exp(-u)), step = low + length * share;
+    const double share_now = -low / length, u_now = std::log(-low / high);
+    double ratio = logSeen(step) - logSeen(0.0) + steps.logDensity(u_now) - steps.logDensity(u) +
+                   std::log(share * (1.0 - share) / (share_now * (1.0 - share_now)));
+    std::array<double, 2> scale;
+    for (std::size_t g = 0; g < 2; ++g) {
+      const ScaleMixture& mixture = *rivals.groups[g].mixture;
+      const double now = std::log(squareOf(rivals.groups[g]) / squares[g].unit);
+      const double sum_now = squares[g].at(0.0), sum = squares[g].at(step);
+      const PiecewiseDensity back = mixture.scaleGiven(sum_now), there = mixture.scaleGiven(sum);
+      scale[g] = there.draw(uniform[1 + g]);
+      ratio += mixture.logJoint(sum, scale[g]) - there.logDensity(scale[g]);
+      ratio -= mixture.logJoint(sum_now, now) - back.logDensity(now);
+    }
+    if (!(std::log(uniform[3]) < ratio)) return;
+    seen.slope -= step * along;
+    for (Eigen::Index k = 0; k < line.size(); ++k) {
+      double& one = x[rivals.both[static_cast<std::size_t>(k)]];
+      one = std::max(0.0, one + step * line[k]);
+    }
+    for (std::size_t g = 0; g < 2; ++g) takeScale(rivals.groups[g], std::exp(scale[g]), uniform[4 + g]);
+  }
+
+  double unitOf(const Alike& group) const {
+    return group.alone ? kUsual * kUsual : effect_.square[static_cast<Eigen::Index>(group.effect)];
+  }
+
+  /// (l t)^2
+  double squareOf(const Alike& group) const {
+    return local_.square[static_cast<Eigen::Index>(group.local)] *
+           effect_.square[static_cast<Eigen::Index>(group.effect)];
+  }
+
+  /// `share`: that in units.
+  void takeScale(const Alike& group, double share, double uniform) {
+    double& local = local_.square[static_cast<Eigen::Index>(group.local)];
+    local = share;
+    if (!group.alone) return;
+    const double of_effect = factorOfProduct(share, uniform);
+    local = share / of_effect;
+    effect_.square[static_cast<Eigen::Index>(group.effect)] = of_effect * kUsual * kUsual;
   }
 
   /// The scales of which all parameters stand from `first` on, which are those of `seen`.
@@ -239,23 +386,28 @@ class Sampler {
     }
   }
 
-  /// A scale times f, its parameters times f: chi2 is quadratic in f, and of the prior only the half-Cauchy changes,
-  /// by which f > 0 is taken or not (Metropolis and Hastings).
+  /// A scale times f > 0, its parameters times f: chi2 is quadratic in f, and of the prior only the half-Cauchy
+  /// changes, under a height of which f is drawn (slice sampling; Neal, Annals of Statistics 31, 2003, 705).
   void stretch(const std::vector<Eigen::Index>& of, Eigen::Index first, double usual, double& square, Seen& seen) {
     Eigen::VectorXd along = Eigen::VectorXd::Zero(seen.slope.size());
     for (const Eigen::Index i : of) along += seen.normal.col(i - first) * x_[i];
     double curvature = 0.0, slope = 0.0;
     for (const Eigen::Index i : of) curvature += x_[i] * along[i - first], slope += x_[i] * seen.slope[i - first];
+    const double height = random_.uniform(), place = random_.uniform();
     if (!(curvature > kLeastSquare)) return;
-    const double factor = positiveNormal(1.0 + slope / curvature, 1.0 / std::sqrt(curvature), random_);
+    const double mean = 1.0 + slope / curvature, sd = 1.0 / std::sqrt(curvature);
+    const double most = std::sqrt(1.0 + (usual / square + 1.0) * (1.0 / height - 1.0));
+    const double factor = mean + sd * numerics::normalBetween(-mean / sd, (most - mean) / sd, place);
     const double stretched = factor * factor * square;
-    if (!(stretched > kLeastSquare) || random_.uniform() * (usual + stretched) > usual + square) return;
+    if (!(factor > 0.0 && stretched > kLeastSquare)) return;
     square = stretched;
     seen.slope -= (factor - 1.0) * along;
     for (const Eigen::Index i : of) x_[i] *= factor;
   }
 
   static constexpr double kLeastSquare = 1e-60;
+  static constexpr double kEnds = 15.0;  // of u: to 3e-7 of a line's length from its ends
+  static constexpr double kEndsStep = 2.0 * kEnds / static_cast<double>(PiecewiseDensity::kPlaces - 1);
 
   RandomStream random_;
   std::vector<Eigen::Index> order_;                 ///< of the evidence, here
@@ -266,6 +418,9 @@ class Sampler {
   std::vector<double> known_weight_;                ///< of those that are declared, 1 / sd^2; else 0
   std::vector<Eigen::Index> local_of_, effect_of_;  ///< the scales of each parameter
   Scales local_, effect_;                           ///< l and t
+  std::map<std::pair<std::size_t, bool>, ScaleMixture> mixtures_;
+  std::vector<Rivals> rivals_;
+  std::array<double, PiecewiseDensity::kPlaces> shares_{};  ///< of a line's length, where its density is asked for
 };
 
 }  // namespace
@@ -273,12 +428,15 @@ class Sampler {
 Eigen::MatrixXd drawEffects(const EffectEvidence& evidence, const PosteriorOptions& options) {
   Eigen::MatrixXd draws(evidence.right.size(), options.draws);
   if (draws.size() == 0) return draws;
-  Sampler sampler(evidence, options.seed);
-  for (int i = 0; i < options.warm_up; ++i) sampler.next();
-  for (int i = 0; i < options.draws; ++i) {
-    for (int k = 1; k < options.one_of; ++k) sampler.next();
-    draws.col(i) = sampler.next();
-  }
+  const auto chains = static_cast<std::size_t>(options.chains);
+  numerics::onAllCores(chains, [&](std::size_t c) {
+    const auto firstOf = [&](std::size_t chain) {
+      return draws.cols() * static_cast<Eigen::Index>(chain) / options.chains;
+    };
+    Sampler sampler(evidence, options.seed * chains + c);
+    for (int i = 0; i < options.warm_up; ++i) sampler.next();
+    for (Eigen::Index i = firstOf(c); i < firstOf(c + 1); ++i) draws.col(i) = sampler.next();
+  });
   return draws;
 }
 

@@ -326,7 +326,7 @@ void evaluateExtended(const identification::IdentifyOptions& options, const std:
     MethodEquations equations = methodEquations(model.with, which, cases);
     // To first order: d c = -G E S, G the method's solution of its equations A c + E theta = b.
     spread = complianceBySteps(equations, which, method.estimate.identifiable, steps);
-    if (equations.reflectors.empty() || options.estimates_only) continue;
+    if (equations.reflectors.empty()) continue;
     MethodJudge(options, model, which, equations, refits).fill(machine, method);
     if (which == identification::Method::complete_pose)
       judgeLengths(options, cases, machine, std::move(equations), refits, model);

@@ -80,10 +80,12 @@ ExtendedModel extendModel(const campaign::Campaign& campaign, EffectFit effects,
   own.robust = options.robust;
   model.with = identification::identify(model.campaign, own);
   model.with.left_out.insert(model.with.left_out.end(), left_out.begin(), left_out.end());
-  model.spread.parameters = covarianceRoot(model.effects.covariance);
-  const std::vector<CaseEffects> cases = caseEffects(model.effects, model.spread.parameters, model.with);
-  evaluateExtended(options, cases, model);
-  addEffectsUncertainty(model);
+  if (!options.estimates_only) {
+    model.spread.parameters = covarianceRoot(model.effects.covariance);
+    const std::vector<CaseEffects> cases = caseEffects(model.effects, model.spread.parameters, model.with);
+    evaluateExtended(options, cases, model);
+    addEffectsUncertainty(model);
+  }
   model.with.shown_first = identification::methodShownFirst(model.with, options.papers_choice);
   model.with.cautions = identification::warningsOf(model.campaign, model.with);
   return model;

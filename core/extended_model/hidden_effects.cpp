@@ -322,7 +322,7 @@ class MethodWeigher {
     const double sd = fitSd(own, by_columns, j), alone_sd = unexplained_ ? fitSd(alone, by_columns, j) : 0.0;
     std::vector<double> values;
     if (!std::isfinite(sd + alone_sd)) return values;
-    constexpr int kEach = 5;
+    constexpr int kEach = 2;
     for (Eigen::Index d = 0; d < moved.cols(); ++d) {
       for (int k = 0; k < kEach; ++k) {
         const double factor = 1.0 + declared_.gain_sd * random.normal();

@@ -40,9 +40,9 @@ void turn(const Eigen::Matrix3d& rotation, Eigen::MatrixXd& rows) {
     rows.middleRows<3>(at) = rotation * rows.middleRows<3>(at).eval();
 }
 
+/// `machine`: what the effects of the machine do in this posture.
 CaseEffects effectsIn(const EffectFit& effects, const Eigen::MatrixXd& steps, const effects::PostureStates& posture,
-                      const Eigen::Isometry3d& fit_from_r0, const LoadCase& load_case) {
-  const PostureOffsets machine(effects, posture, {true, false});
+                      const PostureOffsets& machine, const Eigen::Isometry3d& fit_from_r0, const LoadCase& load_case) {
   const Eigen::Matrix3d back = fit_from_r0.linear().transpose();
   const std::size_t state = stateOf(posture, load_case.step);
   std::vector<int> targets;
@@ -66,14 +66,19 @@ CaseEffects effectsIn(const EffectFit& effects, const Eigen::MatrixXd& steps, co
   return here;
 }
 
-/// Where the cases of each posture begin, and after the last their end: cases of one follow each other.
-std::vector<std::size_t> posturesOf(const std::vector<identification::CaseEquations>& rows) {
+/// Where the elements of each posture begin, and after the last their end: those of one follow each other.
+template <class Element, class Share>
+std::vector<std::size_t> posturesOf(const std::vector<Element>& elements, const Share& share_posture) {
   std::vector<std::size_t> first;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (i == 0 || !identification::sharePosture(rows[i - 1], rows[i])) first.push_back(i);
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    if (i == 0 || !share_posture(elements[i - 1], elements[i])) first.push_back(i);
   }
-  first.push_back(rows.size());
+  first.push_back(elements.size());
   return first;
+}
+
+std::vector<std::size_t> posturesOf(const std::vector<identification::CaseEquations>& rows) {
+  return posturesOf(rows, identification::sharePosture);
 }
 
 ExtendedNormal normalOf(const identification::CaseEquations& springs, const Eigen::MatrixXd& by_steps) {
@@ -147,13 +152,19 @@ std::vector<CaseEffects> caseEffects(const diagnosis::GapStudy& study, const Eff
 std::vector<CaseEffects> caseEffects(const EffectFit& effects, const Eigen::MatrixXd& steps,
                                      const identification::Identification& result) {
   const Eigen::Isometry3d fit_from_r0 = fitFrom(result.geometry, effects.fit.state.geometry);
+  const std::vector<std::size_t> first =
+      posturesOf(result.cases, [](const LoadCase& a, const LoadCase& b) { return a.pose == b.pose; });
   std::vector<CaseEffects> all(result.cases.size());
-  numerics::onAllCores(all.size(), [&](std::size_t i) {
-    const LoadCase& load_case = result.cases[i];
-    all[i] = effectsIn(effects, steps, effects.statesOf(load_case.pose), fit_from_r0, load_case);
-    if (result.wrist.empty()) return;
-    all[i].wrist_machine =
-        identification::wristByReflectors(load_case, result.frames.wrist.radii, result.wrist[i]) * all[i].by_machine;
+  numerics::onAllCores(first.size() - 1, [&](std::size_t p) {
+    const effects::PostureStates states = effects.statesOf(result.cases[first[p]].pose);
+    const PostureOffsets machine(effects, states, {true, false});
+    for (std::size_t i = first[p]; i < first[p + 1]; ++i) {
+      const LoadCase& load_case = result.cases[i];
+      all[i] = effectsIn(effects, steps, states, machine, fit_from_r0, load_case);
+      if (result.wrist.empty()) continue;
+      all[i].wrist_machine =
+          identification::wristByReflectors(load_case, result.frames.wrist.radii, result.wrist[i]) * all[i].by_machine;
+    }
   });
   return all;
 }

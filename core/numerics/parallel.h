@@ -8,6 +8,11 @@
 
 namespace stiffscope::numerics {
 
+/// Has the sums of large matrix products taken in one order on every processor: Eigen cuts them into pieces that suit
+/// the processor's caches, and rounding depends on the pieces. To be called once, before anything is computed. What is
+/// left are the last digits of exp, sin and their kin, which processors that multiply and add at once have otherwise.
+void sumAlikeEverywhere();
+
 /// Calls work(i) once for each i in 0..count-1, shared among as many threads as this process has cores, the calling one
 /// among them; returns when all have ended. Indices are begun in ascending order. Calls run at the same time: they may
 /// read what they have in common, and each writes only what is its own, so that nothing depends on the number of

@@ -1,7 +1,9 @@
 #include "core/numerics/random.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace stiffscope::numerics {
 
@@ -75,6 +77,17 @@ double inverseNormal(double p) {
   const double x = r <= 5.0 ? polynomial(kMiddleTop, r - 1.6) / polynomial(kMiddleBottom, r - 1.6)
                             : polynomial(kTailTop, r - 5.0) / polynomial(kTailBottom, r - 5.0);
   return q < 0.0 ? -x : x;
+}
+
+double normalBetween(double low, double high, double uniform) {
+  if (!(low < high)) return low;
+  if (low + high < 0.0) return -normalBetween(-high, -low, 1.0 - uniform);
+  // From here on the upper tail is the smaller one, and its probabilities are exact; from kTail on it is exponential.
+  constexpr double kTail = 30.0;
+  if (low >= kTail) return std::min(low - std::log1p(uniform * std::expm1(-low * (high - low))) / low, high);
+  const auto above = [](double x) { return 0.5 * std::erfc(x / std::numbers::sqrt2); };
+  const double most = above(low), p = most - uniform * (most - above(high));
+  return std::clamp(-inverseNormal(std::clamp(p, 1e-300, 1.0 - 1e-16)), low, high);
 }
 
 RandomStream::RandomStream(std::uint64_t seed, std::string_view name) : engine_(mixed(seed, name)) {}

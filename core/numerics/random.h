@@ -12,6 +12,11 @@ namespace stiffscope::numerics {
 /// its normal distribution's algorithm open, and a seed must mean the same draws everywhere.
 double inverseNormal(double p);
 
+/// x between `low` and `high`, which may be infinite, with Phi(x) = Phi(low) + uniform (Phi(high) - Phi(low)): a
+/// standard normal number given that it lies there, of a uniform one; rising with it and continuous in all three. `low`
+/// where nothing lies between. Far from zero to about 10 digits.
+double normalBetween(double low, double high, double uniform);
+
 /// Independent random numbers for one purpose. Streams of different names are independent, so that asking one
 /// section of a specification for more draws leaves every other section's as they were. The engine,
 /// std::mt19937_64, is fully specified by the standard; one 64-bit word makes one number, uniform or normal.

@@ -21,11 +21,11 @@ template <class Row>
 Rounded roundedIn(const std::vector<Row>& rows, const metrology::TrackerNoise& noise) {
   // Round figures of fewer rows may be chance; a tenth of a micrometre is below any tracker's noise.
   constexpr std::size_t kFewest = 4;
-  constexpr double kUnfelt = 1e-7;  // m
+  constexpr double kFelt = 1e-6;  // m
   Rounded rounded;
   if (rows.size() < kFewest) return rounded;
-  const double digit = lastDigit(rows);
-  if (digit <= kUnfelt) return rounded;
+  const double digit = lastDigit(rows, kFelt);
+  if (digit == 0.0) return rounded;
   const double variance = digit * digit / 12.0, share = 1.0 / static_cast<double>(rows.size());
   double along = 0.0, across = 0.0;  // of the noise's variance, mean of all readings
   for (const Row& row : rows) {

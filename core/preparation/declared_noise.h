@@ -28,11 +28,13 @@ inline NoiseFactors operator*(const NoiseFactors& a, const NoiseFactors& b) {
 /// one cause gives one finding (GUM 4.2: an evaluation from repeats outweighs a data sheet).
 campaign::Tracker asNoisyAs(campaign::Tracker tracker, const NoiseFactors& factors);
 
-/// The last digit that all coordinates are written with, m; 0 where they are written more finely than any noise.
+/// The last digit that all coordinates are written with, m; 0 where they are written more finely than any noise, or
+/// than `finest`.
 template <class Row>
-double lastDigit(const std::vector<Row>& rows) {
+double lastDigit(const std::vector<Row>& rows, double finest = 0.0) {
   // Two of them are 0.01 and 0.001 inch, which are whole again in four digits of a millimetre.
   for (const double digit : {1e-3, 2.54e-4, 1e-4, 2.54e-5, 1e-5, 1e-6, 1e-7}) {
+    if (digit < finest) break;
     constexpr double kExact = 1e-4;  // of a digit: 100 m in double precision keep it
     const bool whole = std::all_of(rows.begin(), rows.end(), [&](const Row& row) {
       const Eigen::Array3d digits = row.point.array() / digit;

@@ -1,4 +1,7 @@
 #include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
 #include "core/simulation/instruments.h"
 #include "tests/fixtures/simulation_fixture.h"
 
@@ -14,6 +17,32 @@ TEST(SimulationRandom, inverseNormalIsTheInverse) {
     const double x = numerics::inverseNormal(p);
     EXPECT_NEAR(0.5 * std::erfc(-x / std::sqrt(2.0)) / p, 1.0, 1e-15 * (10 + x * x)) << p;
   }
+}
+
+// Of the upper tails, whose probabilities are exact: P(above x | between) must give 1 - uniform back.
+TEST(SimulationRandom, normalBetweenHasItsShareBelow) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const auto above = [](double x) { return 0.5 * std::erfc(x / std::sqrt(2.0)); };
+  for (const auto& [low, high] : std::vector<std::pair<double, double>>{{-kInfinity, kInfinity},
+                                                                        {-0.5, 0.2},
+                                                                        {-0.2, 0.5},
+                                                                        {1.0, 2.0},
+                                                                        {-1.0, kInfinity},
+                                                                        {8.0, kInfinity},
+                                                                        {25.0, 25.01}}) {
+    for (const double uniform : {1e-9, 0.01, 0.3, 0.8, 0.999}) {
+      const double x = numerics::normalBetween(low, high, uniform);
+      EXPECT_NEAR((above(x) - above(high)) / (above(low) - above(high)), 1.0 - uniform, 1e-9) << low << " " << high;
+      EXPECT_NEAR(numerics::normalBetween(-high, -low, 1.0 - uniform), -x, 1e-9 * (1.0 + std::abs(x)));
+    }
+  }
+  // Beyond what erfc has: exp(-x^2/2) / x, of which x - low is exponential but for 1/low^2.
+  for (const double uniform : {0.01, 0.5, 0.99})
+    EXPECT_NEAR(numerics::normalBetween(50.0, kInfinity, uniform), 50.0 - std::log1p(-uniform) / 50.0, 1e-9);
+  EXPECT_NEAR(numerics::normalBetween(29.9999999, kInfinity, 0.7), numerics::normalBetween(30.0000001, kInfinity, 0.7),
+              1e-4);
+  EXPECT_EQ(numerics::normalBetween(2.0, 2.0, 0.3), 2.0);
+  EXPECT_EQ(numerics::normalBetween(3.0, 2.0, 0.3), 3.0);
 }
 
 TEST(SimulationRandom, streamsAreRepeatableAndIndependent) {
