@@ -45,7 +45,8 @@ TEST(ScaleMixture, MarginalOfAProductIsTheIntegralOverItsFactor) {
       for (double u = -30.0; u < 30.0; u += 0.01) {
         const double t = std::exp(u);
         if (sum / (t * t) > 1000.0) continue;  // exp(z) overflows; a t as small is out of reach
-        integral += byHand(parameters, sum / (t * t)) * std::pow(t, -static_cast<double>(parameters)) * t / (1.0 + t * t);
+        integral +=
+            byHand(parameters, sum / (t * t)) * std::pow(t, -static_cast<double>(parameters)) * t / (1.0 + t * t);
       }
       return std::log(integral);
     };
