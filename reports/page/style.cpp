@@ -172,7 +172,7 @@ constexpr const char* kPrint =
     "h1{font-size:18pt}h2{font-size:13pt;margin-top:5mm}h3{font-size:10.5pt;margin:3mm 0 1mm}"
     "h2,h3,caption,thead{break-after:avoid}"
     // A paragraph of a few lines that were broken would leave one of them under a heading.
-    "figure,table,tr,p,li,.numbers{break-inside:avoid}table.long{break-inside:auto}"
+    "figure,table,caption,tr,p,li,.numbers{break-inside:avoid}table.long{break-inside:auto}"
     // A head that holds buttons is not repeated on the next page.
     "th button{display:contents}"
     // A sentence goes with the table or list that it speaks of, but one that stands below a table goes with that alone:

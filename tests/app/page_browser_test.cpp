@@ -345,6 +345,32 @@ TEST_F(PageInABrowser, ABrokenTableHasItsHeadOnBothPages) {
   EXPECT_GE(heads("@media print{#workspace tbody tr:nth-child(8){break-before:page}}"), 4);
 }
 
+// Of all tables: a page that has the beginning of a caption has its end, and the table's first row.
+TEST_F(PageInABrowser, ACaptionIsOnThePageOfItsTable) {
+  if (!installed("pdftotext")) GTEST_SKIP() << "poppler-utils is not installed";
+  std::string page = contentsOf(out() / "report.html");
+  page.replace(page.rfind("</body>"), 7,
+               "<style>caption::before{content:'<<'}caption::after{content:'>>'}"
+               "table:has(caption)>tbody:first-of-type>tr:first-child>:first-child::before{content:'@@'}"
+               "</style></body>");
+  const std::string copy = (scratch() / "captions.html").string(), pdf = (scratch() / "captions.pdf").string();
+  std::ofstream(copy, std::ios::binary) << page;
+  runBrowser("--no-pdf-header-footer --print-to-pdf='" + pdf + "' 'file://" + copy + "'", scratch());
+  std::istringstream pages(runShell("pdftotext -raw '" + pdf + "' -", scratch()).out);
+  int tables = 0;
+  for (std::string one; std::getline(pages, one, '\f');) {
+    const auto count = [&](const std::string& mark) {
+      int found = 0;
+      for (std::size_t at = one.find(mark); at != std::string::npos; at = one.find(mark, at + 1)) ++found;
+      return found;
+    };
+    EXPECT_EQ(count("<<"), count(">>")) << one;
+    EXPECT_EQ(count("<<"), count("@@")) << one;
+    tables += count("<<");
+  }
+  EXPECT_GT(tables, 40);
+}
+
 TEST_F(PageInABrowser, OtherDaysPrintOnFullPagesToo) {
   if (!installed("pdfinfo")) GTEST_SKIP() << "poppler-utils is not installed";
   for (const std::string day : {"active", "unloaded"}) {
