@@ -37,7 +37,7 @@ inline Ran runBrowser(const std::string& words, const std::filesystem::path& scr
 inline Ran runBrowserWithWebGl(const std::string& words, const std::filesystem::path& scratch) {
   return runChromium(
       "--use-gl=angle --use-angle=swiftshader --ignore-gpu-blocklist --window-size=1400,1000 "
-      "--virtual-time-budget=10000",
+      "--virtual-time-budget=60000",
       words, scratch);
 }
 
