@@ -68,24 +68,21 @@ DeflectionDraws hiddenDraws(const extended_model::ExtendedModel& model, identifi
   const extended_model::HiddenDraws& hidden = model.hidden->draws;
   const extended_model::HiddenDraws::OfMethod& own = hidden.methods[static_cast<std::size_t>(method)];
   const StiffnessEstimate &estimate = model.with.of(method).estimate, &alone = model.without.of(method).estimate;
-  // Of the draws of the effects as many as tell their spread: each costs as much as all else of a place.
-  constexpr std::size_t kEffects = 600;
-  const std::size_t stride = (own.possible.size() + kEffects - 1) / kEffects;
-  std::vector<Eigen::Index> taken;
-  for (std::size_t k = 0; k < own.possible.size(); k += stride) taken.push_back(static_cast<Eigen::Index>(k));
-  const auto possible = static_cast<Eigen::Index>(taken.size());
+  // Of the draws of the effects as many as tell their spread: what they do is computed anew at every place.
+  constexpr Eigen::Index kEffects = 600;
+  const auto drawn = static_cast<Eigen::Index>(own.possible.size());
+  const Eigen::Index stride = std::max<Eigen::Index>(1, (drawn + kEffects - 1) / kEffects);
+  const Eigen::Index possible = (drawn + stride - 1) / stride;
   const Eigen::Index each = std::max<Eigen::Index>(1, kDraws / possible), by_model = each * possible;
   const Eigen::Index all = model.hidden->unexplained ? 2 * by_model : by_model;
   RandomStream random(1, "predictions");
   DeflectionDraws draws;
   draws.compliance.resize(estimate.compliance.size(), all);
   draws.compliance.leftCols(by_model) = normalDraws(withKnown(own.others, estimate), by_model, random);
-  for (Eigen::Index d = 0; d < by_model; ++d)
-    draws.compliance.col(d) += own.compliance.col(taken[static_cast<std::size_t>(d % possible)]);
+  for (Eigen::Index d = 0; d < by_model; ++d) draws.compliance.col(d) += own.compliance.col(stride * (d % possible));
   draws.parameters.resize(hidden.off.rows(), possible);
   for (Eigen::Index d = 0; d < possible; ++d)
-    draws.parameters.col(d) =
-        hidden.off.col(own.possible[static_cast<std::size_t>(taken[static_cast<std::size_t>(d)])]);
+    draws.parameters.col(d) = hidden.off.col(own.possible[static_cast<std::size_t>(stride * d)]);
   if (model.hidden->unexplained) {
     draws.compliance.rightCols(by_model) =
         normalDraws(identification::coveringCovariance(alone), by_model, random).colwise() + alone.compliance;

@@ -210,8 +210,9 @@ struct PosteriorOptions {
 /// one after the other and along random lines through all of them; the scales by their inverse gamma mixtures (Makalic
 /// and Schmidt, IEEE Signal Processing Letters 23, 2016, 179) and by stretching their parameters with them. Positive
 /// parameters that the data hardly tell apart explain them the one or the other, and go from one explanation to the
-/// other along lines with their scales integrated out (horseshoe.h). The same seed gives the same draws; every step
-/// follows the evidence smoothly, so that what another processor rounds otherwise changes them by as little.
+/// other along lines with their scales integrated out (horseshoe.h). The same seed gives the same draws. Each step
+/// follows the evidence smoothly but for the rare one between explanations that is not taken: what another processor
+/// rounds otherwise hardly changes the draws, but where explanations vie it may by as much as another seed.
 Eigen::MatrixXd drawEffects(const EffectEvidence& evidence, const PosteriorOptions& options = {});
 
 /// Scale of an effect's size before anything is measured, as a share of the physical bounds. From a third to three

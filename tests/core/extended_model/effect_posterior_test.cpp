@@ -253,7 +253,7 @@ TEST(EffectPosterior, OneExplanationIsExchangedForTheOther) {
   EXPECT_NEAR(share, by_turns / whole, 0.03);
 }
 
-// Another processor rounds otherwise, which evidence of many readings brings to its eighth digit.
+// Evidence that another processor has otherwise in its ninth digit makes draws that differ hardly more.
 TEST(EffectPosterior, RoundingOfTheEvidenceStaysRounding) {
   std::mt19937_64 random(5);
   std::normal_distribution<double> normal;
