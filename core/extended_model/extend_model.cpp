@@ -59,21 +59,28 @@ void keepStatements(identification::Identification& alone) {
     method.wrist_rows = {}, method.target_rows = {}, method.pose_rows = {};
 }
 
+/// Joint springs alone beside a model with effects. Estimates alone show nothing of them: they only tell how far they
+/// are from that model's, for which the postures that a long day's diagnosis looks at serve.
+identification::Identification springsBeside(const campaign::Campaign& campaign,
+                                             const identification::IdentifyOptions& options) {
+  if (!options.estimates_only || !diagnosis::isLong(campaign)) return identification::identify(campaign, options);
+  return identification::identify(diagnosis::spreadForDiagnosis(campaign), options);
+}
+
 }  // namespace
 
 ExtendedModel extendModel(const campaign::Campaign& campaign, EffectFit effects,
                           const identification::IdentifyOptions& options) {
   ExtendedModel model;
   model.effects = std::move(effects);
-  model.without = identification::identify(campaign, options);
   // Effects of size zero change nothing and have no covariance to propagate.
   if (model.effects.free.empty()) {
-    model.with = model.without;
+    model.without = model.with = identification::identify(campaign, options);
     if (options.estimates_only) keepStatements(model.without);
     model.campaign = campaign;
     return model;
   }
-  if (options.estimates_only) keepStatements(model.without);
+  model.without = springsBeside(campaign, options);
   std::vector<identification::LeftOutPosture> left_out;
   model.campaign = correctedFor(model.effects, campaign, left_out);
   identification::IdentifyOptions own = identification::valuesOnly(options);
