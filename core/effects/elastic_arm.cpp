@@ -79,29 +79,26 @@ std::optional<Eigen::Isometry3d> ElasticArm::settledTool(PostureStates& states, 
   constexpr int kMostSteps = 60;
   constexpr double kSettled = 1e-10;  // rad
   ArmState& state = states[s];
-  JointVector angles = state.q;
-  Deflection deflection(geometry_.arm);
-  Eigen::Isometry3d last = Eigen::Isometry3d::Identity();
+  // Where the arm rests by its springs under the own weight it is near the end: a third fewer rounds than from its
+  // commands.
+  Eigen::Isometry3d tool = state.posture.motion.back();
   for (int step = 0; step < kMostSteps; ++step) {
-    robot::ArmPosture place;
-    place.motion.push_back(deflection.motions[0]);
+    state.load = load ? robot::Wrench{tool * load->point_at_zero, load->force, load->moment} : robot::Wrench{};
+    state.load_torque = load ? robot::jointTorque(geometry_.arm, state.posture, state.load)
+                             : JointVector(JointVector::Zero(geometry_.arm.joints()));
+    const Deflection deflection = deflectionBy(states, s);
+    const JointVector angles = state.q + compliance_.cwiseProduct(totalTorque(state)) + deflection.angles;
     const robot::ArmPosture turned = robot::postureAt(geometry_.arm, angles);
+    state.posture.motion[0] = deflection.motions[0];
     for (std::size_t b = 1; b < turned.motion.size(); ++b) {
       const Eigen::Isometry3d own = turned.motion[b - 1].inverse() * turned.motion[b];
-      place.motion.push_back(deflection.motions[b] * place.motion[b - 1] * own);
+      state.posture.motion[b] = deflection.motions[b] * state.posture.motion[b - 1] * own;
     }
-    const Eigen::Isometry3d tool =
-        deflection.motions[static_cast<std::size_t>(toolBody(geometry_.arm.axes()))] * place.motion.back();
-    if (step > 0 && (tool.matrix() - last.matrix()).cwiseAbs().maxCoeff() < kSettled) return tool;
-    last = tool;
-    state.posture = place;
+    const Eigen::Isometry3d last = tool;
+    tool = deflection.motions[static_cast<std::size_t>(toolBody(geometry_.arm.axes()))] * state.posture.motion.back();
+    if ((tool.matrix() - last.matrix()).cwiseAbs().maxCoeff() < kSettled) return tool;
     placeByPosture(geometry_, state);
     if (s == 0) state.turned = angles;
-    state.load = load ? robot::Wrench{tool * load->point_at_zero, load->force, load->moment} : robot::Wrench{};
-    state.load_torque = load ? robot::jointTorque(geometry_.arm, place, state.load)
-                             : JointVector(JointVector::Zero(geometry_.arm.joints()));
-    deflection = deflectionBy(states, s);
-    angles = state.q + compliance_.cwiseProduct(totalTorque(state)) + deflection.angles;
   }
   return std::nullopt;
 }

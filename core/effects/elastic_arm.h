@@ -43,8 +43,9 @@ class ElasticArm {
              std::vector<PresentEffect> effects);
 
   /// Motion of the tool (what lies beyond the plate; without one, the flange) from its place at all joints
-  /// zero, in state `s` of a posture: its q, its history of loads, whether it is loaded. `load` acts there;
-  /// null: the own weight alone. Empty where the arm does not come to rest.
+  /// zero, in state `s` of a posture: its q, its history of loads, whether it is loaded; where it stands (as
+  /// gravityEquilibrium gives it) is where the search begins. `load` acts there; null: the own weight alone. Empty
+  /// where the arm does not come to rest.
   std::optional<Eigen::Isometry3d> toolMotion(const PostureStates& posture, std::size_t s, const ToolLoad* load) const;
   /// The same on states that the caller has for it: state `s` is moved, and put back.
   std::optional<Eigen::Isometry3d> toolMotion(PostureStates& posture, std::size_t s, const ToolLoad* load) const;
