@@ -39,8 +39,8 @@ TEST_P(AgainstTheSimulator, DeflectsTheSameWithFiniteRotations) {
   const Eigen::Isometry3d& flange = geometry.arm.base_from_flange_at_zero;
   double most = 0.0;
   for (const std::size_t row : {0u, 25u, 50u}) {
-    effects::PostureStates states(2);
-    states[0].q = states[1].q = campaign.states->rows[row].q;
+    effects::PostureStates states(
+        2, effects::stateAt(geometry, campaign.states->rows[row].q, JointVector::Zero(campaign.robot.joints())));
     states[1].loaded = true;
     const simulation::AppliedLoad load = simulation::loadAtStep(*spec.loading, 3, machine.gravity_in_base, {});
     const simulation::MachineState at_rest = simulation::equilibrium(machine, states[0].q),
@@ -97,8 +97,8 @@ TEST_P(AgainstTheSimulator, IsMovedByBalancersTheSame) {
       bare_arm(without, compliance, at, {{&model, parameters}});
   double most = 0.0;
   for (const std::size_t row : {0u, 25u, 50u}) {
-    effects::PostureStates states(1);
-    states[0].q = campaign.states->rows[row].q;
+    const effects::PostureStates states{
+        effects::stateAt(geometry, campaign.states->rows[row].q, JointVector::Zero(campaign.robot.joints()))};
     const simulation::MachineState with = simulation::equilibrium(machine, states[0].q),
                                    before = simulation::equilibrium(bare, states[0].q);
     ASSERT_TRUE(with.converged && before.converged);
