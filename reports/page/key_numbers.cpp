@@ -133,7 +133,8 @@ KeyNumber third(const reports::ReportContent& content, const reports::ReportCamp
                                     reports::pointOf(*content.avoided));
     const std::vector<reports::ReportCampaign> loaded = reports::ofKind(content.campaigns, reports::DayKind::loaded);
     if (const std::string others = reports::changedWithoutEncoder(loaded, *content.avoided); !others.empty())
-      words += fmt::format("; joints without one differ as well ({}): not only the encoders changed", others);
+      words +=
+          fmt::format("; joints without a double encoder differ as well ({}): not only the encoders changed", others);
     return {reports::percent(content.avoided->share, 0), words};
   }
   return trusted(content, one);

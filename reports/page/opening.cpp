@@ -238,6 +238,11 @@ void writeNext(Html& html, const reports::ReportContent& content) {
         "See which readings fail and why (@{Audit}); measure them again, or state why the result stands without "
         "them.");
   }
+  if (content.avoided && content.avoided->available &&
+      !reports::changedWithoutEncoder(reports::ofKind(campaigns, reports::DayKind::loaded), *content.avoided).empty())
+    steps.emplace_back(
+        "Find out what else changed between the two days, and measure them again: joints without a double encoder "
+        "differ as well.");
   for (const reports::ReportCampaign& one : campaigns) {
     // What a diagnosis says of readings with a mistake in them, it says of the mistake.
     if (explainedByMistakes(one)) continue;

@@ -22,7 +22,7 @@ struct Words {
 };
 
 constexpr const char* kIntoTheModel =
-    "compensate with the stiffnesses found with it in the model: those without it have taken part of it in";
+    "compensate with the stiffnesses identified with it in the model; without it they absorb part of it";
 constexpr const char* kOfMachine = "the machine does it: taken off the readings and added to predicted deflections";
 constexpr const char* kOfWrenches =
     "a fault of the measured wrenches: these are corrected; a planned load is taken as it is stated";

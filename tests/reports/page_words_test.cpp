@@ -92,9 +92,10 @@ TEST(PageWords, WhatTheEncodersAvoidHasItsCaveatWithIt) {
   Pair pair;
   std::string page = page::reportPage(pair.content);
   const std::string of_card =
-      "is avoided by active ones; joints without one differ as well (k<sub>5</sub> by +53\u00a0%): not only the "
-      "encoders changed";
+      "is avoided by active ones; joints without a double encoder differ as well (k<sub>5</sub> by +53\u00a0%): not "
+      "only the encoders changed";
   EXPECT_TRUE(says(page, of_card));
+  EXPECT_TRUE(says(page, "Next:</b> Find out what else changed between the two days, and measure them again"));
   EXPECT_TRUE(says(page, "What differs between the two states of the double encoders ± U"));
   EXPECT_TRUE(says(page, "1/k<sub>5</sub> <small>no double encoder</small>"));
   EXPECT_FALSE(says(page, "1/k<sub>2</sub> <small>no double encoder</small>"));
