@@ -83,7 +83,6 @@ namespace {
 class GlWindow {
  public:
   GlWindow();
-  ~GlWindow();
   GlWindow(const GlWindow&) = delete;
   GlWindow& operator=(const GlWindow&) = delete;
 
@@ -115,7 +114,6 @@ GlWindow::GlWindow() {
   window_ = vtkSmartPointer<vtkOSOpenGLRenderWindow>::New();
   window_->SetMultiSamples(0);
 }
-GlWindow::~GlWindow() = default;
 
 vtkRenderWindow& GlWindow::makeCurrent() { return *window_; }
 void GlWindow::release() {}
@@ -184,8 +182,6 @@ GlWindow::GlWindow() : context_(std::make_unique<Context>()) {
   }
   window_ = window;
 }
-
-GlWindow::~GlWindow() = default;
 
 vtkRenderWindow& GlWindow::makeCurrent() {
   if (!context_->makeCurrent()) throw std::runtime_error("cannot draw pictures: OSMesa refuses its context");

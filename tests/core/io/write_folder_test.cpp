@@ -6,6 +6,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
 #include <fstream>
 #include <random>
 #include <sstream>
@@ -151,6 +154,10 @@ TEST(WriteFolder, AKillAtAnyMomentLeavesOneGenerationWhole) {
   const fs::path folder = scratch.path() / "report";
   io::writeFolderWhole(folder, generation(0));
   std::ofstream(folder / "mine.txt") << "mine";
+  const auto begin = std::chrono::steady_clock::now();
+  ASSERT_EQ(inChild([&] { io::writeFolderWhole(folder, generation(0)); }), 0);
+  const auto took = std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now() - begin);
+  const auto most = static_cast<std::uint_fast32_t>(std::max<std::int64_t>(2 * took.count(), 8000));
   std::mt19937 random(1);
   int written = 0;
   for (int kill = 0; kill < 200; ++kill) {
@@ -159,7 +166,7 @@ TEST(WriteFolder, AKillAtAnyMomentLeavesOneGenerationWhole) {
     if (child == 0) {
       for (int number = before + 1;; ++number) io::writeFolderWhole(folder, generation(number));
     }
-    ::usleep(static_cast<useconds_t>(random() % 8000));
+    ::usleep(static_cast<useconds_t>(random() % most));
     ::kill(child, SIGKILL);
     ::waitpid(child, nullptr, 0);
     const int after = generationIn(folder);
