@@ -38,6 +38,7 @@ struct Displaced {
 LoadedArm casesOf(const LoadedArm& arm, const auto& wanted) {
   LoadedArm part;
   part.geometry = arm.geometry;
+  part.cases.reserve(static_cast<std::size_t>(std::count_if(arm.cases.begin(), arm.cases.end(), wanted)));
   for (std::size_t i = 0; i < arm.cases.size(); ++i) {
     if (!wanted(arm.cases[i])) continue;
     part.cases.push_back(arm.cases[i]);

@@ -61,15 +61,20 @@ std::vector<LoadCase> casesOf(const campaign::Campaign& campaign, const LoadRead
                               const frames::LoadingGeometry& geometry, const std::vector<int>& steps,
                               std::vector<LeftOutPosture>* left_out) {
   if (steps.size() == 1) return loadCases(campaign, readings, geometry, steps.front(), left_out);
-  std::vector<LoadCase> cases;
+  std::vector<std::vector<LoadCase>> by_step;
+  std::vector<LoadCase*> by_pose;  // a case is large, and moved once
   for (const int step : steps) {
     std::vector<LeftOutPosture> lacking;
-    for (LoadCase& one : loadCases(campaign, readings, geometry, step, &lacking)) cases.push_back(std::move(one));
+    by_step.push_back(loadCases(campaign, readings, geometry, step, &lacking));
+    for (LoadCase& one : by_step.back()) by_pose.push_back(&one);
     for (const LeftOutPosture& one : lacking) {
       if (left_out) left_out->push_back({one.pose, Remark(RemarkId::in_step, one.reason, step)});
     }
   }
-  std::stable_sort(cases.begin(), cases.end(), [](const LoadCase& a, const LoadCase& b) { return a.pose < b.pose; });
+  std::stable_sort(by_pose.begin(), by_pose.end(), [](const auto* a, const auto* b) { return a->pose < b->pose; });
+  std::vector<LoadCase> cases;
+  cases.reserve(by_pose.size());
+  for (LoadCase* one : by_pose) cases.push_back(std::move(*one));
   return cases;
 }
 
