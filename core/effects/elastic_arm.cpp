@@ -77,7 +77,7 @@ std::optional<Eigen::Isometry3d> ElasticArm::toolMotion(PostureStates& posture, 
 std::optional<Eigen::Isometry3d> ElasticArm::settledTool(PostureStates& states, std::size_t s,
                                                          const ToolLoad* load) const {
   constexpr int kMostSteps = 60;
-  constexpr double kSettled = 1e-10;  // rad
+  constexpr double kSettled = 1e-9;  // rad, of which the next round would leave a hundredth
   ArmState& state = states[s];
   // Where the arm rests by its springs under the own weight it is near the end: a third fewer rounds than from its
   // commands.

@@ -34,7 +34,7 @@ struct ToolLoad {
 /// springs turn by c tau plus the angles of effects that turn joints; a bearing's tilt, a link's tip and the
 /// base move what lies beyond them, the plate the tool. Each by the effect's own equation, its moments and
 /// axes taken where the deflected arm has them, so that what one deflects changes what the others carry; found
-/// by fixed-point iteration to 1e-10 rad, a contraction of a hundredth a step.
+/// by fixed-point iteration until a step is below 1e-9 rad, a contraction of a hundredth a step.
 class ElasticArm {
  public:
   /// Without effects: joint springs alone. Geometry, linearisation point and the effects' models must outlive
