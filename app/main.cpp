@@ -2,6 +2,7 @@
 #include <glog/logging.h>
 #ifdef __GLIBC__
 #include <malloc.h>
+#include <sys/auxv.h>
 #endif
 #include <pthread.h>
 #include <sys/resource.h>
@@ -65,6 +66,7 @@ int onWideStack(const std::function<int()>& work) {
 void restartWithLargePages(char** words) {
   constexpr const char* kTunables = "GLIBC_TUNABLES";
   ::rlimit limit{};
+  if (::getauxval(AT_SECURE) != 0) return;  // the loader would take the variable away, and this began again for ever
   if (std::getenv(kTunables) != nullptr || ::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur != RLIM_INFINITY)
     return;  // large pages take more addresses, which are scarce where they are limited
   std::error_code unknown;
