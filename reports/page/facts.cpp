@@ -34,7 +34,10 @@ void writeFacts(Html& html, const std::string& caption, const std::vector<std::s
   const auto scroll = html.element(
       "div",
       {{"class", "scroll of-facts"}, {"role", "region"}, {"aria-label", reports::plain(caption)}, {"tabindex", "0"}});
-  const auto table = html.element("table", {{"class", "words facts long"}});
+  // Of few rows, in words of one day, it stays whole on paper.
+  constexpr std::size_t kFew = 5;
+  const bool whole = facts.size() <= kFew && names.size() <= 1;
+  const auto table = html.element("table", {{"class", whole ? "words facts" : "words facts long"}});
   html.leaf("caption", caption);
   if (names.size() > 1) {
     const auto head = html.element("thead");
