@@ -60,13 +60,13 @@ int onWideStack(const std::function<int()>& work) {
 
 #ifdef __GLIBC__
 /// Starts this program once more in its own place with the heap in pages of 2 MiB, which the C library takes from its
-/// environment at the start alone. A fault and an address translation then serve 512 small pages: a sixth of the time
-/// of most commands. Where the system gives no such pages nothing changes; where the program cannot be started again,
-/// or somebody has tuned the library, it goes on as it is.
+/// environment at the start alone. A fault and an address translation then serve 512 small pages: a tenth of the time
+/// of most commands on a long day. Where the system gives no such pages nothing changes; where the program cannot be
+/// started again, or somebody has tuned the library, it goes on as it is.
 void restartWithLargePages(char** words) {
   constexpr const char* kTunables = "GLIBC_TUNABLES";
   ::rlimit limit{};
-  if (::getauxval(AT_SECURE) != 0) return;  // the loader would take the variable away, and this began again for ever
+  if (::getauxval(AT_SECURE) != 0) return;  // the loader takes the variable away: this would begin again for ever
   if (std::getenv(kTunables) != nullptr || ::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur != RLIM_INFINITY)
     return;  // large pages take more addresses, which are scarce where they are limited
   std::error_code unknown;
