@@ -7,6 +7,7 @@
 
 #include "core/effects/gravity_equilibrium.h"
 #include "core/identification/load_case.h"
+#include "core/numerics/parallel.h"
 #include "core/robot/geometric_stiffness.h"
 #include "core/robot/wrench.h"
 #include "metrology/linear_algebra.h"
@@ -276,15 +277,13 @@ std::vector<SweepRows> sweepRows(const campaign::Campaign& campaign, const frame
     const auto& at_zero = geometry.targets_at_zero[static_cast<std::size_t>(reading.target)];
     if (!at_zero) return;
     SweepRows& rows = by_index[{axis, reading.index}];
-    if (rows.state.points.empty()) rows.state = effects::gravityEquilibrium(geometry, at, reading.q, reading.carriage);
+    if (rows.state.points.empty()) rows.state.q = reading.q, rows.state.carriage = reading.carriage;
     rows.state.time_s = reading.time_s;
     rows.state.targets.push_back(reading.target);
     rows.state.points.push_back(r0_from_points * reading.point);
     if (saysStandpoints(campaign))
       rows.read_from.push_back(standpoint(campaign, r0_from_points, reading.station, r0_from_points * reading.from,
                                           rows.state.points.back()));
-    rows.position.conservativeResize(rows.state.rows());
-    rows.position.tail<3>() = rows.state.points.back() - rows.state.posture.motion.back() * *at_zero;
   };
   if (campaign.circle_sweeps) {
     for (const campaign::CircleReading& reading : campaign.circle_sweeps->rows) add(reading.axis, reading);
@@ -294,10 +293,22 @@ std::vector<SweepRows> sweepRows(const campaign::Campaign& campaign, const frame
   }
   std::vector<SweepRows> all;
   all.reserve(by_index.size());
-  for (auto& [key, rows] : by_index) {
+  for (auto& [key, rows] : by_index) all.push_back(std::move(rows));
+  numerics::onAllCores(all.size(), [&](std::size_t i) {
+    SweepRows& rows = all[i];
+    effects::ArmState state = effects::gravityEquilibrium(geometry, at, rows.state.q, rows.state.carriage);
+    state.time_s = rows.state.time_s;
+    state.targets = std::move(rows.state.targets);
+    state.points = std::move(rows.state.points);
+    rows.state = std::move(state);
+    rows.position.resize(rows.state.rows());
+    for (std::size_t k = 0; k < rows.state.points.size(); ++k) {
+      const auto& at_zero = geometry.targets_at_zero[static_cast<std::size_t>(rows.state.targets[k])];
+      rows.position.segment<3>(3 * static_cast<Eigen::Index>(k)) =
+          rows.state.points[k] - rows.state.posture.motion.back() * *at_zero;
+    }
     rows.sag_by_compliance = effects::byEachJoint(rows.state, rows.state.weight_torque);
-    all.push_back(std::move(rows));
-  }
+  });
   return all;
 }
 

@@ -15,6 +15,7 @@ namespace {
 
 std::vector<BodyTwist> bearingTiltTwists(const LinearizationPoint&, const PostureStates& posture, std::size_t i) {
   std::vector<BodyTwist> twists;
+  twists.reserve(static_cast<std::size_t>(posture[i].joints()));
   for (int j = 0; j < posture[i].joints(); ++j) {
     const int own = posture[i].axes.axisOf(j);
     const metrology::Line& axis = posture[i].axes[static_cast<std::size_t>(own)];

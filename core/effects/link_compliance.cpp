@@ -17,6 +17,7 @@ constexpr int linksOf(int joints) { return robot::armJointsOf(joints) + 1; }
 
 std::vector<BodyTwist> linkComplianceTwists(const LinearizationPoint&, const PostureStates& posture, std::size_t i) {
   std::vector<BodyTwist> twists;
+  twists.reserve(2 * static_cast<std::size_t>(linksOf(posture[i].joints())));
   for (int link = 0; link < linksOf(posture[i].joints()); ++link) {
     const int axis = posture[i].axes.axisOf(link);
     const Eigen::Vector3d from = posture[i].axes[static_cast<std::size_t>(axis)].point;

@@ -59,6 +59,7 @@ std::vector<BodyTwist> railBendingTwists(const LinearizationPoint& at, const Pos
   const double along = std::isnan(state.carriage) ? 0.0 : state.carriage - rail.mean;
   const std::array<double, 3> in_line{0.0, along * rail.line_by_x, along * rail.line_by_square};
   std::vector<BodyTwist> twists;
+  twists.reserve(here.size() * share.size());
   for (std::size_t c = 0; c < here.size(); ++c) {
     const Eigen::Vector3d swept = at_sweep[c].rotation.cross(rail.reflectors_at_sweep - foot) + at_sweep[c].shift;
     for (std::size_t k = c < kOwnCompliances ? 1 : 0; k < share.size(); ++k) {

@@ -147,11 +147,12 @@ class Shifter {
   template <class Row>
   void sweep(std::vector<Row>& rows) const {
     const Eigen::Matrix3d sweeps_from_r0 = state_.r0_from_sweeps.linear().transpose();
-    for (Row& row : rows) {
+    numerics::onAllCores(rows.size(), [&](std::size_t i) {
+      Row& row = rows[i];
       const effects::PostureStates states{atRest(-1, row.q, row.time_s, row.carriage)};
       const PostureOffsets offsets(effects_, states, {});
       row.point -= sweeps_from_r0 * offsets.of(row.target, state_.r0_from_sweeps * row.point).front();
-    }
+    });
   }
 
  private:

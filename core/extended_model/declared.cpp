@@ -1,5 +1,10 @@
 #include "core/extended_model/hidden_effects.h"
 
+#include <optional>
+
+#include "core/identification/identify.h"
+#include "core/preparation/subsample.h"
+
 namespace stiffscope::extended_model {
 
 namespace {
@@ -25,7 +30,7 @@ void stretchReadings(campaign::Campaign& campaign) {
 
 }  // namespace
 
-Declared declaredOf(const campaign::Campaign& campaign, const identification::Identification& at,
+Declared declaredOf(const campaign::Campaign& campaign, const identification::Identification& of_all,
                     const identification::IdentifyOptions& options) {
   Declared declared;
   if (campaign.load_cell) {
@@ -33,8 +38,18 @@ Declared declaredOf(const campaign::Campaign& campaign, const identification::Id
     declared.cell_angle_sd = campaign.load_cell->angle_sigma;
     declared.cell_point_sd = campaign.load_cell->point_sigma;
   }
+  const bool masses = campaign.mass_sigma > 0.0, scale = campaign.tracker && campaign.tracker->scale_sigma > 0.0;
+  // These move stiffnesses alone, after which nobody asks where estimates are all.
+  if (options.estimates_only || (!masses && !scale)) return declared;
+  std::optional<campaign::Campaign> some;
+  identification::Identification by_some;
+  if (campaign.pose_ids.size() > preparation::kMostAveraged) {
+    some = preparation::evenlySpread(campaign, preparation::kMostAveraged);
+    by_some = identification::identify(*some, identification::estimatesOnly(options));
+  }
+  const identification::Identification& at = some ? by_some : of_all;
   const auto add = [&](BudgetSource source, void (*move)(campaign::Campaign&)) {
-    campaign::Campaign other = campaign;
+    campaign::Campaign other = some ? *some : campaign;
     move(other);
     const identification::Identification moved =
         identification::identify(other, identification::estimatesOnly(options));
@@ -47,8 +62,8 @@ Declared declaredOf(const campaign::Campaign& campaign, const identification::Id
     }
     declared.columns.push_back(column);
   };
-  if (campaign.mass_sigma > 0.0) add(BudgetSource::masses, &makeHeavier);
-  if (campaign.tracker && campaign.tracker->scale_sigma > 0.0) add(BudgetSource::tracker_scale, &stretchReadings);
+  if (masses) add(BudgetSource::masses, &makeHeavier);
+  if (scale) add(BudgetSource::tracker_scale, &stretchReadings);
   return declared;
 }
 

@@ -74,8 +74,12 @@ ExtendedModel extendModel(const campaign::Campaign& campaign, EffectFit effects,
   ExtendedModel model;
   model.effects = std::move(effects);
   // Effects of size zero change nothing and have no covariance to propagate.
+  const bool for_frames = options.estimates_only && diagnosis::isLong(campaign);
   if (model.effects.free.empty()) {
-    model.without = model.with = identification::identify(campaign, options);
+    identification::IdentifyOptions own = options;
+    own.for_frames = for_frames;
+    model.with = identification::identify(campaign, own);
+    model.without = for_frames ? springsBeside(campaign, options) : model.with;
     if (options.estimates_only) keepStatements(model.without);
     model.campaign = campaign;
     return model;
@@ -85,6 +89,7 @@ ExtendedModel extendModel(const campaign::Campaign& campaign, EffectFit effects,
   model.campaign = correctedFor(model.effects, campaign, left_out);
   identification::IdentifyOptions own = identification::valuesOnly(options);
   own.robust = options.robust;
+  own.for_frames = for_frames;
   model.with = identification::identify(model.campaign, own);
   model.with.left_out.insert(model.with.left_out.end(), left_out.begin(), left_out.end());
   if (!options.estimates_only) {
@@ -243,7 +248,7 @@ ExtendedModel supportedModel(const preparation::PreparedCampaign& prepared, cons
   CourseOfDay course;
   const auto weigh = [&] {
     Declared declared = declaredOf(model.campaign, model.with, options);
-    course = courseOfDay(model.campaign, model.with);
+    if (!options.estimates_only) course = courseOfDay(model.campaign, model.with);
     addCourse(course, model.with, declared);
     model.hidden = weighHiddenEffects(study, model.effects, thinned ? seen : model.campaign,
                                       thinned ? seen_by_springs : model.with, model.without, declared, model.with);

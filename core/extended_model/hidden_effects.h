@@ -152,8 +152,9 @@ HiddenEffects weighHiddenEffects(const diagnosis::GapStudy& study, const EffectF
 
 /// What `campaign` declares with a standard uncertainty, at the result `at` that was identified from it by `options`.
 /// Masses (the URDF's, all by one factor; the tool is weighed by itself) and the tracker's scale (distances from its
-/// station) act by a difference of the whole identification, one declared standard uncertainty up. Nothing is
-/// identified anew for what is not declared.
+/// station) act by a difference of the whole identification, one declared standard uncertainty up; of a day of more
+/// than preparation::kMostAveraged postures, of so many. Nothing is identified anew for what is not declared, nor where
+/// estimates alone are asked for.
 Declared declaredOf(const campaign::Campaign& campaign, const identification::Identification& at,
                     const identification::IdentifyOptions& options);
 

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "core/frames/remarks.h"
+#include "core/numerics/parallel.h"
 #include "core/robot/kinematics.h"
 #include "metrology/linear_algebra.h"
 #include "metrology/lines.h"
@@ -259,11 +260,12 @@ std::optional<Eigen::MatrixXd> sagPart(const Frames& frames, const JointVector& 
   const int joints = frames.arm.arm.joints();
   Eigen::MatrixXd by_compliance =
       Eigen::MatrixXd::Zero(FramesLayout(frames.arm.arm.axes()).count(frames.targets_in_r0_at_zero.size()), joints);
-  for (int joint = 0; joint < joints; ++joint) {
-    if (covariance(joint, joint) == 0.0) continue;
+  numerics::onAllCores(static_cast<std::size_t>(joints), [&](std::size_t j) {
+    const auto joint = static_cast<Eigen::Index>(j);
+    if (covariance(joint, joint) == 0.0) return;
     const Frames moved = measuredWith(compliance + kStep * JointVector::Unit(joints, joint));
     if (moved.arm.points_placed) by_compliance.col(joint) = framesDifference(frames, moved) / kStep;
-  }
+  });
   return propagated(by_compliance, covariance);
 }
 

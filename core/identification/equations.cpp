@@ -162,7 +162,7 @@ namespace {
 using Three = std::array<const TargetMove*, 3>;
 
 std::optional<Three> largestTriangle(const LoadCase& load_case, const std::vector<double>& radii) {
-  std::vector<const TargetMove*> known;
+  boost::container::small_vector<const TargetMove*, kFewReflectors> known;
   for (const TargetMove& move : load_case.targets) {
     if (!std::isnan(radii[static_cast<std::size_t>(move.target)])) known.push_back(&move);
   }
@@ -195,7 +195,8 @@ std::optional<WristMove> wristMove(const LoadCase& load_case, const std::vector<
   if (!three) return std::nullopt;
   const auto& [a, b, c] = *three;
   // Of reflectors on one line the readings' noise would place the centre on a circle about it.
-  if (metrology::nearlyOnOneLine({a->unloaded, b->unloaded, c->unloaded})) return std::nullopt;
+  if (metrology::nearlyOnOneLine(std::array<Eigen::Vector3d, 3>{a->unloaded, b->unloaded, c->unloaded}))
+    return std::nullopt;
   const std::array<double, 3> known{radii[static_cast<std::size_t>(a->target)],
                                     radii[static_cast<std::size_t>(b->target)],
                                     radii[static_cast<std::size_t>(c->target)]};

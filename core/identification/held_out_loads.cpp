@@ -12,6 +12,7 @@
 #include "core/identification/method_solution.h"
 #include "core/identification/outliers.h"
 #include "core/identification/subsets.h"
+#include "core/preparation/subsample.h"
 
 namespace stiffscope::identification {
 
@@ -175,12 +176,20 @@ class MethodLoads {
 HeldOutLoads heldOutLoads(const campaign::Campaign& campaign, const campaign::Campaign& as_read,
                           const IdentifyOptions& options, const Identification& result) {
   HeldOutLoads all;
-  std::optional<campaign::Campaign> rest;
+  std::optional<campaign::Campaign> rest, some, some_as_read;
   if (result.robust) rest = withoutPostures(campaign, result.outlying);
-  const campaign::Campaign& used = rest ? *rest : campaign;
+  const campaign::Campaign* used = rest ? &*rest : &campaign;
+  const campaign::Campaign* read = &campaign == &as_read ? used : &as_read;
+  if (used->pose_ids.size() > preparation::kMostAveraged) {
+    const std::vector<std::size_t> postures = preparation::spreadPostures(*used, preparation::kMostAveraged);
+    if (read != used) read = &some_as_read.emplace(preparation::ofPostures(*read, postures));
+    some = preparation::ofPostures(*used, postures);
+    if (read == used) read = &*some;
+    used = &*some;
+  }
   for (const Method method : kMethods) {
     if (!result.of(method).available) continue;
-    const MethodLoads loads(used, &campaign == &as_read ? used : as_read, options, result, method);
+    const MethodLoads loads(*used, *read, options, result, method);
     all.levels[static_cast<std::size_t>(method)] = loads.levels();
     all.directions[static_cast<std::size_t>(method)] = loads.directions();
     all.states = loads.states();

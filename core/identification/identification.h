@@ -34,6 +34,9 @@ struct IdentifyOptions {
   /// and lengths, no outlying postures, no part of the uncertainty that postures share. For where these alone are
   /// looked at.
   bool estimates_only = false;
+  /// One method alone: the decoupled one, by which the own weight's sag is taken off, or Partial Pose where it cannot
+  /// be had. For where frames are all that is looked at.
+  bool for_frames = false;
 };
 
 /// Deflection compensated by the estimate from all postures, and over the subsets.

@@ -99,9 +99,12 @@ Identification identifyOnce(const campaign::Campaign& campaign, const IdentifyOp
   result.left_out = std::move(settled.left_out);
   MethodRuns runs{campaign, options, std::move(settled.arm), {}, {}};
   evaluateIdentifiabilityIn(runs.swept, runs, result);
-  runCompletePose(runs, result);
-  runPartialPose(runs, result);
+  if (!options.for_frames) {
+    runCompletePose(runs, result);
+    runPartialPose(runs, result);
+  }
   runDecoupledPartialPose(runs, result);
+  if (options.for_frames && !result.of(Method::decoupled_partial_pose).available) runPartialPose(runs, result);
   if (!options.estimates_only) addSharedUncertainty(runs, result);
   result.shown_first = methodShownFirst(result, options.papers_choice);
   LoadedArm& shown = runs.swept.cases.empty() ? runs.calibrated : runs.swept;

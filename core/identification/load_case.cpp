@@ -236,7 +236,7 @@ std::vector<TargetMove> measuredMoves(const LoadReadings& readings, std::size_t 
 /// measured.
 std::optional<Eigen::Isometry3d> measuredFlange(const frames::LoadingGeometry& geometry,
                                                 const std::vector<TargetMove>& moves, bool loaded) {
-  std::vector<Eigen::Vector3d> at_zero, measured;
+  boost::container::small_vector<Eigen::Vector3d, kFewReflectors> at_zero, measured;
   for (const TargetMove& move : moves) {
     const auto& target = geometry.targets_at_zero[static_cast<std::size_t>(move.target)];
     if (!target) continue;
@@ -244,8 +244,9 @@ std::optional<Eigen::Isometry3d> measuredFlange(const frames::LoadingGeometry& g
     measured.push_back(loaded ? move.loaded : move.unloaded);
   }
   // About the line of three that nearly stand on one it would be noise that turns the flange.
-  if (metrology::nearlyOnOneLine(at_zero)) return std::nullopt;
-  const metrology::RigidRegistration registration = metrology::registerRigid(at_zero, measured);
+  if (metrology::nearlyOnOneLine({at_zero.data(), at_zero.size()})) return std::nullopt;
+  const metrology::RigidRegistration registration =
+      metrology::registerRigid({at_zero.data(), at_zero.size()}, {measured.data(), measured.size()});
   if (!registration.determined) return std::nullopt;
   return registration.to_from_source * geometry.arm.base_from_flange_at_zero;
 }
@@ -314,7 +315,7 @@ struct LoadCaseMaker::UnloadedArm {
   JointVector sagged;
   robot::ArmPosture posture;
   robot::ArmAxes axes;
-  std::vector<int> targets;  ///< by which the flange is measured
+  boost::container::small_vector<int, kFewReflectors> targets;  ///< by which the flange is measured
   std::optional<Eigen::Isometry3d> flange;
 };
 
@@ -345,7 +346,7 @@ Remark LoadCaseMaker::fill(std::size_t pose, int step, UnloadedArm& arm, LoadCas
   load_case.axes = arm.axes;
   if (absolute_) {
     load_case.targets = measuredMoves(readings_, pose, step, *geometry_.r0_from_loading);
-    std::vector<int> targets;
+    boost::container::small_vector<int, kFewReflectors> targets;
     for (const TargetMove& move : load_case.targets) targets.push_back(move.target);
     if (arm.targets != targets) {
       arm.flange = measuredFlange(geometry_, load_case.targets, false);

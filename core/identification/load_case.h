@@ -1,5 +1,6 @@
 #pragma once
 
+#include <boost/container/small_vector.hpp>
 #include <map>
 #include <optional>
 #include <span>
@@ -69,6 +70,9 @@ class LoadReadings {
   std::vector<double> largest_force_;             // by pose
   std::vector<ReadingSum> points_, differences_;  // by slot, then pose, then target
 };
+
+/// Room for what is gathered a reflector in every load case, without allocation: most flanges carry three.
+inline constexpr std::size_t kFewReflectors = 6;
 
 /// One reflector in one load state: means over the repeats, in R0, m.
 struct TargetMove {

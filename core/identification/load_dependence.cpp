@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -28,11 +29,9 @@ double meanForce(const std::vector<LoadCase>& cases) {
   return cases.empty() ? 0.0 : sum / static_cast<double>(cases.size());
 }
 
-/// Empty where the step lacks what the method needs.
-std::optional<Solved> solveStep(const campaign::Campaign& campaign, const LoadReadings& readings,
-                                const IdentifyOptions& options, const Identification& result, Method method, int step) {
-  const MethodResult& own = result.of(method);
-  LoadedArm arm = loadedArm(campaign, readings, own.geometry, result.frames.wrist, {step});
+/// Empty where the step lacks what the method needs. `arm`: under the step, in the method's geometry.
+std::optional<Solved> solveStep(const campaign::Campaign& campaign, const IdentifyOptions& options,
+                                const Identification& result, Method method, int step, LoadedArm& arm) {
   if (arm.cases.empty()) return std::nullopt;
   if (method == Method::complete_pose && !arm.hasFlangePoses()) return std::nullopt;
   if (method == Method::decoupled_partial_pose && arm.wrist.empty()) return std::nullopt;
@@ -40,22 +39,43 @@ std::optional<Solved> solveStep(const campaign::Campaign& campaign, const LoadRe
   one.result.step = step;
   one.result.mean_force = meanForce(arm.cases);
   const MethodSolution how{method, result.frames.tcp_in_flange, result.characteristic_length.length,
-                           own.estimate.identifiable, campaign.tracker ? &*campaign.tracker : nullptr};
+                           result.of(method).estimate.identifiable, campaign.tracker ? &*campaign.tracker : nullptr};
   one.result.estimate = how.solvedEstimate(arm, options.finite_deflection);
   for (const LoadCase& load_case : arm.cases) one.poses.push_back(load_case.pose);
   return one;
 }
 
-std::vector<Solved> solveSteps(const campaign::Campaign& campaign, const LoadReadings& readings,
-                               const IdentifyOptions& options, const Identification& result, Method method) {
-  std::vector<Solved> solved;
-  if (!result.of(method).available) return solved;
-  // One at a time, each on all cores: the loaded arms of many postures take megabytes.
-  for (const int step : readings.steps()) {
-    if (auto one = solveStep(campaign, readings, options, result, method, step)) solved.push_back(std::move(*one));
+/// Methods that share a geometry, so that the loaded arm is made for them once.
+std::vector<std::vector<Method>> byGeometry(const Identification& result) {
+  std::vector<Method> swept, calibrated;
+  for (const Method method : kMethods) {
+    if (!result.of(method).available) continue;
+    (method == Method::partial_pose && result.calibration.done ? calibrated : swept).push_back(method);
   }
-  std::stable_sort(solved.begin(), solved.end(),
-                   [](const Solved& a, const Solved& b) { return a.result.mean_force < b.result.mean_force; });
+  return {swept, calibrated};
+}
+
+using SolvedByMethod = std::array<std::vector<Solved>, kMethods.size()>;
+
+SolvedByMethod solveSteps(const campaign::Campaign& campaign, const IdentifyOptions& options,
+                          const Identification& result) {
+  SolvedByMethod solved;
+  const LoadReadings readings(campaign, loadedSteps(campaign));
+  for (const std::vector<Method>& methods : byGeometry(result)) {
+    if (methods.empty()) continue;
+    // One at a time, each on all cores: the loaded arms of many postures take megabytes.
+    for (const int step : readings.steps()) {
+      LoadedArm arm = loadedArm(campaign, readings, result.of(methods.front()).geometry, result.frames.wrist, {step});
+      for (const Method method : methods) {
+        if (auto one = solveStep(campaign, options, result, method, step, arm))
+          solved[static_cast<std::size_t>(method)].push_back(std::move(*one));
+      }
+    }
+  }
+  for (std::vector<Solved>& steps : solved) {
+    std::stable_sort(steps.begin(), steps.end(),
+                     [](const Solved& a, const Solved& b) { return a.result.mean_force < b.result.mean_force; });
+  }
   return solved;
 }
 
@@ -114,9 +134,9 @@ StepStudy studySteps(const campaign::Campaign& campaign, const IdentifyOptions& 
   std::optional<campaign::Campaign> rest;
   if (result.robust) rest = withoutPostures(campaign, result.outlying);
   const campaign::Campaign& used = rest ? *rest : campaign;
-  const LoadReadings readings(used, loadedSteps(used));
+  SolvedByMethod by_method = solveSteps(used, options, result);
   for (const Method method : kMethods) {
-    std::vector<Solved> solved = solveSteps(used, readings, options, result, method);
+    std::vector<Solved>& solved = by_method[static_cast<std::size_t>(method)];
     if (solved.size() < 2) continue;
     StepsOfMethod& out = study.methods[static_cast<std::size_t>(method)];
     const robot::JointMask& seen = result.of(method).estimate.identifiable;

@@ -240,7 +240,8 @@ void addSharedUncertainty(const MethodRuns& runs, Identification& result) {
     solves.emplace_back([how = solutionOf(which, runs, result)](const LoadedArm& arm) { return how.compliance(arm); });
   }
   std::optional<campaign::Campaign> some;
-  if (runs.campaign.pose_ids.size() > kMostShared) some = preparation::evenlySpread(runs.campaign, kMostShared);
+  if (runs.campaign.pose_ids.size() > preparation::kMostAveraged)
+    some = preparation::evenlySpread(runs.campaign, preparation::kMostAveraged);
   const campaign::Campaign& judged = some ? *some : runs.campaign;
   const std::vector<SweptParts> parts = sweptParts(judged, result.frames, runs.swept.geometry, result.steps, solves);
   for (std::size_t k = 0; k < swept.size(); ++k) {

@@ -13,11 +13,8 @@ namespace stiffscope::identification {
 // whole solution: J C J^T. Solutions here neglect K_c, which changes a derivative by as little as it changes the
 // torques (about a hundredth).
 
-// Some eighty solutions of the whole. A derivative is a mean over the postures, which a thousand give to some
-// hundredths.
-
-/// Postures, spread evenly over a longer day, by which those derivatives are taken.
-inline constexpr std::size_t kMostShared = 1000;
+// Some eighty solutions of the whole. A derivative is a mean over the postures, which preparation::kMostAveraged of a
+// longer day give to some hundredths.
 
 /// Compliances by one method from a loaded arm.
 using ComplianceOf = std::function<JointVector(const LoadedArm&)>;

@@ -7,6 +7,7 @@
 #include "core/identification/loaded_arm.h"
 #include "core/identification/noise_share.h"
 #include "core/identification/partial_pose.h"
+#include "core/preparation/subsample.h"
 
 namespace stiffscope::identification {
 
@@ -44,15 +45,23 @@ SolvedFrames solveFrames(const campaign::Campaign& campaign, const std::vector<i
   settled.frames = frames::measureFrames(campaign);
   JointVector compliance = JointVector::Zero(campaign.robot.joints());
   const LoadReadings readings(campaign, steps);
-  const auto armNow = [&](std::vector<LeftOutPosture>* left_out) {
-    return loadedArm(campaign, readings, frames::sweptGeometry(campaign, settled.frames, compliance),
-                     settled.frames.wrist, steps, left_out);
+  const auto armNow = [&](const campaign::Campaign& loads, const LoadReadings& of_loads,
+                          std::vector<LeftOutPosture>* left_out) {
+    return loadedArm(loads, of_loads, frames::sweptGeometry(campaign, settled.frames, compliance), settled.frames.wrist,
+                     steps, left_out);
   };
+  std::optional<campaign::Campaign> some;  // a long day's, for rounds that only bring the last one near
+  std::optional<LoadReadings> of_some;
+  if (campaign.pose_ids.size() > preparation::kMostAveraged) {
+    some = preparation::evenlySpread(campaign, preparation::kMostAveraged);
+    of_some.emplace(*some, steps);
+  }
   for (int round = 0; round < kSagRounds && settled.frames.weight.links_known; ++round) {
-    LoadedArm arm = armNow(nullptr);
+    const bool last = round + 1 == kSagRounds;
+    LoadedArm arm = some && !last ? armNow(*some, *of_some, nullptr) : armNow(campaign, readings, nullptr);
     if (arm.cases.empty()) break;
     std::optional<JointMatrix> covariance;  // earlier rounds' uncertainties nobody sees
-    if (round + 1 == kSagRounds) {
+    if (last) {
       const StiffnessEstimate springs = sagStiffness(campaign, options, arm);
       compliance = springs.compliance, covariance = springs.covariance;
     } else {
@@ -60,7 +69,7 @@ SolvedFrames solveFrames(const campaign::Campaign& campaign, const std::vector<i
     }
     settled.frames = frames::refineFrames(campaign, settled.frames, compliance, covariance);
   }
-  settled.arm = armNow(&settled.left_out);
+  settled.arm = armNow(campaign, readings, &settled.left_out);
   return settled;
 }
 

@@ -33,7 +33,8 @@ struct SolvedFrames {
 };
 
 /// The own weight needs stiffnesses to be taken off the sweeps, and the stiffnesses need the sweeps: the two
-/// are found in turns, from the rigid arm on; three rounds settle to 1e-4 of a stiffness. Without known
+/// are found in turns, from the rigid arm on; three rounds settle to 1e-4 of a stiffness, the first two of a
+/// day of more than preparation::kMostAveraged postures by so many of them. Without known
 /// masses, the rigid arm's frames.
 SolvedFrames solveFrames(const campaign::Campaign& campaign, const std::vector<int>& steps,
                          const IdentifyOptions& options);

@@ -12,8 +12,8 @@ constexpr int kNotKept = -1;
 
 /// The rows of the postures that are kept; `now` is the new index of each posture.
 template <class Row>
-std::optional<campaign::Table<Row>> ofPostures(const std::optional<campaign::Table<Row>>& table,
-                                               const std::vector<int>& now) {
+std::optional<campaign::Table<Row>> rowsOf(const std::optional<campaign::Table<Row>>& table,
+                                           const std::vector<int>& now) {
   if (!table) return std::nullopt;
   const auto posture = [&](const Row& row) { return now[static_cast<std::size_t>(row.pose)]; };
   campaign::Table<Row> kept{table->file, table->frame, {}};
@@ -100,7 +100,8 @@ std::vector<std::size_t> spreadPostures(const campaign::Campaign& campaign, std:
   return spread;
 }
 
-campaign::Campaign evenlySpread(const campaign::Campaign& campaign, std::size_t most, std::size_t most_swept) {
+campaign::Campaign ofPostures(const campaign::Campaign& campaign, const std::vector<std::size_t>& postures,
+                              std::size_t most_swept) {
   // All of a Campaign by name: one more member does not compile until it is copied here.
   const auto& [folder, name, date, texts, robot, base_link, flange_link, double_encoder, double_encoder_joints, gravity,
                mass_sigma, tracker, targets, load_cell, tool, known_stiffness, joint_readings, controller_model,
@@ -108,7 +109,7 @@ campaign::Campaign evenlySpread(const campaign::Campaign& campaign, std::size_t 
                repeat_ids, stations, inputs] = campaign;
   std::vector<int> now(pose_ids.size(), kNotKept);
   std::vector<std::string> kept_ids;
-  for (const std::size_t posture : spreadPostures(campaign, most)) {
+  for (const std::size_t posture : postures) {
     now[posture] = static_cast<int>(kept_ids.size());
     kept_ids.push_back(pose_ids[posture]);
   }
@@ -135,15 +136,19 @@ campaign::Campaign evenlySpread(const campaign::Campaign& campaign, std::size_t 
                      [&](const campaign::CircleReading& row) { return row.axis * reflectors + row.target; }),
           ofReadings(wrist_sweep, most_swept, [](const campaign::WristReading& row) { return row.target; }),
           rail_sweep,
-          ofPostures(loading, now),
-          ofPostures(states, now),
-          ofPostures(displacements, now),
+          rowsOf(loading, now),
+          rowsOf(states, now),
+          rowsOf(displacements, now),
           nests,
           kept_ids,
           nest_ids,
           repeat_ids,
           stations,
           inputs};
+}
+
+campaign::Campaign evenlySpread(const campaign::Campaign& campaign, std::size_t most, std::size_t most_swept) {
+  return ofPostures(campaign, spreadPostures(campaign, most), most_swept);
 }
 
 std::size_t firstReflectors(const campaign::Campaign& campaign, std::size_t most) {

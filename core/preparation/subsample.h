@@ -14,6 +14,9 @@ inline constexpr std::size_t kMostDiagnosed = 100, kMostSwept = 2000;
 /// of them on one flange do not show, a hundred do not either: of more it looks at so many.
 inline constexpr std::size_t kMostReflectors = 12;
 
+/// A mean over postures, or what all of a longer day settle afterwards, is taken of so many.
+inline constexpr std::size_t kMostAveraged = 1000;
+
 /// Of `count` things at most `most`, spread evenly over them: their indices, ascending.
 std::vector<std::size_t> evenlySpreadIndices(std::size_t count, std::size_t most);
 
@@ -22,8 +25,12 @@ std::vector<std::size_t> evenlySpreadIndices(std::size_t count, std::size_t most
 /// evenly besides.
 std::vector<std::size_t> spreadPostures(const campaign::Campaign& campaign, std::size_t most);
 
-/// The campaign of `spreadPostures` alone, numbered anew in their order, and of each sweep `most_swept` readings, as
-/// many of each axis and reflector, spread evenly. The other readings are never copied.
+/// The campaign of these postures alone, ascending, numbered anew in their order, and of each sweep `most_swept`
+/// readings, as many of each axis and reflector, spread evenly. The other readings are never copied.
+campaign::Campaign ofPostures(const campaign::Campaign& campaign, const std::vector<std::size_t>& postures,
+                              std::size_t most_swept = kMostSwept);
+
+/// That of `spreadPostures`.
 campaign::Campaign evenlySpread(const campaign::Campaign& campaign, std::size_t most,
                                 std::size_t most_swept = kMostSwept);
 
