@@ -13,14 +13,14 @@ namespace stiffscope::metrology {
 
 namespace {
 
-Eigen::Vector3d mean(std::span<const Eigen::Vector3d> points) {
+Eigen::Vector3d mean(const std::vector<Eigen::Vector3d>& points) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const auto& point : points) sum += point;
   return sum / static_cast<double>(points.size());
 }
 
 /// Axes of a triangle: along its first side, across it in its plane, normal to it. Columns.
-Eigen::Matrix3d axesOf(std::span<const Eigen::Vector3d> triangle) {
+Eigen::Matrix3d axesOf(const std::vector<Eigen::Vector3d>& triangle) {
   const Eigen::Vector3d side = (triangle[1] - triangle[0]).normalized();
   const Eigen::Vector3d normal = side.cross(triangle[2] - triangle[0]).normalized();
   Eigen::Matrix3d axes;
@@ -31,8 +31,9 @@ Eigen::Matrix3d axesOf(std::span<const Eigen::Vector3d> triangle) {
 /// The rotation of two triangles, `cross` as below: it brings plane onto plane, and within the plane a polar
 /// factor of two by two numbers has its angle in closed form. Empty where a triangle is nearly a line, or
 /// turned over in the plane.
-std::optional<Eigen::Matrix3d> rotationOfTriangles(std::span<const Eigen::Vector3d> source,
-                                                   std::span<const Eigen::Vector3d> to, const Eigen::Matrix3d& cross) {
+std::optional<Eigen::Matrix3d> rotationOfTriangles(const std::vector<Eigen::Vector3d>& source,
+                                                   const std::vector<Eigen::Vector3d>& to,
+                                                   const Eigen::Matrix3d& cross) {
   const Eigen::Matrix3d from_axes = axesOf(source), to_axes = axesOf(to);
   const Eigen::Matrix2d plane = (to_axes.transpose() * cross * from_axes).topLeftCorner<2, 2>();
   constexpr double kSlender = 1e-6;  // of the two sizes of the cross products
@@ -53,7 +54,7 @@ std::optional<Eigen::Matrix3d> rotationOf(const Eigen::Matrix3d& cross) {
 
 }  // namespace
 
-bool nearlyOnOneLine(std::span<const Eigen::Vector3d> points) {
+bool nearlyOnOneLine(const std::vector<Eigen::Vector3d>& points) {
   constexpr double kSlender = 1e-4;  // of squares
   if (points.size() < 3) return true;
   const Eigen::Vector3d middle = mean(points);
@@ -71,7 +72,7 @@ bool nearlyOnOneLine(std::span<const Eigen::Vector3d> points) {
   return !(sizes[1] > kSlender * sizes[2]);
 }
 
-RigidRegistration registerRigid(std::span<const Eigen::Vector3d> source, std::span<const Eigen::Vector3d> to) {
+RigidRegistration registerRigid(const std::vector<Eigen::Vector3d>& source, const std::vector<Eigen::Vector3d>& to) {
   RigidRegistration result;
   if (source.size() < 3 || source.size() != to.size()) {
     result.reason = Remark(RemarkId::too_few_common_points);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <span>
 #include <vector>
 
 #include "metrology/remark.h"
@@ -17,11 +16,11 @@ struct RigidRegistration {
 
 /// The proper rigid motion (never a reflection) that brings `source` onto `to` in least squares, point by
 /// point. Undetermined: fewer than three points, or points on one line.
-RigidRegistration registerRigid(std::span<const Eigen::Vector3d> source, std::span<const Eigen::Vector3d> to);
+RigidRegistration registerRigid(const std::vector<Eigen::Vector3d>& source, const std::vector<Eigen::Vector3d>& to);
 
 /// Whether points leave the line through them by less than a hundredth of their length along it, fewer than three
 /// always: the turn about it is then worth nothing in readings, although a registration without noise would find it.
-bool nearlyOnOneLine(std::span<const Eigen::Vector3d> points);
+bool nearlyOnOneLine(const std::vector<Eigen::Vector3d>& points);
 
 struct WeightedRegistration : RigidRegistration {
   /// Covariance of a small motion after the found one, in the `to` frame: rotation vector (rad) about the mean of `to`,

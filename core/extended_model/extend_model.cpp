@@ -240,7 +240,11 @@ ExtendedModel supportedModel(const preparation::PreparedCampaign& prepared, cons
     chosen = overWholeDay(std::move(chosen), prepared);
   }
   ExtendedModel model = extendModel(campaign, std::move(chosen), options);
-  if (contradicted(model.without)) {
+  // Springs alone as every command of a long day has them, whatever else it asks for.
+  std::optional<identification::Identification> of_spread;
+  if (thinned && !options.estimates_only) of_spread = springsBeside(campaign, identification::estimatesOnly(options));
+  const identification::Identification& alone = of_spread ? *of_spread : model.without;
+  if (contradicted(alone)) {
     EffectFit none;
     none.notes.emplace_back(RemarkId::springs_contradicted);
     return extendModel(campaign, std::move(none), options);
@@ -250,8 +254,9 @@ ExtendedModel supportedModel(const preparation::PreparedCampaign& prepared, cons
     Declared declared = declaredOf(model.campaign, model.with, options);
     if (!options.estimates_only) course = courseOfDay(model.campaign, model.with);
     addCourse(course, model.with, declared);
-    model.hidden = weighHiddenEffects(study, model.effects, thinned ? seen : model.campaign,
-                                      thinned ? seen_by_springs : model.with, model.without, declared, model.with);
+    model.hidden =
+        weighHiddenEffects(study, model.effects, thinned ? seen : model.campaign,
+                           thinned ? seen_by_springs : model.with, model.without, alone.frames, declared, model.with);
   };
   weigh();
   // A long day's `seen` has been corrected for the fitted sizes.

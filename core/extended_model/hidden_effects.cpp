@@ -403,8 +403,8 @@ void weighFrames(const Eigen::MatrixXd& of_seen, const frames::Frames* alone, fr
 
 HiddenEffects weighHiddenEffects(const diagnosis::GapStudy& study, const EffectFit& fitted,
                                  const campaign::Campaign& seen_campaign, const identification::Identification& seen,
-                                 const identification::Identification& without, const Declared& declared,
-                                 identification::Identification& with) {
+                                 const identification::Identification& without, const frames::Frames& frames_without,
+                                 const Declared& declared, identification::Identification& with) {
   HiddenEffects result;
   const diagnosis::GapFit& fit = study.fit;
   result.lack_of_fit = fit.left_before.perEquation();
@@ -439,7 +439,7 @@ HiddenEffects weighHiddenEffects(const diagnosis::GapStudy& study, const EffectF
       const std::vector<Eigen::Index> kept = possibleDraws(seen.of(which).estimate, moved);
       weighFrames(framesByEffects(study, hidden.columns, hidden.off(Eigen::all, kept), moved(Eigen::all, kept),
                                   seen_campaign, seen.frames, seen.of(which).estimate.compliance.cwiseMax(0.0)),
-                  result.unexplained ? &without.frames : nullptr, with.frames);
+                  result.unexplained ? &frames_without : nullptr, with.frames);
     }
     result.budget[at] = weigher.weigh(which, gain, without.of(which).estimate, in_model, with.methods[at].estimate,
                                       result.draws.methods[at]);

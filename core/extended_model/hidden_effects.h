@@ -141,14 +141,15 @@ struct HiddenEffects {
 /// Where the model explains too little, half of the draws are those of `without`, joint springs alone: neither is
 /// right.
 ///
-/// The frames of `with` get what the same draws do to them.
+/// The frames of `with` get what the same draws do to them, and where the model explains too little their distance to
+/// `frames_without`, those of springs alone.
 ///
 /// `seen`: cases and equations from which H is taken, of postures that the study has; `with` itself where it has all.
 /// `seen_campaign`: what `seen` was identified from.
 HiddenEffects weighHiddenEffects(const diagnosis::GapStudy& study, const EffectFit& fitted,
                                  const campaign::Campaign& seen_campaign, const identification::Identification& seen,
-                                 const identification::Identification& without, const Declared& declared,
-                                 identification::Identification& with);
+                                 const identification::Identification& without, const frames::Frames& frames_without,
+                                 const Declared& declared, identification::Identification& with);
 
 /// What `campaign` declares with a standard uncertainty, at the result `at` that was identified from it by `options`.
 /// Masses (the URDF's, all by one factor; the tool is weighed by itself) and the tracker's scale (distances from its

@@ -7,6 +7,7 @@
 
 #include "core/frames/coupled_axes.h"
 #include "core/frames/remarks.h"
+#include "core/numerics/parallel.h"
 #include "metrology/linear_algebra.h"
 #include "metrology/lines.h"
 #include "metrology/rigid_motion.h"
@@ -178,6 +179,40 @@ metrology::TrackerNoise trackerNoise(const campaign::Tracker& tracker) {
   return {tracker.range_fixed, tracker.range_per_m, tracker.angle_fixed, tracker.angle_per_m, tracker.station};
 }
 
+namespace {
+
+/// The axis where the arm stood when it was swept; says why where there is none.
+void measureAsSwept(const campaign::Campaign& campaign, int axis, const RigidPoints& points, MeasuredAxis& measured) {
+  if (!campaign.circle_sweeps) {
+    measured.reason = Remark(RemarkId::no_circle_sweeps);
+    return;
+  }
+  const Sweep sweep = collect(campaign, axis, points);
+  if (sweep.circles.empty()) {
+    measured.reason = Remark(RemarkId::not_swept);
+    return;
+  }
+  if (sweep.others_moved) {
+    measured.reason = Remark(RemarkId::other_joints_moved);
+    return;
+  }
+  measured.fit = metrology::fitAxis(sweep.circles);
+  measured.targets = sweep.targets;
+  if (!measured.fit.determined) {
+    measured.reason = measured.fit.reason;
+    return;
+  }
+  measured.swept_at = sweep.q;
+  measured.as_swept = measured.fit.axis;
+  measured.as_swept.covariance += byStations(campaign, sweep.stations, measured.as_swept);
+  const metrology::Line& line = measured.as_swept.line;
+  if (scatterTurnedBack(sweep, line, -1.0) < scatterTurnedBack(sweep, line, 1.0)) {
+    measured.as_swept = measured.as_swept.reversed();
+  }
+}
+
+}  // namespace
+
 MeasuredAxes measureAxes(const campaign::Campaign& campaign, const RigidPoints& points) {
   const int joints = campaign.robot.joints();
   MeasuredAxes axes(static_cast<std::size_t>(campaign.robot.axes()), MeasuredAxis(joints));
@@ -185,35 +220,13 @@ MeasuredAxes measureAxes(const campaign::Campaign& campaign, const RigidPoints& 
     measureCoupled(campaign, points, axes);
     return axes;
   }
-  for (int axis = 0; axis < joints; ++axis) {
+  numerics::onAllCores(
+      static_cast<std::size_t>(joints),
+      [&](std::size_t axis) { measureAsSwept(campaign, static_cast<int>(axis), points, axes[axis]); },
+      campaign.circle_sweeps.has_value());
+  for (int axis = 0; axis < joints; ++axis) {  // each about those before it
     MeasuredAxis& measured = axes[static_cast<std::size_t>(axis)];
-    if (!campaign.circle_sweeps) {
-      measured.reason = Remark(RemarkId::no_circle_sweeps);
-      continue;
-    }
-    const Sweep sweep = collect(campaign, axis, points);
-    if (sweep.circles.empty()) {
-      measured.reason = Remark(RemarkId::not_swept);
-      continue;
-    }
-    if (sweep.others_moved) {
-      measured.reason = Remark(RemarkId::other_joints_moved);
-      continue;
-    }
-    measured.fit = metrology::fitAxis(sweep.circles);
-    measured.targets = sweep.targets;
-    if (!measured.fit.determined) {
-      measured.reason = measured.fit.reason;
-      continue;
-    }
-    measured.swept_at = sweep.q;
-    measured.as_swept = measured.fit.axis;
-    measured.as_swept.covariance += byStations(campaign, sweep.stations, measured.as_swept);
-    const metrology::Line& line = measured.as_swept.line;
-    if (scatterTurnedBack(sweep, line, -1.0) < scatterTurnedBack(sweep, line, 1.0)) {
-      measured.as_swept = measured.as_swept.reversed();
-    }
-    measured.measured = turnBackToZero(axes, axis, measured);
+    if (measured.fit.determined) measured.measured = turnBackToZero(axes, axis, measured);
   }
   const AxesCovariance covariance = axesCovariance(axes);
   for (std::size_t axis = 0; axis < axes.size(); ++axis) {

@@ -3,9 +3,11 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "core/frames/joint_axes.h"
 #include "core/frames/remarks.h"
+#include "core/numerics/parallel.h"
 #include "core/robot/kinematics.h"
 #include "metrology/lines.h"
 
@@ -71,9 +73,28 @@ bool armStoodStill(const campaign::WristSweep& sweep) {
   return true;
 }
 
-void fillTable(const SweepOfTargets& sweep, WristCentre& wrist) {
+/// The spheres about one centre, and each about its own.
+struct SphereFits {
+  metrology::SphereFit together;
+  std::vector<metrology::SphereFit> alone;
+};
+
+SphereFits fitsOf(const SweepOfTargets& sweep) {
+  SphereFits fits;
+  fits.alone.resize(sweep.spheres.size());
+  numerics::onAllCores(sweep.spheres.size() + 1, [&](std::size_t i) {
+    if (i == 0) {
+      fits.together = metrology::fitSpheres(sweep.spheres);
+    } else {
+      fits.alone[i - 1] = metrology::fitSpheres({sweep.spheres[i - 1]});
+    }
+  });
+  return fits;
+}
+
+void fillTable(const SweepOfTargets& sweep, const std::vector<metrology::SphereFit>& fits, WristCentre& wrist) {
   for (std::size_t k = 0; k < sweep.spheres.size(); ++k) {
-    const metrology::SphereFit own = metrology::fitSpheres({sweep.spheres[k]});
+    const metrology::SphereFit& own = fits[k];
     if (!own.determined) continue;
     wrist.table.push_back({sweep.targets[k], own.centre, own.covariance.topLeftCorner<3, 3>(), own.radii[0], 0.0,
                            own.rms, static_cast<int>(sweep.spheres[k].points.size())});
@@ -139,7 +160,8 @@ WristCentre measureWristCentre(const campaign::Campaign& campaign, const ArmInR0
     wrist.reason = Remark(RemarkId::wrist_reflectors_under_four);
     return wrist;
   }
-  wrist.spheres = metrology::fitSpheres(sweep.spheres);
+  SphereFits fits = fitsOf(sweep);
+  wrist.spheres = std::move(fits.together);
   if (!wrist.spheres.determined) {
     wrist.reason = wrist.spheres.reason;
     return wrist;
@@ -153,7 +175,7 @@ WristCentre measureWristCentre(const campaign::Campaign& campaign, const ArmInR0
   for (std::size_t k = 0; k < sweep.targets.size(); ++k) {
     wrist.radii[static_cast<std::size_t>(sweep.targets[k])] = wrist.spheres.radii[k];
   }
-  fillTable(sweep, wrist);
+  fillTable(sweep, fits.alone, wrist);
   wrist.measured = true;
   return wrist;
 }

@@ -195,8 +195,7 @@ std::optional<WristMove> wristMove(const LoadCase& load_case, const std::vector<
   if (!three) return std::nullopt;
   const auto& [a, b, c] = *three;
   // Of reflectors on one line the readings' noise would place the centre on a circle about it.
-  if (metrology::nearlyOnOneLine(std::array<Eigen::Vector3d, 3>{a->unloaded, b->unloaded, c->unloaded}))
-    return std::nullopt;
+  if (metrology::nearlyOnOneLine({a->unloaded, b->unloaded, c->unloaded})) return std::nullopt;
   const std::array<double, 3> known{radii[static_cast<std::size_t>(a->target)],
                                     radii[static_cast<std::size_t>(b->target)],
                                     radii[static_cast<std::size_t>(c->target)]};

@@ -236,7 +236,9 @@ std::vector<TargetMove> measuredMoves(const LoadReadings& readings, std::size_t 
 /// measured.
 std::optional<Eigen::Isometry3d> measuredFlange(const frames::LoadingGeometry& geometry,
                                                 const std::vector<TargetMove>& moves, bool loaded) {
-  boost::container::small_vector<Eigen::Vector3d, kFewReflectors> at_zero, measured;
+  std::vector<Eigen::Vector3d> at_zero, measured;
+  at_zero.reserve(moves.size());
+  measured.reserve(moves.size());
   for (const TargetMove& move : moves) {
     const auto& target = geometry.targets_at_zero[static_cast<std::size_t>(move.target)];
     if (!target) continue;
@@ -244,9 +246,8 @@ std::optional<Eigen::Isometry3d> measuredFlange(const frames::LoadingGeometry& g
     measured.push_back(loaded ? move.loaded : move.unloaded);
   }
   // About the line of three that nearly stand on one it would be noise that turns the flange.
-  if (metrology::nearlyOnOneLine({at_zero.data(), at_zero.size()})) return std::nullopt;
-  const metrology::RigidRegistration registration =
-      metrology::registerRigid({at_zero.data(), at_zero.size()}, {measured.data(), measured.size()});
+  if (metrology::nearlyOnOneLine(at_zero)) return std::nullopt;
+  const metrology::RigidRegistration registration = metrology::registerRigid(at_zero, measured);
   if (!registration.determined) return std::nullopt;
   return registration.to_from_source * geometry.arm.base_from_flange_at_zero;
 }

@@ -8,12 +8,12 @@ namespace stiffscope {
 namespace declared_test {
 
 /// A day on which only displacements were recorded, of an arm without masses.
-campaign::Campaign displacementDay() {
+campaign::Campaign displacementDay(int postures = 20) {
   SimulatedLab lab;
   lab.withoutMasses();
   lab.compliance = exampleCompliance();
   campaign::Campaign campaign = lab.empty();
-  lab.addLoading(campaign, 20, pulledForce);
+  lab.addLoading(campaign, postures, pulledForce);
   campaign.displacements = campaign::Displacements{"displacements.csv", campaign::PointFrame::tracker, {}};
   for (std::size_t k = 0; k < campaign.targets.size(); ++k)
     campaign.targets[k].position_in_flange = lab.targets_in_flange[k];
@@ -51,6 +51,22 @@ TEST(Declared, ATrackersScaleIsThatOfTheCompliances) {
   EXPECT_EQ(declared.columns[0].source, extended_model::BudgetSource::tracker_scale);
   const auto method = identification::Method::partial_pose;
   ASSERT_TRUE(at.of(method).available);
+  for (int j = 0; j < 6; ++j) {
+    const double c = at.of(method).estimate.compliance[j];
+    EXPECT_NEAR(declared.columns[0].compliance[static_cast<std::size_t>(method)][j], 1e-3 * c, 2e-5 * c) << j;
+  }
+}
+
+// By the same hand, of a day of which a thousand postures take part; nothing where estimates alone are asked for.
+TEST(Declared, OfALongDayAThousandPosturesTellIt) {
+  campaign::Campaign campaign = displacementDay(1010);
+  campaign.tracker->scale_sigma = 1e-3;
+  const identification::IdentifyOptions quick = identification::estimatesOnly({});
+  const identification::Identification at = identification::identify(campaign, quick);
+  EXPECT_TRUE(extended_model::declaredOf(campaign, at, quick).columns.empty());
+  const extended_model::Declared declared = extended_model::declaredOf(campaign, at, {});
+  ASSERT_EQ(declared.columns.size(), 1u);
+  const auto method = identification::Method::partial_pose;
   for (int j = 0; j < 6; ++j) {
     const double c = at.of(method).estimate.compliance[j];
     EXPECT_NEAR(declared.columns[0].compliance[static_cast<std::size_t>(method)][j], 1e-3 * c, 2e-5 * c) << j;

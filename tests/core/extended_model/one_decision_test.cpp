@@ -10,6 +10,7 @@
 
 #include "core/campaign/read_campaign.h"
 #include "core/diagnosis/diagnose.h"
+#include "core/diagnosis/gap_study.h"
 #include "core/extended_model/extend_model.h"
 #include "core/identification/estimate.h"
 #include "core/identification/outliers.h"
@@ -59,6 +60,28 @@ TEST(OneDecision, WhatNoEffectExplainsBothSay) {
   simulation::SimulationSpec spec = springsAlone(11);
   spec.machine.joints[2].rate_wave = simulation::JointWave{0.35, 3.0, 0.4};
   expectOneWord(spec, true);
+}
+
+// Frames alone are found by one method, and their distance to springs alone by the postures that the diagnosis has.
+TEST(OneDecision, FramesOfALongDayAreThoseThatStandBesideItsStiffnesses) {
+  simulation::SimulationSpec spec = springsAlone(12);
+  spec.machine.joints[2].rate_wave = simulation::JointWave{0.35, 3.0, 0.4};
+  spec.posture_draw->count = 110;
+  spec.posture_draw->candidates = 1;
+  const preparation::PreparedCampaign prepared = preparation::prepareCampaign(simulation::simulate(spec));
+  ASSERT_TRUE(diagnosis::isLong(prepared.campaign));
+  const extended_model::ExtendedModel whole =
+      extended_model::supportedModel(prepared, prepared.campaign, fewSubsets(2));
+  const extended_model::ExtendedModel quick =
+      extended_model::supportedModel(prepared, prepared.campaign, identification::estimatesOnly({}));
+  EXPECT_TRUE(whole.hidden->unexplained);
+  const frames::Frames &one = whole.with.frames, &other = quick.with.frames;
+  EXPECT_LT(frames::framesDifference(one, other).norm(), 1e-14);
+  EXPECT_GT(one.covariance.hidden.norm(), 0.0);
+  EXPECT_EQ(one.covariance.hidden, other.covariance.hidden);
+  EXPECT_EQ(one.covariance.sag, other.covariance.sag);
+  EXPECT_FALSE(quick.with.of(identification::Method::complete_pose).available);
+  EXPECT_TRUE(quick.with.of(identification::Method::decoupled_partial_pose).available);
 }
 
 /// Each posture's displacements off by a factor of its own, which no effect does.

@@ -4,6 +4,7 @@
 
 #include "core/identification/identify.h"
 #include "core/identification/load_case.h"
+#include "core/preparation/subsample.h"
 #include "tests/fixtures/example_arm.h"
 #include "tests/fixtures/linear_machine.h"
 
@@ -126,6 +127,29 @@ TEST(HeldOutLoads, ALevelIsPredictedByTheStepsThatIdentify) {
       EXPECT_NEAR(levels[0].mean_force, 100.0, 0.1);
       EXPECT_NEAR(*levels[0].at_targets, light == &lab ? 1.0 : 0.8, 2e-3) << static_cast<int>(method);
       EXPECT_NEAR(*levels[0].at_wrist, light == &lab ? 1.0 : 0.8, 2e-3) << static_cast<int>(method);
+    }
+  }
+}
+
+// Of a long day so many postures, spread evenly over it, also where some disagree with the rest and are left out.
+TEST(HeldOutLoads, OfALongDayAThousandPosturesArePredicted) {
+  const SimulatedLab lab = springyLab();
+  const auto pull = [](int pose) -> Eigen::Vector3d {
+    return pose % 2 == 0 ? Eigen::Vector3d(0.0, 0.0, -900.0) : Eigen::Vector3d(0.0, 900.0, 180.0);
+  };
+  constexpr int kPostures = 1020;
+  const campaign::Campaign campaign = fullDay(lab, pull, kPostures);
+  identification::Identification found = identification::identify(campaign, identification::estimatesOnly({}));
+  for (const bool robust : {false, true}) {
+    found.robust = robust;
+    if (robust) found.outlying.emplace_back().posture = 7;
+    const identification::HeldOutLoads loads = identification::heldOutLoads(campaign, campaign, quick(), found);
+    int states = 0;
+    for (const int one : loads.states) states += one;
+    EXPECT_EQ(states, static_cast<int>(preparation::kMostAveraged));
+    for (const HeldOutLoad& one : loads.directions[static_cast<std::size_t>(Method::partial_pose)]) {
+      ASSERT_TRUE(one.at_targets);
+      if (one.direction == LoadDirection::down) EXPECT_GT(*one.at_targets, 0.999);
     }
   }
 }
