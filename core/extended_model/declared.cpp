@@ -44,7 +44,7 @@ Declared declaredOf(const campaign::Campaign& campaign, const identification::Id
   std::optional<campaign::Campaign> some;
   identification::Identification by_some;
   if (campaign.pose_ids.size() > preparation::kMostAveraged) {
-    some = preparation::evenlySpread(campaign, preparation::kMostAveraged);
+    some = preparation::evenlySpread(campaign, preparation::kMostAveraged, preparation::kMostSwept, of_all.steps);
     by_some = identification::identify(*some, identification::estimatesOnly(options));
   }
   const identification::Identification& at = some ? by_some : of_all;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "core/identification/identifiability.h"
@@ -13,6 +14,7 @@
 #include "core/identification/outliers.h"
 #include "core/identification/subsets.h"
 #include "core/preparation/subsample.h"
+#include "core/robot/kinematics.h"
 
 namespace stiffscope::identification {
 
@@ -171,6 +173,32 @@ class MethodLoads {
   Displaced displaced_;
 };
 
+/// Of a long day, as many of each load step as a mean takes, and enough, by where the model's flange stands, of each
+/// direction.
+std::vector<std::size_t> posturesPredicted(const campaign::Campaign& campaign, const Identification& result) {
+  std::set<std::size_t> postures;
+  for (const int step : loadedSteps(campaign)) {
+    for (const std::size_t one : preparation::spreadPostures(campaign, preparation::kMostAveraged, {step}))
+      postures.insert(one);
+  }
+  const frames::LoadingGeometry& geometry = result.of(bestMethod(result)).geometry;
+  std::array<std::vector<std::size_t>, kLoadDirections> by_direction;
+  for (const campaign::State& state : campaign.states->rows) {
+    if (std::find(result.steps.begin(), result.steps.end(), state.step) == result.steps.end()) continue;
+    const robot::Wrench wrench = cellWrench(*campaign.load_cell, geometry, robot::postureAt(geometry.arm, state.q),
+                                            std::nullopt, std::nullopt, state.wrench_in_cell);
+    const LoadDirection direction = directionOf(wrench.force, wrench.point, geometry.weight.gravity_in_base);
+    by_direction[static_cast<std::size_t>(direction)].push_back(static_cast<std::size_t>(state.pose));
+  }
+  for (const std::vector<std::size_t>& own : by_direction) {
+    constexpr std::size_t kEnough = preparation::kMostAveraged / kLoadDirections;
+    const auto has = std::count_if(own.begin(), own.end(), [&](std::size_t one) { return postures.contains(one); });
+    if (static_cast<std::size_t>(has) >= kEnough) continue;
+    for (const std::size_t k : preparation::evenlySpreadIndices(own.size(), kEnough)) postures.insert(own[k]);
+  }
+  return {postures.begin(), postures.end()};
+}
+
 }  // namespace
 
 HeldOutLoads heldOutLoads(const campaign::Campaign& campaign, const campaign::Campaign& as_read,
@@ -181,7 +209,7 @@ HeldOutLoads heldOutLoads(const campaign::Campaign& campaign, const campaign::Ca
   const campaign::Campaign* used = rest ? &*rest : &campaign;
   const campaign::Campaign* read = &campaign == &as_read ? used : &as_read;
   if (used->pose_ids.size() > preparation::kMostAveraged) {
-    const std::vector<std::size_t> postures = preparation::spreadPostures(*used, preparation::kMostAveraged);
+    const std::vector<std::size_t> postures = posturesPredicted(*used, result);
     if (read != used) read = &some_as_read.emplace(preparation::ofPostures(*read, postures));
     some = preparation::ofPostures(*used, postures);
     if (read == used) read = &*some;

@@ -33,8 +33,8 @@ struct HeldOutLoad {
 /// entry. Directions: of the steps of `result`, each direction with three states or more by the other directions; none
 /// where all loads pull alike.
 ///
-/// Of a day of more than preparation::kMostAveraged postures, so many spread evenly over it: their mean is within a few
-/// thousandths of that of all.
+/// Of a day of more than preparation::kMostAveraged postures, so many of each load step, spread evenly, and a fifth of
+/// that of each direction at least, or all there are: a mean over them is within a few thousandths of that of all.
 struct HeldOutLoads {
   std::array<std::vector<HeldOutLoad>, 3> levels, directions;  ///< by Method
   std::array<int, kLoadDirections> states{};                   ///< of the steps of `result`, by direction

@@ -241,7 +241,7 @@ void addSharedUncertainty(const MethodRuns& runs, Identification& result) {
   }
   std::optional<campaign::Campaign> some;
   if (runs.campaign.pose_ids.size() > preparation::kMostAveraged)
-    some = preparation::evenlySpread(runs.campaign, preparation::kMostAveraged);
+    some = preparation::evenlySpread(runs.campaign, preparation::kMostAveraged, preparation::kMostSwept, result.steps);
   const campaign::Campaign& judged = some ? *some : runs.campaign;
   const std::vector<SweptParts> parts = sweptParts(judged, result.frames, runs.swept.geometry, result.steps, solves);
   for (std::size_t k = 0; k < swept.size(); ++k) {

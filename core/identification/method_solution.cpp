@@ -53,7 +53,7 @@ SolvedFrames solveFrames(const campaign::Campaign& campaign, const std::vector<i
   std::optional<campaign::Campaign> some;  // a long day's, for rounds that only bring the last one near
   std::optional<LoadReadings> of_some;
   if (campaign.pose_ids.size() > preparation::kMostAveraged) {
-    some = preparation::evenlySpread(campaign, preparation::kMostAveraged);
+    some = preparation::evenlySpread(campaign, preparation::kMostAveraged, preparation::kMostSwept, steps);
     of_some.emplace(*some, steps);
   }
   for (int round = 0; round < kSagRounds && settled.frames.weight.links_known; ++round) {

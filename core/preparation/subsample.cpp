@@ -57,17 +57,20 @@ std::vector<std::size_t> evenlySpreadIndices(std::size_t count, std::size_t most
 
 namespace {
 
-/// By posture, whether an unloaded state and one under load were read.
-std::vector<bool> loadedPostures(const campaign::Campaign& campaign) {
+/// By posture, whether an unloaded state and one under load were read; of any load, or of these steps.
+std::vector<bool> loadedPostures(const campaign::Campaign& campaign, const std::vector<int>& steps) {
   const std::size_t postures = campaign.pose_ids.size();
   std::vector<bool> at_rest(postures, false), loaded(postures, false);
   if (!campaign.states) return loaded;
   double largest = 0.0;
   for (const campaign::State& row : campaign.states->rows)
     largest = std::max(largest, row.wrench_in_cell.head<3>().norm());
+  const auto counts = [&](int step) {
+    return step != 0 && (steps.empty() || std::find(steps.begin(), steps.end(), step) != steps.end());
+  };
   std::vector<std::pair<int, int>> under_load;
   for (const campaign::State& row : campaign.states->rows) {
-    if (row.step != 0 && row.wrench_in_cell.head<3>().norm() > campaign::kReturnShare * largest)
+    if (counts(row.step) && row.wrench_in_cell.head<3>().norm() > campaign::kReturnShare * largest)
       under_load.emplace_back(row.pose, row.step);
   }
   std::sort(under_load.begin(), under_load.end());
@@ -89,8 +92,9 @@ std::vector<bool> loadedPostures(const campaign::Campaign& campaign) {
 
 }  // namespace
 
-std::vector<std::size_t> spreadPostures(const campaign::Campaign& campaign, std::size_t most) {
-  const std::vector<bool> is_loaded = loadedPostures(campaign);
+std::vector<std::size_t> spreadPostures(const campaign::Campaign& campaign, std::size_t most,
+                                        const std::vector<int>& steps) {
+  const std::vector<bool> is_loaded = loadedPostures(campaign, steps);
   std::vector<std::size_t> loaded, others;
   for (std::size_t p = 0; p < is_loaded.size(); ++p) (is_loaded[p] ? loaded : others).push_back(p);
   std::vector<std::size_t> spread;
@@ -147,8 +151,9 @@ campaign::Campaign ofPostures(const campaign::Campaign& campaign, const std::vec
           inputs};
 }
 
-campaign::Campaign evenlySpread(const campaign::Campaign& campaign, std::size_t most, std::size_t most_swept) {
-  return ofPostures(campaign, spreadPostures(campaign, most), most_swept);
+campaign::Campaign evenlySpread(const campaign::Campaign& campaign, std::size_t most, std::size_t most_swept,
+                                const std::vector<int>& steps) {
+  return ofPostures(campaign, spreadPostures(campaign, most, steps), most_swept);
 }
 
 std::size_t firstReflectors(const campaign::Campaign& campaign, std::size_t most) {

@@ -22,8 +22,9 @@ std::vector<std::size_t> evenlySpreadIndices(std::size_t count, std::size_t most
 
 /// Of the campaign's postures at most `most`, ascending: those with readings unloaded and under load first, spread
 /// evenly over them, since the others show no deflection; where there are fewer than `most` of these, others spread
-/// evenly besides.
-std::vector<std::size_t> spreadPostures(const campaign::Campaign& campaign, std::size_t most);
+/// evenly besides. `steps`: under one of these loads; of none given, under any.
+std::vector<std::size_t> spreadPostures(const campaign::Campaign& campaign, std::size_t most,
+                                        const std::vector<int>& steps = {});
 
 /// The campaign of these postures alone, ascending, numbered anew in their order, and of each sweep `most_swept`
 /// readings, as many of each axis and reflector, spread evenly. The other readings are never copied.
@@ -32,7 +33,7 @@ campaign::Campaign ofPostures(const campaign::Campaign& campaign, const std::vec
 
 /// That of `spreadPostures`.
 campaign::Campaign evenlySpread(const campaign::Campaign& campaign, std::size_t most,
-                                std::size_t most_swept = kMostSwept);
+                                std::size_t most_swept = kMostSwept, const std::vector<int>& steps = {});
 
 /// How many of the campaign's reflectors, from the first in its list, take part where there are more than `most`: until
 /// so many were read in the loading, unloaded or under load. All of them where there are not.

@@ -53,6 +53,23 @@ TEST(EvenlySpread, AllWhereTheyAreFewElseAsManyAsMayBeFromEndToEnd) {
   EXPECT_GE(spread.back(), 999'000u);
 }
 
+// A load that few postures have is among those that are taken for it.
+TEST(EvenlySpread, PosturesOfTheStepsThatAreAskedForComeFirst) {
+  campaign::Campaign day = repeated(3);
+  const int rare = 99;
+  for (const int pose : {7, 30, 44}) {
+    for (campaign::State& row : day.states->rows)
+      if (row.pose == pose && row.step == 3) row.step = rare;
+    for (campaign::LoadingReading& row : day.loading->rows)
+      if (row.pose == pose && row.step == 3) row.step = rare;
+  }
+  const std::vector<std::size_t> some = preparation::spreadPostures(day, 5, {rare});
+  ASSERT_EQ(some.size(), 5u);
+  for (const std::size_t pose : {7, 30, 44}) EXPECT_TRUE(std::find(some.begin(), some.end(), pose) != some.end());
+  const std::vector<std::size_t> others = preparation::spreadPostures(day, 5, {3});
+  for (const std::size_t pose : {7, 30, 44}) EXPECT_TRUE(std::find(others.begin(), others.end(), pose) == others.end());
+}
+
 TEST(EvenlySpread, KeepsTheRowsOfItsPosturesAndAllElse) {
   const campaign::Campaign all = sampleDay(), some = preparation::evenlySpread(all, 5);
   ASSERT_EQ(some.pose_ids.size(), 5u);
