@@ -30,13 +30,20 @@ void holdStandardStreams() {
   }
 }
 
+/// Whether a limit of this process is so much, or there is none.
+template <class Resource>
+bool mayUse(Resource resource, ::rlim_t least) {
+  ::rlimit limit{};
+  return ::getrlimit(resource, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY || limit.rlim_cur >= least;
+}
+
 /// Runs `work` with a stack of 8 MiB, which the decompositions of small matrices need some of; a shell may allow less
-/// (ulimit -s). All threads that `work` starts have as much.
+/// (ulimit -s). Where addresses are limited (ulimit -v), too: a thread has its stack from the beginning, while the
+/// first one's grows, and where that fails a signal ends the program without a word. All threads that `work` starts
+/// have as much.
 int onWideStack(const std::function<int()>& work) {
   constexpr std::size_t kWide = std::size_t{8} << 20;
-  ::rlimit limit{};
-  if (::getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY || limit.rlim_cur >= kWide)
-    return work();
+  if (mayUse(RLIMIT_STACK, kWide) && mayUse(RLIMIT_AS, RLIM_INFINITY)) return work();
   struct Task {
     const std::function<int()>& work;
     int status = 2;
@@ -65,9 +72,8 @@ int onWideStack(const std::function<int()>& work) {
 /// started again, or somebody has tuned the library, it goes on as it is.
 void restartWithLargePages(char** words) {
   constexpr const char* kTunables = "GLIBC_TUNABLES";
-  ::rlimit limit{};
   if (::getauxval(AT_SECURE) != 0) return;  // the loader takes the variable away: this would begin again for ever
-  if (std::getenv(kTunables) != nullptr || ::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur != RLIM_INFINITY)
+  if (std::getenv(kTunables) != nullptr || !mayUse(RLIMIT_AS, RLIM_INFINITY))
     return;  // large pages take more addresses, which are scarce where they are limited
   std::error_code unknown;
   const std::filesystem::path own = std::filesystem::read_symlink("/proc/self/exe", unknown);
