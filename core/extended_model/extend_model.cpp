@@ -73,8 +73,8 @@ ExtendedModel extendModel(const campaign::Campaign& campaign, EffectFit effects,
                           const identification::IdentifyOptions& options) {
   ExtendedModel model;
   model.effects = std::move(effects);
-  // Effects of size zero change nothing and have no covariance to propagate.
   const bool for_frames = options.estimates_only && diagnosis::isLong(campaign);
+  // Effects of size zero change nothing and have no covariance to propagate.
   if (model.effects.free.empty()) {
     identification::IdentifyOptions own = options;
     own.for_frames = for_frames;

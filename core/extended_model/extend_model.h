@@ -15,8 +15,9 @@ namespace stiffscope::extended_model {
 
 /// `campaign`: as identification sees it. No effect added, or all of size zero: `with` is `without`.
 /// Where estimates alone are asked for (IdentifyOptions::estimates_only) `without` of a long day is of the postures
-/// that the diagnosis looks at: it is shown nowhere then, and tells only whether springs alone contradict themselves
-/// and how far the frames move with the effects.
+/// that the diagnosis looks at, and `with` has the one method that frames need (IdentifyOptions::for_frames): neither
+/// is shown then, and `without` tells only whether springs alone contradict themselves and how far the frames move with
+/// the effects.
 ExtendedModel extendModel(const campaign::Campaign& campaign, EffectFit effects,
                           const identification::IdentifyOptions& options);
 

@@ -204,6 +204,7 @@ std::vector<std::size_t> posturesPredicted(const campaign::Campaign& campaign, c
 HeldOutLoads heldOutLoads(const campaign::Campaign& campaign, const campaign::Campaign& as_read,
                           const IdentifyOptions& options, const Identification& result) {
   HeldOutLoads all;
+  if (!result.of(bestMethod(result)).available) return all;
   std::optional<campaign::Campaign> rest, some, some_as_read;
   if (result.robust) rest = withoutPostures(campaign, result.outlying);
   const campaign::Campaign* used = rest ? &*rest : &campaign;

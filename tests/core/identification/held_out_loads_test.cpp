@@ -160,5 +160,20 @@ TEST(HeldOutLoads, OfALongDayAThousandPosturesOfEachKindArePredicted) {
   }
 }
 
+TEST(HeldOutLoads, OfALongDayWithoutAMethodThereAreNone) {
+  const campaign::Campaign campaign = fullDay(
+      springyLab(),
+      [](int) -> Eigen::Vector3d {
+        return {0.0, 0.0, -900.0};
+      },
+      1020);
+  const identification::HeldOutLoads loads =
+      identification::heldOutLoads(campaign, campaign, quick(), identification::Identification(6));
+  for (const Method method : identification::kMethods) {
+    EXPECT_TRUE(loads.levels[static_cast<std::size_t>(method)].empty());
+    EXPECT_TRUE(loads.directions[static_cast<std::size_t>(method)].empty());
+  }
+}
+
 }  // namespace held_out_loads_test
 }  // namespace stiffscope
